@@ -20,7 +20,7 @@ class BuildByCMake(build_ext):
         tree = Path(os.environ.get("CLEARLOCI_BUILD") or self.build_temp).resolve()
         if "CLEARLOCI_BUILD" not in os.environ:
             options = {"BUILD_TYPE": "Release"}
-            own = {"PYTHON": "ON", "BUILD_TESTS": "OFF", "WORKBENCH": "OFF"}
+            own = {"PYTHON": "ON", "BUILD_TESTS": "OFF", "WORKBENCH": "OFF", "UNITY": "ON"}
             subprocess.check_call(
                 ["cmake", "-S", str(root), "-B", str(tree), "-G", "Ninja"]
                 + [f"-DCMAKE_{name}={value}" for name, value in options.items()]

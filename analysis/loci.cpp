@@ -274,8 +274,7 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
   core::LocusMap& map = traced.map;
   map.mechanism = mechanism.name;
   map.units = mechanism.units;
-  for (const mechanism::Parameter& parameter : mechanism.parameters)
-    map.parameters.emplace_back(parameter.name, mechanism::value_words(parameter, mechanism));
+  map.parameters = mechanism::told_parameters(mechanism);
   map.tolerance = request.tolerance;
   for (std::string& note : mechanism::notes_of(mechanism)) map.notes.push_back(std::move(note));
   if (closes_nowhere(map)) map.notes.emplace_back("no pose is reached: the mechanism does not close in the workspace");
@@ -326,6 +325,7 @@ core::LocusMap empty_map(const mechanism::Mechanism& mechanism) {
   core::LocusMap map;
   map.mechanism = mechanism.name;
   map.units = mechanism.units;
+  map.parameters = mechanism::told_parameters(mechanism);
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     map.tower.coordinates.push_back(coordinate.name);
     map.lower.push_back(coordinate.lower);

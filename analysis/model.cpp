@@ -63,6 +63,7 @@ const std::string& Model::name() const { return content_->mechanism.name; }
 const std::string& Model::file() const { return content_->shared->file(); }
 const std::string& Model::text() const { return content_->shared->text(); }
 const std::vector<Model::Value>& Model::values() const { return content_->values; }
+const Units& Model::units() const { return content_->mechanism.units; }
 bool Model::spatial() const { return content_->mechanism.space == mechanism::Space::spatial; }
 
 std::vector<Model::Parameter> Model::parameters() const {

@@ -13,10 +13,12 @@
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/fits.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
+#include "mechanism/written_unit.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/dynamics.hpp"
 #include "numeric/pose_error.hpp"
@@ -281,6 +283,18 @@ Reactions reactions_in_space(const mechanism::Mechanism& mechanism, std::span<co
   return all;
 }
 
+/// Coordinates outside the range that is searched, as of degrees that were meant and taken for rad.
+void note_outside(const mechanism::Mechanism& mechanism, Pose& pose) {
+  for (std::size_t c = 0; c < pose.at.size(); ++c) {
+    const mechanism::Coordinate& own = mechanism.coordinates[c];
+    const double lower = core::to_double(own.lower), upper = core::to_double(own.upper);
+    if (lower <= pose.at[c] && pose.at[c] <= upper) continue;
+    const auto told = [&](double value) { return core::told(value, own.angle ? "rad" : "m", mechanism.units); };
+    pose.notes.push_back(own.name + " = " + told(pose.at[c]) + " is outside its range, " + told(lower) + " to " +
+                         told(upper));
+  }
+}
+
 }  // namespace
 
 PoseError error_of(mechanism::Space space, const numeric::PoseError& error) {
@@ -326,12 +340,14 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
     for (std::size_t i = 0; i < inside.size(); ++i) inside[i] -= own->frame.from[i];
     Pose pose = from_frame(solve_pose(own->mechanism, inside, request), mechanism, own->frame);
     for (std::size_t i = 0; i < values.size(); ++i) pose.at[i] = values[i].value;
+    note_outside(mechanism, pose);
     return pose;
   }
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
   Pose pose;
   pose.mechanism = mechanism.name;
+  pose.parameters = mechanism::told_parameters(mechanism);
   pose.units = mechanism.units;
   pose.notes = mechanism::fit_notes(mechanism);
   for (std::string& note : mechanism::notes_of(mechanism)) pose.notes.push_back(std::move(note));
@@ -340,6 +356,7 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   for (const numeric::Bounded& value : values) pose.at.push_back(value.value);
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) pose.angles.push_back(coordinate.angle);
   pose.working_mode = named_mode(mechanism, sides);
+  if (!mechanism.frame) note_outside(mechanism, pose);  // else in the coordinates of the file, by the caller
   solve_at(numeric::compile(mechanism), values, sides, request, pose);
   return pose;
 }
@@ -377,7 +394,7 @@ PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std
                                 const PoseRequest& request) {
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
-  PoseInModes all{mechanism.name, {}};
+  PoseInModes all{mechanism.name, mechanism::told_parameters(mechanism), {}};
   PoseRequest own = request;
   for (const DyadSides& sides : requested_modes(mechanism, {.all_working_modes = true})) {
     own.working_mode = sides;

@@ -14,6 +14,7 @@
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
 #include "mechanism/handed_files.hpp"
+#include "mechanism/written_unit.hpp"
 #include "numeric/period_sweep.hpp"
 
 namespace clearloci {
@@ -225,6 +226,7 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
 
   TrajectoryResult result;
   result.mechanism = mechanism.name;
+  result.parameters = mechanism::told_parameters(mechanism);
   result.units = mechanism.units;
   result.notes = mechanism::fit_notes(mechanism);
   result.trajectory = trajectory.name;

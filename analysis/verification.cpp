@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/read_task.hpp"
+#include "mechanism/written_unit.hpp"
 
 namespace clearloci {
 namespace {
@@ -93,6 +94,7 @@ Verification verify(const Model& model, const Task& task, const VerifyRequest& r
   Verification result = is_asked_of_tower(mechanism, task, request.fit) ? verify_by_tower(mechanism, task, request)
                                                                         : verify_by_statics(mechanism, task, request);
   result.mechanism = mechanism.name;
+  result.parameters = mechanism::told_parameters(mechanism);
   result.units = mechanism.units;
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     result.coordinates.push_back(coordinate.name);

@@ -10,11 +10,11 @@
 #include "analysis/pose_demands.hpp"
 #include "analysis/singular_modes.hpp"
 #include "analysis/task_demands.hpp"
+#include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "loci/zones/zones.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
-#include "mechanism/written_unit.hpp"
 #include "numeric/error_samples.hpp"
 #include "numeric/reactions.hpp"
 #include "symbolic/pose_statics.hpp"
@@ -97,6 +97,8 @@ class Ends {
     };
     if (holds(Doubt::workspace)) {
       own.kind = core::LocusKind::workspace_boundary;
+      for (const std::vector<double>& beside_it : {before, behind})  // the one beyond the end breaks the limit
+        if (own.limit.empty()) own.limit = limit_at(model_.mechanism, model_, beside_it, sides_, 0);
       return own;
     }
     if (holds(Doubt::singularity)) {
@@ -276,8 +278,6 @@ Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& r
   Zones map;
   map.by_cells = true;
   map.loci = empty_map(mechanism);
-  for (const mechanism::Parameter& own : mechanism.parameters)
-    map.loci.parameters.emplace_back(own.name, mechanism::value_words(own, mechanism));
   map.loci.notes = mechanism::notes_of(mechanism);
   std::vector<numeric::NumericModel> models;
   models.push_back(numeric::compile(mechanism));

@@ -50,7 +50,9 @@ std::optional<int> whole_number(std::string_view text) {
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
   command.add_option("MODEL", arguments.model, "The mechanism file (YAML)")->required()->type_name("FILE");
-  command.add_option("--set", arguments.overrides, "Override a parameter of the file: name=value (repeatable)")
+  command
+      .add_option("--set", arguments.overrides,
+                  "Override a parameter of the file: name=value, in the unit of the file (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
   command

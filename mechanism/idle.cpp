@@ -25,6 +25,9 @@ bool holds(const std::vector<LinkIndex>& links, LinkIndex link) {
   return std::find(links.begin(), links.end(), link) != links.end();
 }
 
+/// A ball, also one that holds an idle freedom already.
+bool is_ball(const Joint& joint) { return joint.type == JointType::spherical || holds_idle_freedom(joint); }
+
 /// Groups of links that anything but a ball joins, without those on the ground.
 std::vector<std::vector<LinkIndex>> groups_between_balls(const Mechanism& m) {
   const std::size_t ground_place = m.links.size();
@@ -36,7 +39,7 @@ std::vector<std::vector<LinkIndex>> groups_between_balls(const Mechanism& m) {
   };
   const auto place = [&](LinkIndex link) { return link == ground ? ground_place : static_cast<std::size_t>(link); };
   for (const Joint& joint : m.joints)
-    if (joint.type != JointType::spherical) parent[root(place(joint.from))] = root(place(joint.to));
+    if (!is_ball(joint)) parent[root(place(joint.from))] = root(place(joint.to));
   std::vector<std::vector<LinkIndex>> groups(m.links.size() + 1);
   for (std::size_t i = 0; i < m.links.size(); ++i)
     if (root(i) != root(ground_place)) groups[root(i)].push_back(static_cast<LinkIndex>(i));
@@ -51,7 +54,7 @@ std::vector<Hanging> hanging_on_two_balls(const Mechanism& m) {
     std::vector<std::size_t> balls;
     for (std::size_t j = 0; j < m.joints.size(); ++j) {
       const Joint& joint = m.joints[j];
-      if (joint.type == JointType::spherical && holds(group, joint.from) != holds(group, joint.to)) balls.push_back(j);
+      if (is_ball(joint) && holds(group, joint.from) != holds(group, joint.to)) balls.push_back(j);
     }
     if (balls.size() == 2 && m.joints[balls[0]].at != m.joints[balls[1]].at)
       all.push_back({std::move(group), balls[0], balls[1]});
@@ -140,13 +143,13 @@ void hold_idle_freedoms(Mechanism& m) {
 
 std::vector<std::string> idle_notes(const Mechanism& m) {
   std::string lines, balls;
-  for (const Joint& joint : m.joints) {
-    if (!holds_idle_freedom(joint)) continue;
-    const VectorExpression& line = joint.axes.front();
-    const PointIndex b = line.arguments.at(0).point, a = line.arguments.at(1).arguments.at(0).point;
-    lines += (lines.empty() ? "" : ", ") + line_name(m, a, b);
-    balls += (balls.empty() ? "" : ", ") + joint.name;
-  }
+  // Not by the axis that was put in: in another frame it is written in coordinates.
+  for (const Hanging& own : hanging_on_two_balls(m))
+    for (const std::size_t ball : {own.first, own.second}) {
+      if (!holds_idle_freedom(m.joints[ball])) continue;
+      lines += (lines.empty() ? "" : ", ") + line_name(m, m.joints[own.first].at, m.joints[own.second].at);
+      balls += (balls.empty() ? "" : ", ") + m.joints[ball].name;
+    }
   std::vector<std::string> notes = notes_of_spring_ends(m);
   if (!lines.empty())
     notes.insert(notes.begin(), "what hangs on two balls may spin about the line through them (" + lines +

@@ -1,6 +1,8 @@
 // Numbers, parameters and the workspace.
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/interpret.hpp"
@@ -150,33 +152,6 @@ void check_known_overrides(const std::vector<Entry>& parameters, const std::vect
                    "write " + later + " above " + name);
 }
 
-Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
-  Coordinate coordinate;
-  coordinate.name = entry.key;
-  Value range = entry.value;
-  range.what = "coordinate " + entry.key;
-  if (range.is_map()) {
-    coordinate.angle = true;
-    range = Mapping(range, {"angle"}).at("angle");
-  }
-  range.what = "the range of coordinate " + entry.key;
-  const std::vector<Value> ends = elements(range, 2);
-  const Number lower = read_number(mechanism, ends[0], Sign::any);
-  const Number upper = read_number(mechanism, ends[1], Sign::any);
-  const std::string &first = text_of(ends[0]), &second = text_of(ends[1]);
-  if (lower.value == upper.value)
-    throw InputError(range.where, range.what + " is empty: both ends are " + first,
-                     "write two different ends: [lower, upper]");
-  if (lower.value > upper.value)
-    throw InputError(range.where, range.what + " is reversed: " + first + " is above " + second,
-                     "write [" + second + ", " + first + "]");
-  coordinate.lower_expression = lower.expression;
-  coordinate.upper_expression = upper.expression;
-  coordinate.lower = lower.value;
-  coordinate.upper = upper.value;
-  return coordinate;
-}
-
 Expression parse_written(const Mechanism& mechanism, const Value& value) {
   const std::vector<std::string> all = names_in(mechanism, Scope::parameters_and_coordinates);
   return parse_with_units(text_of(value), value.where, {all.begin(), all.end()});
@@ -220,6 +195,62 @@ std::string told(const Number& number, const Value& value, const Mechanism& mech
   if (!simple) words += si;
   if (words.back() == ' ') words.pop_back();
   return written + " = " + words;
+}
+
+bool names_a_turn(const Expression& e) {
+  const auto& parts = e.arguments();
+  return e.kind() == Expression::Kind::pi || std::any_of(parts.begin(), parts.end(), names_a_turn);
+}
+
+/// Degrees that were meant and not written: plain numbers are rad, and a range of more than two turns of those reaches
+/// every pose three times.
+void check_plain_turns(const Mechanism& mechanism, const Coordinate& coordinate, const Value& range,
+                       const std::vector<Value>& ends) {
+  constexpr double degrees = 180 / std::numbers::pi, most = 4 * std::numbers::pi;
+  const double extent = core::to_double(coordinate.upper) - core::to_double(coordinate.lower);
+  if (!coordinate.angle || mechanism.units.angle_declared || extent <= most) return;
+  for (const Value& end : ends) {
+    const InSi own = read_in_si(mechanism, end, Scope::parameters);
+    if (own.has_unit || own.dimension != Dimension{} || names_a_turn(own.expression)) return;
+  }
+  const auto words = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return std::string(text);
+  };
+  throw InputError(
+      range.where,
+      range.what + " is " + words(extent) + " rad, " + words(extent * degrees / 360) +
+          " turns: plain numbers of an angle are rad",
+      "write [" + text_of(ends[0]) + " deg, " + text_of(ends[1]) + " deg], or units: {angle: deg} for the whole file");
+}
+
+Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
+  Coordinate coordinate;
+  coordinate.name = entry.key;
+  Value range = entry.value;
+  range.what = "coordinate " + entry.key;
+  if (range.is_map()) {
+    coordinate.angle = true;
+    range = Mapping(range, {"angle"}).at("angle");
+  }
+  range.what = "the range of coordinate " + entry.key;
+  const std::vector<Value> ends = elements(range, 2);
+  const Number lower = read_number(mechanism, ends[0], Sign::any);
+  const Number upper = read_number(mechanism, ends[1], Sign::any);
+  const std::string &first = text_of(ends[0]), &second = text_of(ends[1]);
+  if (lower.value == upper.value)
+    throw InputError(range.where, range.what + " is empty: both ends are " + first,
+                     "write two different ends: [lower, upper]");
+  if (lower.value > upper.value)
+    throw InputError(range.where, range.what + " is reversed: " + first + " is above " + second,
+                     "write [" + second + ", " + first + "]");
+  coordinate.lower_expression = lower.expression;
+  coordinate.upper_expression = upper.expression;
+  coordinate.lower = lower.value;
+  coordinate.upper = upper.value;
+  check_plain_turns(mechanism, coordinate, range, ends);
+  return coordinate;
 }
 
 }  // namespace

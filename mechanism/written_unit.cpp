@@ -112,4 +112,11 @@ std::string value_words(const Parameter& parameter, const Mechanism& mechanism) 
   return unit ? "(" + words + ") " + words_of(*unit) : words;
 }
 
+std::vector<std::pair<std::string, std::string>> told_parameters(const Mechanism& mechanism) {
+  std::vector<std::pair<std::string, std::string>> told;
+  for (const Parameter& parameter : mechanism.parameters)
+    told.emplace_back(parameter.name, value_words(parameter, mechanism));
+  return told;
+}
+
 }  // namespace clearloci::mechanism

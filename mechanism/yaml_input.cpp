@@ -137,7 +137,8 @@ std::optional<Value> Mapping::find(const std::string& key) const {
 
 Value Mapping::at(const std::string& key) const {
   if (auto found = find(key)) return *found;
-  throw InputError(value_.where, "the key '" + key + "' is missing in " + value_.what, "add " + key + ": ...");
+  throw InputError(value_.where, "the key '" + key + "' is missing in " + value_.what,
+                   key == "format" ? "add format: 1" : "add " + key + ": ...");
 }
 
 std::string suggest(const std::string& wrong, const std::vector<std::string>& known, const std::string& plural) {

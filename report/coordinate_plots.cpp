@@ -46,7 +46,8 @@ class ModePlots {
         const core::Polyline above = line(at_, errors_.samples.at(worst), unit.per_si);
         core::Polyline below = above;
         for (core::Point2& point : below) point[1] = -point[1];
-        panel.series.push_back({"bound under any load", {above, std::move(below)}, -1, true});
+        const bool is_first = plot.panels.empty();  // grey is the same in all panels
+        panel.series.push_back({is_first ? "bound under any load" : "", {above, std::move(below)}, -1, true});
       }
       panel.series.push_back({component.label, {line(at_, errors_.samples.at(column), unit.per_si)}, number++});
       panel.y_range = clipped_range(panel);

@@ -171,6 +171,23 @@ void draw_loci(const Context& context, const Subject& subject, const Layout& lay
   }
 }
 
+/// Labels had better not lie on curves.
+void occupy_curves(const Subject& subject, const Layout& layout, LabelPlaces& labels) {
+  constexpr double width = 3, weight = 0.3;  // pt
+  for (const CurveGroup& group : subject.groups.curves)
+    for (const core::LocusCurve* const curve : group.curves)
+      for (const auto& arc : curve->arcs) {
+        if (arc.points.empty()) continue;
+        Point2 last = layout.page(arc.points.front());
+        for (const Point2& point : arc.points) {
+          const Point2 at = layout.page(point);
+          if (std::hypot(at[0] - last[0], at[1] - last[1]) < width) continue;
+          labels.occupy(last, at, width, weight);
+          last = at;
+        }
+      }
+}
+
 /// Beside the curves, as far as there is room: the names that tables and answers have for them.
 void write_curve_ids(const Context& context, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
   constexpr Font font{7.5, false, false};
@@ -366,6 +383,7 @@ void draw(const Context& context, const Subject& subject, const Layout& layout) 
   draw_isolated_points(context, subject, layout);
   draw_open_places(context, subject, layout);
   LabelPlaces labels(layout.plot);
+  occupy_curves(subject, layout, labels);
   if (subject.sketch != nullptr)
     draw_joints_and_loads(context, layout, *subject.sketch, legend_reasons(layout), labels);
   if (subject.task != nullptr) draw_task(context, *subject.task, layout, labels);

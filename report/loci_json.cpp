@@ -205,6 +205,12 @@ Json mode_object(const core::TowerNames& tower, const core::WorkingMode& mode) {
   return body;
 }
 
+Json parameters_object(const std::vector<std::pair<std::string, std::string>>& parameters) {
+  Json all = Json::object();
+  for (const auto& [name, value] : parameters) all[printable(name)] = value;
+  return all;
+}
+
 Json vanishing_array(const std::vector<core::Vanishing>& vanishing) {
   Json reactions = Json::array();
   for (const auto& one : vanishing) {
@@ -219,8 +225,7 @@ Json loci_object(const core::LocusMap& map) {
   Json root;
   root["format"] = 1;
   root["mechanism"] = printable(map.mechanism);
-  root["parameters"] = Json::object();
-  for (const auto& [name, value] : map.parameters) root["parameters"][printable(name)] = value;
+  root["parameters"] = parameters_object(map.parameters);
   root["coordinates"] = map.tower.coordinates;
   if (!map.angles.empty()) {
     for (const bool angle : map.angles) root["units"].push_back(angle ? "rad" : "m");

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/locus_map.hpp"
 
@@ -24,6 +26,9 @@ std::string json_text(const nlohmann::ordered_json& value);
 
 /// {"B1": "right", "B2": "left"}.
 nlohmann::ordered_json mode_object(const core::TowerNames& tower, const core::WorkingMode& mode);
+
+/// {"L": "1/2", "k": "3 N/mm"}.
+nlohmann::ordered_json parameters_object(const std::vector<std::pair<std::string, std::string>>& parameters);
 
 /// [{"joint": "A1", "quantity": "f"}, ...].
 nlohmann::ordered_json vanishing_array(const std::vector<core::Vanishing>& vanishing);

@@ -263,10 +263,7 @@ std::string notes(const core::LocusMap& map) {
 
 std::string loci_table(const core::LocusMap& in_si, bool exact) {
   const core::LocusMap map = in_file_units(in_si);
-  std::string out = printable(map.mechanism);
-  const std::string parameters = printable(parameter_words(map, exact));
-  if (!parameters.empty()) out += "\n" + parameters;
-  out += "\n";
+  std::string out = printable(map.mechanism) + "\n" + parameter_line(map.parameters, exact);
   std::vector<core::WorkingMode> modes = modes_of(map);
   if (modes.empty())
     out += map.tower.coordinates.size() == 1   ? "\nout of reach in the whole range\n"

@@ -5,6 +5,7 @@
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/table_json.hpp"
+#include "report/wording.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -79,6 +80,7 @@ Json pose_object(const core::Pose& pose) {
   if (in_space(pose)) worst["dalpha"] = number_json(pose.worst.angle);
   Json result = {{"format", 1},
                  {"mechanism", pose.mechanism},
+                 {"parameters", parameters_object(pose.parameters)},
                  {"at", pose.at},
                  {"working_mode", std::move(mode)},
                  {"posture", std::move(points)},
@@ -99,19 +101,23 @@ Json pose_object(const core::Pose& pose) {
 }
 
 nlohmann::ordered_json pose_in_modes_object(const core::PoseInModes& poses) {
-  nlohmann::ordered_json all = {
-      {"format", 1}, {"mechanism", poses.mechanism}, {"poses", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json all = {{"format", 1},
+                                {"mechanism", poses.mechanism},
+                                {"parameters", parameters_object(poses.parameters)},
+                                {"poses", nlohmann::ordered_json::array()}};
   for (const core::ModePose& own : poses.modes)
     if (own.pose) all["poses"].push_back(pose_object(*own.pose));
   return all;
 }
 
 std::string pose_in_modes_text(const core::PoseInModes& poses) {
-  std::string text;
+  std::string text = parameter_line(poses.parameters);
   for (const core::ModePose& own : poses.modes) {
     if (!text.empty()) text += "\n";
     if (own.pose) {
-      text += pose_text(*own.pose);
+      core::Pose pose = *own.pose;
+      pose.parameters.clear();  // told once, above
+      text += pose_text(pose);
       continue;
     }
     std::string words;

@@ -94,7 +94,7 @@ void put_head(std::string& text, const core::Pose& pose) {
                                                               : length(pose.at[c]));
   put(text, "{} at ({})", pose.mechanism, fmt::join(values, ", "));
   for (const auto& [point, side] : pose.working_mode) put(text, ", {} {}", point, side);
-  put(text, "\n\n");
+  put(text, "\n{}\n", parameter_line(pose.parameters));
 }
 
 std::string points_table(const core::Pose& pose) {
@@ -229,8 +229,8 @@ std::string error_table(const core::Pose& pose) {
   std::string text = format_rows(heading, rows);
   if (!pose.error) text += "undefined under the load: " + undefined_words(pose) + "\n";
   if (pose.actual)
-    put(text, "iterated {} times, closure within {} m\n", pose.actual->iterations,
-        engineering(pose.actual->residual, 2));
+    put(text, "iterated {} times, closure within {} {}\n", pose.actual->iterations,
+        engineering(pose.actual->residual * length.unit.per_si, 2), length.unit.name);
   return text;
 }
 

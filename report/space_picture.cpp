@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "report/axis.hpp"
@@ -348,30 +347,17 @@ void draw_entry(const Context& context, const Entry& entry) {
   write(entry.reason, grey);
 }
 
-std::string ids_of(const SurfaceGroup& group) {
-  std::string ids;
-  for (const core::LocusSurface* surface : group.surfaces) ids += (ids.empty() ? "" : ", ") + printable(surface->id);
-  return ids;
-}
-
 std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<SurfaceGroup>& groups,
-                             const std::vector<LineGroup>& lines) {
+                             const std::vector<std::string>& remarks, const std::vector<LineGroup>& lines) {
   std::vector<Entry> entries;
-  std::map<std::string, std::vector<std::string>> shared;  // reasons that several groups have, with their ids
-  for (const SurfaceGroup& group : groups)
-    if (const std::string reason = reason_of_any_joint(group.why, group.vanishing); !reason.empty())
-      shared[reason].push_back(ids_of(group));
-  std::erase_if(shared, [](const auto& own) { return own.second.size() < 2; });
   for (const SurfaceGroup& group : groups) {
     Entry entry;
     entry.group = &group;
     entry.lines = {group.what + " (" + ids_of(group) + ")"};
-    if (!group.why.empty() && !shared.contains(reason_of_any_joint(group.why, group.vanishing)))
-      entry.reason = {group.why};
+    if (!group.why.empty()) entry.reason = {group.why};
     entries.push_back(std::move(entry));
   }
-  for (const auto& [reason, ids] : shared)
-    entries.push_back({nullptr, {}, {fmt::format("{}: {}", fmt::join(ids, ", "), reason)}});
+  for (const std::string& remark : remarks) entries.push_back({nullptr, {}, {remark}});
   for (const LineGroup& own : lines) {
     Entry entry;
     entry.lines = {own.what + (own.curves.empty() ? ", at points" : ", along curves")};
@@ -390,21 +376,23 @@ std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<Surfac
 
 std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mode, const core::Sketch* sketch,
                           PictureFormat format) {
-  const std::vector<SurfaceGroup> all = group_surfaces(map), groups = groups_of_mode(all, mode);
+  const std::vector<SurfaceGroup> all = group_surfaces(map);
+  std::vector<SurfaceGroup> groups = groups_of_mode(all, mode);
+  std::string reasons;
+  for (const SurfaceGroup& group : groups) reasons += group.why + " ";
+  const std::vector<std::string> remarks = tell_shared_reasons(groups);
   const std::vector<LineGroup> lines = lines_of_mode(group_lines(map, all), mode);
-  const std::string words = mode_words(map.tower, mode), parameters = parameter_words(map);
+  const std::string words = mode_words(map.tower, mode), parameters = parameter_words(map.parameters);
   const std::string title = printable(map.mechanism);
   const std::string subtitle = "Discontinuity loci seen from two sides" + (words.empty() ? "" : "; " + words) +
                                (parameters.empty() ? "" : "; " + parameters);
   const double width = 2 * page_margin + 2 * view_side + view_gap;
   const PageHead head = page_head(map.mechanism, subtitle, page_margin, width - 2 * page_margin);
   const double top = head.bottom;
-  std::vector<Entry> entries = legend_of(map, groups, lines);
+  std::vector<Entry> entries = legend_of(map, groups, remarks, lines);
   const std::vector<PlacedView> views = placed_views(map, top);
   const double bottom = place_legend(entries, top + views.front().height + 8);
 
-  std::string reasons;
-  for (const SurfaceGroup& group : groups) reasons += group.why + " ";
   const double height = bottom + (sketch == nullptr ? 0 : sketch_height) + page_margin;
 
   const auto draw = [&](const Context& context) {

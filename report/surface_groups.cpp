@@ -1,6 +1,7 @@
 #include "report/surface_groups.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "report/wording.hpp"
 
@@ -82,6 +83,30 @@ std::vector<SurfaceGroup> groups_of_mode(const std::vector<SurfaceGroup>& groups
     if (!group.surfaces.empty()) chosen.push_back(std::move(group));
   }
   return chosen;
+}
+
+std::string ids_of(const SurfaceGroup& group) {
+  std::string ids;
+  for (const core::LocusSurface* surface : group.surfaces) ids += (ids.empty() ? "" : ", ") + printable(surface->id);
+  return ids;
+}
+
+std::vector<std::string> tell_shared_reasons(std::vector<SurfaceGroup>& groups) {
+  std::map<std::string, std::vector<SurfaceGroup*>> shared;
+  for (SurfaceGroup& group : groups)
+    if (const std::string reason = reason_of_any_joint(group.why, group.vanishing); !reason.empty())
+      shared[reason].push_back(&group);
+  std::vector<std::string> remarks;
+  for (const auto& [reason, own] : shared) {
+    if (own.size() < 2) continue;
+    std::string ids;
+    for (SurfaceGroup* const group : own) {
+      ids += (ids.empty() ? "" : ", ") + ids_of(*group);
+      group->why.clear();
+    }
+    remarks.push_back(ids + ": " + reason);
+  }
+  return remarks;
 }
 
 std::vector<LineGroup> group_lines(const core::LocusMap& map, const std::vector<SurfaceGroup>& surfaces) {

@@ -30,6 +30,13 @@ std::vector<SurfaceGroup> group_surfaces(const core::LocusMap& map);
 /// With the members of one mode alone; groups without any are left out.
 std::vector<SurfaceGroup> groups_of_mode(const std::vector<SurfaceGroup>& groups, const core::WorkingMode& mode);
 
+/// "s1, s2".
+std::string ids_of(const SurfaceGroup& group);
+
+/// Reasons that several groups have, each once: "s1, s2: the loads do no work in the motion that the joint alone
+/// drives". Those groups lose their `why`.
+std::vector<std::string> tell_shared_reasons(std::vector<SurfaceGroup>& groups);
+
 /// Curves and points over three coordinates on which the same reactions vanish though on no surface.
 struct LineGroup {
   core::LocusKind kind = core::LocusKind::contact_loss;

@@ -69,6 +69,9 @@ void draw_task(const Context& context, const TaskMark& task, const Layout& layou
   outline_style(context, task);
   trace();
   context->stroke();
+  const std::size_t corners = task.outline.size();
+  for (std::size_t i = 0; i + (task.filled ? 0 : 1) < corners; ++i)  // numbers of zones keep off the task's line
+    labels.occupy(layout.page(task.outline[i]), layout.page(task.outline[(i + 1) % corners]), 2 * line_width, 1);
   for (const core::Point2& p : task.points) {
     const core::Point2 at = layout.page(p);
     draw_ring(context, task, at);

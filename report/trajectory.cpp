@@ -101,6 +101,7 @@ std::string notes_text(const core::TrajectoryResult& result) {
 Json trajectory_object(const core::TrajectoryResult& result) {
   Json json = {{"format", 1},
                {"mechanism", result.mechanism},
+               {"parameters", parameters_object(result.parameters)},
                {"trajectory", result.trajectory},
                {"law", result.law},
                {"period", result.period},
@@ -141,9 +142,10 @@ std::string trajectory_text(const core::TrajectoryResult& given) {
   const core::TrajectoryResult result = in_file_units(given);
   const std::string force = shown_unit("N", result.units).name;
   const ShownDistance shown(result.distance_unit);
-  std::string text = fmt::format("{}: {}, {} law, period {} s, length {}{}\n\n", result.mechanism, result.trajectory,
-                                 result.law, engineering(result.period, size_digits),
-                                 engineering(shown.scale * result.length, size_digits), shown.unit);
+  std::string text =
+      fmt::format("{}: {}, {} law, period {} s, length {}{}\n{}\n", result.mechanism, result.trajectory, result.law,
+                  engineering(result.period, size_digits), engineering(shown.scale * result.length, size_digits),
+                  shown.unit, parameter_line(result.parameters));
   std::vector<Row> stages;
   for (std::size_t k = 0; k < result.stages.size(); ++k) {
     const core::TrajectoryStage& s = result.stages[k];

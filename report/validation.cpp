@@ -6,8 +6,10 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "report/file_units.hpp"
 #include "report/loci_json.hpp"
 #include "report/wording.hpp"
+#include "report/zones.hpp"
 
 namespace clearloci::report {
 namespace {
@@ -75,6 +77,7 @@ Json validation_object(const core::Validation& validation) {
                     {"unbounded", arc.unbounded}});
   return {{"format", 1},
           {"mechanism", validation.map.mechanism},
+          {"parameters", parameters_object(validation.map.parameters)},
           {"grid", validation.nodes},
           {"validated", validation.validated()},
           {"held", report.held},
@@ -93,16 +96,20 @@ std::string validation_text(const core::Validation& validation) {
   const std::array<const char*, 3> names = {"points", "arcs", "surfaces"};
   const char* const loci = names.at(validation.map.lower.size() - 1);
   const core::ValidationReport& report = validation.report;
+  const auto place = [&map = validation.map](const std::vector<double>& at) {
+    return place_words(at, angles_of(map), map.units, place_digits);
+  };
   std::string text = fmt::format("{}: loci against reactions at {} nodes\n", validation.map.mechanism,
-                                 fmt::join(validation.nodes, " x "));
+                                 fmt::join(validation.nodes, " x ")) +
+                     parameter_line(validation.map.parameters);
   text += tallies_text(validation);
   text += fmt::format("\n{} edges confirmed, {} contradicted, {} unresolved, {} outside\n", report.held,
                       report.disputed, report.undecided, report.outside);
   for (std::size_t i = 0; i < report.disputed_edges.size() && i < edges_shown; ++i) {
     const core::DisputedEdge& edge = report.disputed_edges[i];
-    text += fmt::format("contradicted: {} {} from ({}) to ({}), crossed by {} {}{}\n", reaction_name(edge.reaction),
-                        edge.sign_change ? "changes sign" : "keeps its sign", fmt::join(edge.from, ", "),
-                        fmt::join(edge.to, ", "), edge.crossings, loci, after(validation, edge.mode));
+    text += fmt::format("contradicted: {} {} from {} to {}, crossed by {} {}{}\n", reaction_name(edge.reaction),
+                        edge.sign_change ? "changes sign" : "keeps its sign", place(edge.from), place(edge.to),
+                        edge.crossings, loci, after(validation, edge.mode));
   }
   if (report.disputed_edges.size() > edges_shown) text += "... --json lists more contradicted edges\n";
   text += fmt::format("{} reactions along {} confirmed, {} contradicted, {} unresolved\n", report.arcs_held, loci,
@@ -110,8 +117,8 @@ std::string validation_text(const core::Validation& validation) {
   for (std::size_t i = 0; i < report.disputed_arcs.size() && i < edges_shown; ++i) {
     const core::DisputedArc& arc = report.disputed_arcs[i];
     const char* what = arc.unbounded ? "grows without bound" : arc.claimed ? "does not vanish" : "vanishes unnamed";
-    text += fmt::format("contradicted: {} {} along {} near ({}){}\n", reaction_name(arc.reaction), what, arc.curve,
-                        fmt::join(arc.at, ", "), after(validation, arc.mode));
+    text += fmt::format("contradicted: {} {} along {} near {}{}\n", reaction_name(arc.reaction), what, arc.curve,
+                        place(arc.at), after(validation, arc.mode));
   }
   return text;
 }

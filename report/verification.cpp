@@ -215,6 +215,7 @@ Json verification_object(const core::Verification& result) {
   for (const auto& [point, side] : result.working_mode) mode[point] = side;
   Json root = {{"format", 1},
                {"mechanism", printable(result.mechanism)},
+               {"parameters", parameters_object(result.parameters)},
                {"coordinates", result.coordinates},
                {"angles", result.angles},
                {"working_mode", std::move(mode)},
@@ -267,7 +268,7 @@ std::string verification_text(const core::Verification& result) {
     text += (c == 0 ? " over " : ", ") + result.coordinates[c];
   std::string mode;
   for (const auto& [point, side] : result.working_mode) mode += (mode.empty() ? "; " : ", ") + point + " " + side;
-  text += printable(mode) + "\n\n";
+  text += printable(mode) + "\n" + parameter_line(result.parameters) + "\n";
   const auto put = [&](const char* head, const std::string& fact) { text += fmt::format("{:<14}{}\n", head, fact); };
   const auto many = [](std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");

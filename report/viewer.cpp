@@ -94,10 +94,12 @@ Json point_groups(const Groups& groups, const core::LocusMap& map) {
 }
 
 /// With the curves and points over three coordinates, which have no surface.
-Json surface_groups(const core::LocusMap& map) {
+/// Reasons that several of them have go to the remarks.
+Json surface_groups(const core::LocusMap& map, std::vector<std::string>& remarks) {
   Json list = Json::array();
   int number = 0;
-  const std::vector<SurfaceGroup> surfaces = group_surfaces(map);
+  std::vector<SurfaceGroup> surfaces = group_surfaces(map);
+  for (std::string& remark : tell_shared_reasons(surfaces)) remarks.push_back(std::move(remark));
   for (const SurfaceGroup& group : surfaces) {
     Json ids = Json::array();
     for (const core::LocusSurface* surface : group.surfaces) ids.push_back(surface->id);
@@ -211,6 +213,8 @@ Json viewer_object(const LociSheet& loci) {
       sketches.push_back(
           {{"working_mode", mode_object(loci.map.tower, one.mode)}, {"sketch", sketch_object(one.sketch)}});
   const core::LocusMap& map = loci.map;
+  std::vector<std::string> remarks = groups.remarks;
+  Json surfaces = surface_groups(map, remarks);
   Json answer = loci_object(map);
   answer.erase("timing");  // a page of the same loci has the same bytes
   Json parameters = Json::array(), zones = Json::array();
@@ -223,9 +227,9 @@ Json viewer_object(const LociSheet& loci) {
           {"parameters", std::move(parameters)},
           {"zones", std::move(zones)},
           {"curve_groups", curve_groups(groups)},
-          {"remarks", groups.remarks},
+          {"remarks", remarks},
           {"point_groups", point_groups(groups, loci.map)},
-          {"surface_groups", surface_groups(loci.map)},
+          {"surface_groups", std::move(surfaces)},
           {"meshes", std::move(meshes)},
           {"sketches", std::move(sketches)}};
 }

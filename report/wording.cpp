@@ -131,13 +131,13 @@ std::string kind_words(core::LocusKind kind) {
 std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishing> vanishing) {
   const bool margin = kind == core::LocusKind::margin;
   const std::vector<std::pair<core::Quantity, std::string>> wordings = {
-      {core::Quantity::f, margin ? "margin of the contact force lost" : "contact lost"},
+      {core::Quantity::f, margin ? "contact margin lost" : "contact lost"},
       {core::Quantity::end_ahead, margin ? "margin of the end ahead lost" : "end ahead lifts"},
       {core::Quantity::end_behind, margin ? "margin of the end behind lost" : "end behind lifts"},
-      {core::Quantity::N, margin ? "margin of the normal force lost" : "normal force zero"},
+      {core::Quantity::N, margin ? "normal force margin lost" : "normal force zero"},
       {core::Quantity::T, "couple zero"},
-      {core::Quantity::M, margin ? "margin of the couple lost" : "backlash"},
-      {core::Quantity::F, margin ? "margin of the axial force lost" : "backlash along the axis"},
+      {core::Quantity::M, margin ? "couple margin lost" : "backlash"},
+      {core::Quantity::F, margin ? "axial force margin lost" : "backlash along the axis"},
       {core::Quantity::fx, "fx = 0"},
       {core::Quantity::fy, "fy = 0"},
       {core::Quantity::fz, "fz = 0"},
@@ -244,11 +244,15 @@ std::string decimal_words(const std::string& value) {
   return short_number(core::to_double(exact), place_digits) + value.substr(number.size());
 }
 
-std::string parameter_words(const core::LocusMap& map, bool exact) {
+std::string parameter_words(const Parameters& parameters, bool exact) {
   std::vector<std::string> parts;
-  for (const auto& [name, value] : map.parameters)
-    parts.push_back(name + " = " + (exact ? value : decimal_words(value)));
+  for (const auto& [name, value] : parameters) parts.push_back(name + " = " + (exact ? value : decimal_words(value)));
   return joined(parts, ", ");
+}
+
+std::string parameter_line(const Parameters& parameters, bool exact) {
+  const std::string words = printable(parameter_words(parameters, exact));
+  return words.empty() ? words : words + "\n";
 }
 
 std::vector<core::WorkingMode> modes_of(const core::LocusMap& map) {

@@ -52,8 +52,14 @@ std::string mode_slug(const core::TowerNames& tower, const core::WorkingMode& mo
 /// is left as it is.
 std::string decimal_words(const std::string& value);
 
+/// Names and exact values, as answers have them.
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
 /// "L = 0.5, k = 3 N/mm"; `exact`: "L = 1/2".
-std::string parameter_words(const core::LocusMap& map, bool exact = false);
+std::string parameter_words(const Parameters& parameters, bool exact = false);
+
+/// The same as the line of a text, with its end; empty without parameters.
+std::string parameter_line(const Parameters& parameters, bool exact = false);
 
 /// The modes of the map's curves, points and regions, each once, in order of appearance.
 std::vector<core::WorkingMode> modes_of(const core::LocusMap& map);

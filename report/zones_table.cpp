@@ -144,6 +144,7 @@ std::string ball_words(const core::LocusMap& map, const Places& places, const co
 std::string end_words(const core::LocusMap& map, const Places& places, const core::ZoneEnd& end) {
   std::string words = fmt::format("{}: {}{}{}", places.value(0, end.at), kind_words(end.kind),
                                   end.vanishing.empty() ? "" : " ", reaction_names(end.vanishing));
+  if (!end.limit.empty()) words += ", limit of the " + end.limit;
   const auto is_known = [](const std::vector<double>& parts) {
     return std::all_of(parts.begin(), parts.end(), [](double part) { return std::isfinite(part); });
   };
@@ -219,7 +220,7 @@ std::vector<std::string> zone_end_lines(const core::Zones& map, const core::Work
 
 std::string zones_table(const core::Zones& in_si) {
   const core::Zones map = in_si.by_cells ? in_si : in_file_units(in_si);
-  std::string out = printable(map.loci.mechanism) + "\n";
+  std::string out = printable(map.loci.mechanism) + "\n" + parameter_line(map.loci.parameters);
   const std::vector<core::WorkingMode> modes = modes_of_zones(map);
   for (const core::WorkingMode& mode : modes) {
     const std::string words = printable(mode_words(map.loci.tower, mode));

@@ -12,6 +12,7 @@
 
 #include "clearloci/errors.hpp"
 #include "clearloci/loci.hpp"
+#include "clearloci/units.hpp"
 
 namespace clearloci {
 
@@ -63,6 +64,7 @@ class Model {
   const std::string& text() const;           ///< of the file
   const std::vector<Value>& values() const;  ///< put in so far
   bool spatial() const;
+  const Units& units() const;  ///< of the file: what its tables and pictures speak in
   std::vector<Parameter> parameters() const;
   std::vector<Coordinate> coordinates() const;  ///< the free ones
   std::vector<Joint> joints() const;

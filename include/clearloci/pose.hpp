@@ -90,6 +90,7 @@ struct ActualPose {
 
 struct Pose {
   std::string mechanism;
+  std::vector<std::pair<std::string, std::string>> parameters;    ///< name, exact value ("1/2", "3 N/mm")
   std::vector<double> at;                                         ///< of each coordinate: rad of an angle, else m
   std::vector<bool> angles;                                       ///< which coordinates are angles
   std::vector<std::pair<std::string, std::string>> working_mode;  ///< {"B1", "right"}, ...
@@ -123,6 +124,7 @@ struct ModePose {
 /// A pose in every working mode.
 struct PoseInModes {
   std::string mechanism;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name, exact value ("1/2", "3 N/mm")
   std::vector<ModePose> modes;
 };
 

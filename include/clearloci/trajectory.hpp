@@ -88,6 +88,7 @@ struct LossCurve {
 
 struct TrajectoryResult {
   std::string mechanism, trajectory;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name, exact value ("1/2", "3 N/mm")
   std::string law;    ///< "cycloidal", "3-4-5", "trapezoidal", "s-curve", "constant", "expression", "table"
   double period = 0;  ///< s, of the whole cycle
   double length = 0;  ///< of the path, in distance_unit

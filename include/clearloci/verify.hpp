@@ -181,6 +181,7 @@ struct PreloadAnswer {
 struct Verification {
   Task task;  ///< as verified: moved and scaled where a place was looked for
   std::string mechanism;
+  std::vector<std::pair<std::string, std::string>> parameters;  ///< name, exact value ("1/2", "3 N/mm")
   std::vector<std::string> coordinates;
   std::vector<bool> angles;
   std::vector<std::pair<std::string, std::string>> working_mode;  ///< as describe_mode

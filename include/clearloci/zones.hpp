@@ -32,6 +32,7 @@ struct ZoneEnd {
   double at = 0;
   LocusKind kind = LocusKind::contact_loss;
   std::vector<Vanishing> vanishing = {};
+  std::string limit = {};              ///< of a boundary the limit that makes it: "spring S, whose ends G1 and G2 meet"
   std::optional<PoseError> jump = {};  ///< behind minus before, where joints have clearances and both sides have errors
 };
 

@@ -51,6 +51,54 @@ void check_doubled_joints(const Drawing& d) {
     }
 }
 
+void check_links_drawn_apart(const Drawing& d) {
+  for (const Link& link : d.mechanism.links) {
+    const auto& points = link.points;
+    const auto has_place = [&](PointIndex point) { return d.at(point).has_place; };
+    if (points.size() < 2 || !std::all_of(points.begin(), points.end(), has_place)) continue;
+    const double near = 1e-9 * d.size;
+    if (std::any_of(points.begin() + 1, points.end(),
+                    [&](PointIndex point) { return apart(d.place(points[0]), d.place(point)) > near; }))
+      continue;
+    std::vector<std::string> names;
+    for (const PointIndex point : points) names.push_back(d.name(point));
+    throw InputError(link.where, "the points of link " + link.name + " are drawn in one place: " + listed(names),
+                     "draw them apart, or make one point of them");
+  }
+}
+
+void check_axes(const Drawing& d) {
+  const std::vector<double> pose = spread_poses(d.mechanism, 1).front();
+  for (const Joint& joint : d.mechanism.joints)
+    for (const VectorExpression& axis : joint.axes)
+      if (const auto drawn = sample_vector(d.mechanism, axis, pose); drawn && apart(*drawn, {}) == 0)
+        throw InputError(joint.where, "the axis of joint " + joint.name + " is zero: it has no direction",
+                         d.is_spatial() ? "write such as axis: [0, 0, 1]" : "write such as axis: [1, 0]");
+}
+
+/// A coordinate that is the place of what cannot move.
+void check_places_move(const Drawing& d) {
+  const std::vector<bool> fixed = fixed_points(d);
+  for (const DrawnCoordinate& own : d.coordinates)
+    if (own.kind == DrawnCoordinate::Kind::place && fixed[static_cast<std::size_t>(own.point)])
+      throw InputError(own.where,
+                       "coordinate " + own.name + " is the place of " + d.name(own.point) + ", which stands still",
+                       "name a point that moves");
+}
+
+/// The same links and joints in a posture beside the drawn one, with other lengths.
+Drawing beside(const Drawing& d) {
+  Drawing other = d;
+  constexpr double part = 0.01;  // of the drawing
+  for (std::size_t p = 0; p < other.posture.size(); ++p)
+    for (std::size_t i = 0; i < dimension(d.mechanism); ++i) {
+      // Any numbers will do that are in no proportion to each other.
+      const double step = std::sin(1.0 + 7.0 * static_cast<double>(p) + 3.0 * static_cast<double>(i));
+      other.posture[p][i] += part * d.size * step;
+    }
+  return other;
+}
+
 /// The links and joints of the drawing in doubles, and what holds them.
 class Freedoms {
  public:
@@ -272,7 +320,10 @@ std::vector<bool> fixed_points(const Drawing& d) {
 
 void check_drawing(const Drawing& d) {
   check_every_link_joined(d);
+  check_links_drawn_apart(d);
   check_doubled_joints(d);
+  check_axes(d);
+  check_places_move(d);
   const Freedoms freedoms(d);
   if (!freedoms.known()) return;
   check_braced(d, freedoms);
@@ -284,6 +335,16 @@ void check_drawing(const Drawing& d) {
   }
   std::size_t left = 0;
   const std::vector<LinkIndex> loose = freedoms.loose(left);
+  if (!loose.empty() && freedoms.mobility() > d.coordinates.size() && !d.is_spatial()) {
+    const Drawing other = beside(d);
+    const Freedoms usual(other);
+    if (usual.known() && usual.mobility() == d.coordinates.size())
+      throw InputError(place_of(d, loose),
+                       link_words(d, loose) + (loose.size() == 1 ? " has " : " have ") +
+                           counted(freedoms.mobility(), "freedom", "freedoms") + " in the drawn posture and " +
+                           std::to_string(usual.mobility()) + " beside it: the drawn posture is singular",
+                       "draw another posture, such as one in which no links are in line");
+  }
   if (!loose.empty() && freedoms.mobility() > d.coordinates.size())
     throw InputError(
         place_of(d, loose),

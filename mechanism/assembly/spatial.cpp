@@ -56,7 +56,10 @@ class SpatialConstruction : public SpatialTurning {
       }
       if (!is_turned(link) || bases.empty()) continue;
       const Attitude& own = attitude(link);
-      if (own.triad && !own.by_shape && !shape(link).is_drawn()) refuse_about_axis(link, point);
+      if (own.triad && !own.by_shape && !shape(link).is_drawn()) {
+        if (put_across_axis(link, point)) return true;
+        refuse_about_axis(link, point);
+      }
       if (!own.frame.empty()) {
         for (const PointIndex base : bases)
           if (handle(base) == own.origin) {
@@ -68,6 +71,26 @@ class SpatialConstruction : public SpatialTurning {
       return true;
     }
     return false;
+  }
+
+  /// In the plane across the axis of its hinge: a dyad of the hinge and another known point.
+  bool put_across_axis(LinkIndex link, PointIndex point) {
+    const auto hinge = hinge_of(link);
+    if (!hinge || !is_known(d_.joint(*hinge).at) || !turns_with_drawing(link, *hinge, point)) return false;
+    std::vector<SpaceLocus> circles;
+    if (!add_circle(link, point, circles)) return false;
+    const PointIndex at = d_.joint(*hinge).at;
+    const std::vector<PointIndex> bases = known_points(link);
+    const auto other = std::find_if(bases.begin(), bases.end(), [&](PointIndex base) {
+      return base != at && is_apart(at, base) && turns_with_drawing(link, *hinge, base);
+    });
+    if (other == bases.end()) return false;
+    SpaceLocus sphere;
+    sphere.base = [this, base = *other] { return handle(base); };
+    sphere.radius = shape(link).distance(*other, point).text();
+    sphere.source = circles.front().source + " about " + d_.name(*other);
+    circles.front().source += " about " + d_.name(at);
+    return meet(point, circles.front(), sphere);
   }
 
   /// Lengths fix a shape, and not where an axis passes it.

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 #include "bindings/bindings.hpp"
 #include "clearloci/normalize.hpp"
+#include "clearloci/sketch.hpp"
 
 namespace clearloci::python {
 namespace {
@@ -81,6 +84,30 @@ py::dict dict_of(const Model::Parameter& own) {
   one["exact"] = own.exact;
   one["value"] = own.value;
   return one;
+}
+
+py::tuple place_of(const Point2& at) { return py::make_tuple(at[0], at[1]); }
+
+/// Links, guides and joints in a pose that is well seen, m; None where the coordinates are not the place of the end
+/// effector, so that mechanism and loci are not in one plane, and where the working mode reaches no pose.
+py::object sketch_of(const Model& model, const std::optional<std::map<std::string, std::string>>& mode) {
+  if (!pose_is_place(model)) return py::none();
+  DyadSides sides;
+  for (const Model::Dyad& dyad : model.dyads())
+    sides.push_back(mode && mode->contains(dyad.point) ? (mode->at(dyad.point) == dyad.left ? 1 : -1) : dyad.side);
+  const auto pose = sample_pose(model, sides);
+  if (!pose) return py::none();
+  const Sketch sketch = sketch_pose(model, *pose, sides);
+  py::list links, slides, joints;
+  for (const SketchLink& own : sketch.links) links.append(array_of(Polyline(own.points)));
+  for (const SketchSlide& own : sketch.slides) slides.append(array_of(Polyline{own.from, own.to}));
+  for (const SketchJoint& own : sketch.joints)
+    joints.append(py::dict(py::arg("name") = own.name, py::arg("at") = place_of(own.at),
+                           py::arg("on_ground") = own.on_ground, py::arg("actuated") = own.actuated));
+  py::dict all(py::arg("links") = links, py::arg("slides") = slides, py::arg("joints") = joints);
+  if (sketch.end_effector)
+    all["end_effector"] = py::make_tuple(sketch.end_effector->name, place_of(sketch.end_effector->at));
+  return all;
 }
 
 }  // namespace
@@ -179,6 +206,29 @@ void bind_mechanism(py::module_& module) {
             return all;
           },
           "free coordinate -> (lower, upper), m or, of an angle, rad")
+      .def_property_readonly(
+          "units",
+          [](const Model& model) {
+            const Units& own = model.units();
+            const bool degrees = !own.angle_declared;
+            py::dict all;
+            all["length"] = py::make_tuple(own.length.name, own.length.size);
+            all["angle"] = degrees ? py::make_tuple("deg", std::numbers::pi / 180)
+                                   : py::make_tuple(own.angle.name, own.angle.size);
+            all["force"] = py::make_tuple(own.force.name, own.force.size);
+            return all;
+          },
+          "what tables and pictures speak in: (name, size in SI units)")
+      .def_property_readonly(
+          "angles",
+          [](const Model& model) {
+            std::vector<std::string> names;
+            for (const Model::Coordinate& own : model.coordinates())
+              if (own.angle) names.push_back(own.name);
+            return names;
+          },
+          "the free coordinates that are angles")
+      .def("sketch", &sketch_of, py::arg("working_mode"), "a pose of the mechanism as it is drawn; None where none is")
       .def_property_readonly("joints",
                              [](const Model& model) {
                                std::vector<std::string> names;

@@ -25,6 +25,9 @@ class Model:
     coordinates: dict[str, tuple[float, float]]
     joints: list[str]
     working_mode: dict[str, str]
+    units: dict[str, tuple[str, float]]
+    angles: list[str]
+    def sketch(self, working_mode: dict[str, str] | None) -> dict[str, Any] | None: ...
     @staticmethod
     def read(path: str) -> Model: ...
     @staticmethod

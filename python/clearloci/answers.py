@@ -237,6 +237,7 @@ class Validation(Asked):
     """
 
     mechanism: str
+    parameters: dict[str, str]  #: exact values: "1/2", "3 N/mm"
     grid: list[int]  #: nodes along each coordinate
     validated: bool
     confirmed: int

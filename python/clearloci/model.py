@@ -92,6 +92,14 @@ class Model:
         return self._handle.coordinates
 
     @property
+    def units(self) -> dict[str, str]:
+        """What tables, pictures and plots speak in, {"length": "mm", "angle": "deg", "force": "N"}: the units of the file.
+
+        Arguments and values of answers are in SI units all the same.
+        """
+        return {what: name for what, (name, _) in self._handle.units.items()}
+
+    @property
     def joints(self) -> list[str]:
         return self._handle.joints
 

@@ -1,4 +1,6 @@
-"""Plots with matplotlib: the same colours and order as the program's pictures, in Axes that the caller may go on with."""
+"""Plots with matplotlib: the same colours and order as the program's pictures, in Axes that the caller may go on with.
+
+As in the program's tables and pictures, places are in the units of the mechanism file."""
 
 from __future__ import annotations
 
@@ -10,6 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .answers import Loci, Zones
+    from .model import Model
 
 _STYLES: dict[str, dict[str, Any]] = {
     "direct-singularity": {"color": "black", "linestyle": "-.", "linewidth": 1},
@@ -17,15 +20,53 @@ _STYLES: dict[str, dict[str, Any]] = {
 }
 
 
-def _axes(ax: Axes | None, coordinates: list[str]) -> Axes:
-    if ax is None:
-        import matplotlib.pyplot as plt
+class _Plane:
+    """Two coordinates in the units of the file."""
 
-        ax = plt.subplots(layout="constrained")[1]  # room for a legend beside the plot
-    ax.set_aspect("equal")
-    ax.set_xlabel(f"{coordinates[0]} (m)")
-    ax.set_ylabel(f"{coordinates[1]} (m)")
+    def __init__(self, model: Model, coordinates: list[str]) -> None:
+        handle = model._handle
+        kinds = ["angle" if name in handle.angles else "length" for name in coordinates]
+        self.labels = [f"{name} ({handle.units[kind][0]})" for name, kind in zip(coordinates, kinds)]
+        self.scale = np.array([1 / handle.units[kind][1] for kind in kinds])
+        self.of_lengths = "angle" not in kinds
+
+    def __call__(self, places: Any) -> np.ndarray:
+        """Places (n, 2), m or rad, as they are plotted."""
+        return np.asarray(places, dtype=float) * self.scale
+
+
+def _shown_unit(model: Model, si: str) -> tuple[str, float]:
+    """The unit of the file for m, rad or N, and how many of it are one; others stay."""
+    kind = {"m": "length", "rad": "angle", "N": "force"}.get(si)
+    if kind is None:
+        return si, 1.0
+    name, size = model._handle.units[kind]
+    return name, 1 / size
+
+
+def _axes(ax: Axes | None, plane: _Plane) -> Axes:
+    ax = _new_axes() if ax is None else ax
+    if plane.of_lengths:
+        ax.set_aspect("equal")
+    ax.set_xlabel(plane.labels[0])
+    ax.set_ylabel(plane.labels[1])
     return ax
+
+
+def _new_axes() -> Axes:
+    import matplotlib.pyplot as plt
+
+    return plt.subplots(layout="constrained")[1]  # room for a legend beside the plot
+
+
+def _legend(ax: Axes, beside: bool) -> None:
+    """Inside the picture: beside the plot where the figure is ours and makes room for it, else in the plot."""
+    if not ax.get_legend_handles_labels()[0]:
+        return
+    if beside:
+        ax.legend(fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5))
+    else:
+        ax.legend(fontsize="small", loc="best")
 
 
 def _mode_of(curves: list[Any], wanted: dict[str, str] | None) -> dict[str, str] | None:
@@ -37,7 +78,7 @@ def _label(curve: Any) -> str:
     return (what + ", ".join(curve.vanishing)).strip()
 
 
-def plot_curves(curves: list[Any], ax: Axes, mode: dict[str, str] | None) -> None:
+def _plot_curves(curves: list[Any], ax: Axes, plane: _Plane, mode: dict[str, str] | None) -> None:
     """A line an arc; loci for the same reason have one colour and one entry in the legend."""
     colours: dict[str, str] = {}
     named: set[str] = set()
@@ -48,72 +89,110 @@ def plot_curves(curves: list[Any], ax: Axes, mode: dict[str, str] | None) -> Non
         style = dict(_STYLES.get(curve.kind, {"linewidth": 1.5}))
         style.setdefault("color", colours.setdefault(label, f"C{len(colours)}"))
         for arc in curve.arcs:
-            ax.plot(arc[:, 0], arc[:, 1], label=None if label in named else label, **style)
+            ax.plot(*plane(arc).T, label=None if label in named else label, **style)
             named.add(label)
+
+
+def _plot_mechanism(model: Model, ax: Axes, plane: _Plane, mode: dict[str, str] | None) -> None:
+    """Where the coordinates are the place of the end effector: the links in a pose of this working mode. Motors are filled,
+    pins of the ground have a bar below them."""
+    sketch = model._handle.sketch(mode)
+    if sketch is None:
+        return
+    for link in sketch["links"]:
+        corners = plane(link)
+        if len(corners) > 2:
+            ax.fill(*corners.T, facecolor="0.45", edgecolor="0.45", alpha=0.3, zorder=2.5)
+        else:
+            ax.plot(*corners.T, color="0.45", linewidth=3, alpha=0.6, solid_capstyle="round", zorder=2.5)
+    for slide in sketch["slides"]:
+        ax.plot(*plane(slide).T, color="0.45", linewidth=5, alpha=0.3, solid_capstyle="butt", zorder=2.5)
+    for joint in sketch["joints"]:
+        at = plane(joint["at"])
+        colour = "0.25" if joint["actuated"] else "white"
+        ax.plot(*at, "o", markersize=5, markerfacecolor=colour, markeredgecolor="0.25", zorder=2.6)
+        if joint["on_ground"]:
+            ax.plot(*at, marker="_", markersize=14, color="0.25", markeredgewidth=2, zorder=2.4)
+    if "end_effector" in sketch:
+        name, at = sketch["end_effector"]
+        ax.annotate(name, plane(at), xytext=(6, 6), textcoords="offset points", zorder=2.7)
 
 
 def plot_loci(loci: Loci, ax: Axes | None, working_mode: dict[str, str] | None) -> Axes:
     if len(loci.coordinates) != 2:
         raise ValueError("loci over two free coordinates are plotted; surfaces and points have export()")
     mode = _mode_of(loci.curves, working_mode)
-    ax = _axes(ax, loci.coordinates)
+    plane = _Plane(loci.model, loci.coordinates)
+    beside = ax is None
+    ax = _axes(ax, plane)
     for region in loci.workspace:
         if region.working_mode == mode:
-            _fill(ax, region.rings, color="0.95", zorder=0)
-    plot_curves(loci.curves, ax, mode)
+            _fill(ax, [plane(ring) for ring in region.rings], color="0.95", zorder=0)
+    _plot_curves(loci.curves, ax, plane, mode)
     named: set[str] = set()
     for point in loci.isolated_points:
         if point.working_mode == mode:
             label = f"isolated: {', '.join(point.vanishing)}"
-            ax.plot(*point.at, "o", color="black", fillstyle="none", label=None if label in named else label)
+            ax.plot(*plane(point.at), "o", color="black", fillstyle="none", label=None if label in named else label)
             named.add(label)
-    (x0, x1), (y0, y1) = loci.box
-    ax.set_xlim(x0, x1)
-    ax.set_ylim(y0, y1)
-    ax.legend(fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5))
+    _plot_mechanism(loci.model, ax, plane, mode)
+    _finish(ax, plane, loci.box, beside)
     return ax
+
+
+def _finish(ax: Axes, plane: _Plane, box: list[tuple[float, float]], beside: bool) -> None:
+    lower, upper = plane(np.array(box).T)
+    ax.set_xlim(lower[0], upper[0])
+    ax.set_ylim(lower[1], upper[1])
+    _legend(ax, beside)
 
 
 def plot_zones(zones: Zones, ax: Axes | None, working_mode: dict[str, str] | None) -> Axes:
     mode = _mode_of(list(zones), working_mode)
-    ax = _axes(ax, list(zones.model.coordinates))
+    plane = _Plane(zones.model, zones.coordinates)
+    beside = ax is None
+    ax = _axes(ax, plane)
     for number, zone in enumerate(zone for zone in zones if zone.working_mode == mode):
-        _fill(ax, [zone.polygon, *zone.holes], color=f"C{number % 10}", alpha=0.35, zorder=0)
-        ax.annotate(zone.id, zone.sample, ha="center", va="center")
-    plot_curves(zones.curves, ax, mode)
+        rings = [plane(ring) for ring in (zone.polygon, *zone.holes)]
+        _fill(ax, rings, color=f"C{number % 10}", alpha=0.35, zorder=0)
+        ax.annotate(zone.id, plane(zone.sample), ha="center", va="center", zorder=3)
+    _plot_curves(zones.curves, ax, plane, mode)
+    _plot_mechanism(zones.model, ax, plane, mode)
+    _finish(ax, plane, zones.box, beside)
     return ax
 
 
 def plot_field(errors: Any, field: str, ax: Axes | None) -> Axes:
     """Magnitudes in viridis, signed errors from blue to red; the colours end at the 90th percentile."""
-    ax = _axes(ax, errors.coordinates)
-    values = errors.fields[field]
+    plane = _Plane(errors.model, errors.coordinates)
+    ax = _axes(ax, plane)
+    unit, per_si = _shown_unit(errors.model, errors.units[field])
+    values = errors.fields[field] * per_si
     known = np.abs(values[np.isfinite(values)])
     most = float(np.percentile(known, 90)) if known.size else 1.0
     signed = bool(np.nanmin(values) < 0) if known.size else False
     image = ax.pcolormesh(
-        errors.x,
-        errors.y,
+        errors.x * plane.scale[0],
+        errors.y * plane.scale[1],
         values,
         cmap="coolwarm" if signed else "viridis",
         vmin=-most if signed else 0,
         vmax=most,
         shading="nearest",
     )
-    ax.figure.colorbar(image, ax=ax, label=f"{field} ({errors.units[field]})", extend="both" if signed else "max")
+    ax.figure.colorbar(image, ax=ax, label=f"{field} ({unit})", extend="both" if signed else "max")
     return ax
 
 
 def plot_trajectory(motion: Any, columns: list[str], ax: Axes | None) -> Axes:
     """Columns over time; contact losses as vertical lines."""
-    if ax is None:
-        import matplotlib.pyplot as plt
-
-        ax = plt.subplots(layout="constrained")[1]  # room for a legend beside the plot
+    ax = _new_axes() if ax is None else ax
     for column in columns:
-        ax.plot(motion.samples["time"], motion.samples[column], label=f"{column} ({motion.units[column]})")
-    for loss in motion.losses:
-        ax.axvline(loss["time"], color="0.7", linewidth=0.8, zorder=0)
+        unit, per_si = _shown_unit(motion.model, motion.units[column])
+        ax.plot(motion.samples["time"], motion.samples[column] * per_si, label=f"{column} ({unit})")
+    for number, loss in enumerate(motion.losses):
+        label = None if number else "contact lost"
+        ax.axvline(loss["time"], color="0.7", linewidth=0.8, zorder=0, label=label)
     ax.set_xlabel("time (s)")
     ax.legend(fontsize="small")
     return ax

@@ -80,6 +80,38 @@ def test_plots_go_into_given_axes(five_bar):
     plt.close(figure)
 
 
+def test_plots_show_the_mechanism_and_keep_their_legend(five_bar):
+    plt = pytest.importorskip("matplotlib.pyplot")
+    for answer in (five_bar.loci(), five_bar.zones()):
+        ax = answer.plot()
+        ax.figure.canvas.draw()
+        assert ax.get_xlabel() == "x (m)"
+        assert "P" in [text.get_text() for text in ax.texts]  # the end effector
+        assert sum(line.get_marker() == "o" for line in ax.lines) >= 5  # joints
+        whole, legend = ax.figure.bbox, ax.get_legend().get_window_extent()
+        assert whole.x0 <= legend.x0 and legend.x1 <= whole.x1 and whole.y0 <= legend.y0 and legend.y1 <= whole.y1
+        plt.close(ax.figure)
+    figure, ax = plt.subplots()
+    five_bar.loci().plot(ax=ax)
+    figure.canvas.draw()
+    assert ax.get_legend().get_window_extent().x1 <= figure.bbox.x1
+    plt.close(figure)
+
+
+def test_plots_speak_in_the_units_of_the_file():
+    import clearloci as cl
+    from conftest import EXAMPLES
+
+    plt = pytest.importorskip("matplotlib.pyplot")
+    model = cl.read(EXAMPLES / "minitaur_leg.yaml")
+    assert model.units == {"length": "mm", "angle": "deg", "force": "N"}
+    ax = model.zones().plot()
+    assert ax.get_xlabel() == "x (mm)" and ax.get_xlim() == pytest.approx((-200, 200))
+    assert max(abs(line.get_xdata()).max() for line in ax.lines) > 100
+    assert model.error_map((8, 8), worst_case=False).plot("dalpha").get_xlim()[1] == pytest.approx(200, rel=0.2)
+    plt.close("all")
+
+
 def test_surfaces_are_triangles():
     import clearloci as cl
     from conftest import EXAMPLES

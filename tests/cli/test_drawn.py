@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from program import SOURCE, InOwnFolder
+from program import SOURCE, InOwnFolder, run
 
 EXAMPLES = SOURCE / "examples"
 TWINS = SOURCE / "tests" / "mechanism" / "assembly" / "twins"
@@ -31,7 +31,8 @@ class Twins(InOwnFolder):
         """Of the example and of its drawing; a word EXAMPLE/... stands for either."""
         for folder in (EXAMPLES, TWINS):
             own = [folder / word[8:] if isinstance(word, str) and word.startswith("EXAMPLE/") else word for word in words]
-            yield json.loads(self.run_program(*own, "--json", status=status).stdout)
+            process = self.run_program(*own, "--json", status=status) if status is not None else run(*own, "--json", cwd=self.folder)
+            yield json.loads(process.stdout)
 
     def assert_equal(self, *words, status=0, beside=BESIDE):
         one, other = self.answers(*words, status=status)
@@ -48,6 +49,23 @@ class Twins(InOwnFolder):
     def test_zones(self):
         for name in ["five_bar", "four_bar"]:
             self.assert_equal("zones", f"EXAMPLE/{name}.yaml")
+
+    def test_zones_by_cells(self):
+        for name in ["three_upu", "three_rpr_orientation"]:
+            self.assert_equal("zones", f"EXAMPLE/{name}.yaml", "--cells", "5000", status=None)
+
+    def test_zones_by_cells_of_another_construction(self):
+        """Bounds are proven from inside: they differ by less than what stays in doubt."""
+        one, other = self.answers("zones", "EXAMPLE/jansen_leg.yaml")
+        self.assertEqual(len(one["zones"]), len(other["zones"]))
+        doubt = max(one["in_doubt"], other["in_doubt"])
+        self.assertLess(doubt, 1e-6)
+        for a, b in zip(one["zones"], other["zones"]):
+            self.assertEqual((a["id"], a["signs"]), (b["id"], b["signs"]))
+            self.assertEqual([end["kind"] for end in a["ends"]], [end["kind"] for end in b["ends"]])
+            self.assertEqual([end["vanishing"] for end in a["ends"]], [end["vanishing"] for end in b["ends"]])
+            for key in ("lower", "upper"):
+                self.assertLessEqual(abs(a[key][0] - b[key][0]), doubt)
 
     def test_verdicts(self):
         self.assert_equal("verify", "EXAMPLE/five_bar.yaml", EXAMPLES / "tasks" / "pick_and_place.yaml")

@@ -72,6 +72,29 @@ class Loci(InOwnFolder):
         result = json.loads(self.run_program("loci", FIVE_BAR, "--json", "--set", "L=0.4", "--set", "d=1/3").stdout)
         self.assertEqual(result["parameters"], {"L": "2/5", "d": "1/3"})
 
+    def test_every_command_prints_the_parameters(self):
+        spring = self.model(lambda text: text.replace("  d: L ", "  d: L\n  k: 2 N/mm "))
+        line = "\nL = 0.4, d = 0.4, k = 3 N/mm\n"
+        override = ("--set", "L=0.4", "--set", "k=3")
+        task = SOURCE / "examples" / "tasks" / "pick_and_place.yaml"
+        for words in (
+            ("loci", spring),
+            ("zones", spring),
+            ("pose", spring, "--at", "0.25,-0.6"),
+            ("pose", spring, "--at", "0.25,-0.6", "--working-mode", "all"),
+            ("validate", spring, "--grid", "20x20"),
+            ("verify", spring, task),
+        ):
+            process = self.run_program(*words, *override, status=1 if words[0] == "verify" else 0)
+            self.assertIn(line, "\n" + process.stdout, words)
+            self.assertEqual(process.stdout.count(line.strip()), 1, words)
+            told = json.loads(
+                self.run_program(*words, *override, "--json", status=process.returncode).stdout
+            )["parameters"]
+            self.assertEqual(told, {"L": "2/5", "d": "2/5", "k": "3 N/mm"}, words)
+        motion = self.run_program("trajectory", *PICK_AND_PLACE).stdout
+        self.assertRegex(motion.splitlines()[1], r"^\w+ = [^,]+(, \w+ = .+)*$")
+
     def test_chosen_joint_and_quantity(self):
         result = json.loads(self.run_program("loci", FIVE_BAR, "--json", "--joint", "B2", "--quantity", "f").stdout)
         reactions = [curve for curve in result["curves"] if curve["vanishing"]]

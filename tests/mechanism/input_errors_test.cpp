@@ -135,6 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"CoordinateNamedAsAParameter", "  y: [-1.0", "  L: [-1.0", 9, 3, "a parameter and a coordinate"},
         Mistake{"UnusedCoordinate", "P: [x, y]", "P: [x, 1/3]", 8, 3, "no point depends on the free coordinate 'y'"},
         Mistake{"EmptyAngle", "y: [-1.0, 1.0]", "y: {angle: [pi, 180 deg]}", 9, 14, "is empty"},
+        Mistake{"DegreesWithoutTheirUnit", "y: [-1.0, 1.0]", "y: {angle: [-30, 30]}", 9, 14,
+                "is 60 rad, 9.549 turns: plain numbers of an angle are rad; write [-30 deg, 30 deg]"},
         Mistake{"AngleOutsideCos", "y: [-1.0, 1.0]", "y: {angle: [0, pi]}", 13, 10, "outside cos and sin"},
         Mistake{"UnknownRangeKey", "y: [-1.0, 1.0]", "y: {angel: [0, pi]}", 9, 7, "did you mean 'angle'?"}),
     mistake_name);

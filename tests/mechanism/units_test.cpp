@@ -90,6 +90,23 @@ TEST(Units, ExpressionsOfTheCoordinatesStayPolynomialsInMetres) {
   EXPECT_EQ(coordinates(m, 2), "1/25*cos(2*x + 30*pi/180), y + 1/200*sin(x)");
 }
 
+/// A range of plain numbers is refused where it is longer than two turns: nobody means that, and [0, 360] is degrees.
+TEST(Units, ARangeOfManyTurnsSaysItsUnit) {
+  const auto upper = [](const std::string& range) {
+    std::string text = with(five_bar_text, "x: [-0.5, 1.0]", "x: {angle: " + range + "}");
+    text = with(text, "P: [x, y]", "P: [cos(x), y]");
+    return core::to_double(parse_mechanism(text, "m.yaml").coordinates[0].upper);
+  };
+  constexpr double pi = std::numbers::pi;
+  EXPECT_NEAR(upper("[0, 12.5]"), 12.5, 1e-15);
+  EXPECT_NEAR(upper("[0, 360 deg]"), 2 * pi, 1e-15);
+  EXPECT_NEAR(upper("[0, 1080 deg]"), 6 * pi, 1e-14);
+  EXPECT_NEAR(upper("[0, 6*pi]"), 6 * pi, 1e-14);
+  EXPECT_NEAR(upper("[0, 20 rad]"), 20, 1e-15);
+  EXPECT_THROW(upper("[0, 360]"), core::InputError);
+  EXPECT_THROW(upper("[-10*L, 10]"), core::InputError);
+}
+
 TEST(Units, ANumberMayCarryItsOwnUnitInAnyFile) {
   std::string text = with(five_bar_text, "L: 0.5", "L: 500 mm");
   text = with(text, "radial: 10e-6", "radial: 10 um");

@@ -65,7 +65,7 @@ TEST(Legend, WhatIsBelowTheLeastForceIsALossOfMarginInRed) {
   core::LocusMap map;
   map.curves = {curve("m1", LocusKind::margin, "A", Quantity::f, unreadable)};
   const Groups groups = group_loci(map);
-  EXPECT_EQ(groups.curves.front().what, "margin of the contact force lost: A");
+  EXPECT_EQ(groups.curves.front().what, "contact margin lost: A");
   EXPECT_EQ(groups.curves.front().stroke.colour.red, light_theme.failed.red);
   EXPECT_EQ(groups.curves.front().stroke.colour.green, light_theme.failed.green);
 }
@@ -82,8 +82,8 @@ TEST(Legend, FactorsInMetresDoNotStandBesideMillimetres) {
 TEST(Legend, ParametersAreDecimalsAndExactOnRequest) {
   core::LocusMap map;
   map.parameters = {{"L", "7/20"}, {"k", "1/3 N/mm"}, {"turn", "30 deg"}, {"d", "sqrt(2)/2"}};
-  EXPECT_EQ(parameter_words(map), "L = 0.35, k = 0.333333333 N/mm, turn = 30 deg, d = sqrt(2)/2");
-  EXPECT_EQ(parameter_words(map, true), "L = 7/20, k = 1/3 N/mm, turn = 30 deg, d = sqrt(2)/2");
+  EXPECT_EQ(parameter_words(map.parameters), "L = 0.35, k = 0.333333333 N/mm, turn = 30 deg, d = sqrt(2)/2");
+  EXPECT_EQ(parameter_words(map.parameters, true), "L = 7/20, k = 1/3 N/mm, turn = 30 deg, d = sqrt(2)/2");
 }
 
 TEST(Labels, AreLeftOutWhereThereIsNoRoom) {

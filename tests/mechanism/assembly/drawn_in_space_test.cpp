@@ -121,6 +121,37 @@ TEST(DrawnInSpace, BuildsATetrahedronByItsLengths) {
   EXPECT_LT(apart(places_at(above, {0.007})->at("T"), {0.017, 0.010, 0.020}), 1e-12);
 }
 
+/// Lengths of a rocker that lies across its axis place its third point in the plane of the others, on the drawn side.
+TEST(DrawnInSpace, PlacesAThirdPointAcrossAnAxis) {
+  for (const int side : {1, -1}) {
+    const std::string e = side > 0 ? "[170, 80, 0]" : "[230, 40, 0]";
+    const std::string text = header + "drawn: {A: [0, 0, 0], B: [0, 30, 40], C: [200, 60, 0], D: [200, 0, 0], E: " + e +
+                             "}\n"
+                             "links: {crank: {points: [A, B]}, rod: {points: [B, C]}, "
+                             "rocker: {points: [D, C, E], lengths: {D-C: 61, D-E: 50, C-E: 40}}}\n"
+                             "joints:\n"
+                             "  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}\n"
+                             "  B: {spherical: [crank, rod], at: B}\n"
+                             "  C: {spherical: [rod, rocker], at: C}\n"
+                             "  D: {revolute: [ground, rocker], at: D, axis: [0, 0, 1]}\n"
+                             "end_effector: {link: rocker, at: E}\n";
+    const Mechanism m = parse_mechanism(text, "sketch.yaml");
+    int closed = 0;
+    for (const std::vector<double>& pose : spread_poses(m, 24)) {
+      const auto places = places_at(m, pose);
+      if (!places) continue;
+      ++closed;
+      const auto &c = places->at("C"), &d = places->at("D"), &at = places->at("E");
+      EXPECT_NEAR(apart(d, c), 0.061, 1e-12);
+      EXPECT_NEAR(apart(d, at), 0.050, 1e-12);
+      EXPECT_NEAR(apart(c, at), 0.040, 1e-12);
+      EXPECT_NEAR(at[2], 0, 1e-12);
+      EXPECT_GT(side * ((c[0] - d[0]) * (at[1] - d[1]) - (c[1] - d[1]) * (at[0] - d[0])), 0);
+    }
+    EXPECT_GT(closed, 4);
+  }
+}
+
 /// Lengths of a rocker's points do not tell how the third lies about its axis: refused, not guessed.
 TEST(DrawnInSpace, RefusesLengthsAboutAnAxis) {
   const std::string text = header +

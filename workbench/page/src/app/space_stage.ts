@@ -1,8 +1,7 @@
 // The stage of three coordinates.
 import { roundText, shortNumber } from "../data/exact";
 import { unitOf } from "../data/units";
-import { ticks, tickText } from "../draw/view";
-import type { Axis } from "../space/axes";
+import { axesIn } from "../space/axes";
 import { h, replace } from "./dom";
 import type { Panel } from "./panels";
 import { readingOf } from "./reading";
@@ -80,19 +79,11 @@ export class SpaceStage implements Panel {
     this.slider.value = String(slice.at);
     const unit = unitOf(bench.units, range?.angle ?? false);
     this.words.textContent = `${range?.name ?? ""} = ${shortNumber(slice.at / unit.size)} ${unit.name}`;
-    if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice, this.axes());
+    if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice, axesIn(bench.units, bench.coordinates));
     scene?.showPose(bench.state.at, this.bars());
     const shape = bench.state.task?.shape;
     const [low, high] = shape?.kind === "ranges" ? [shape.low, shape.high] : [];
     scene?.showTask(low, high, verdictColour(bench.verdict, bench.theme));
-  }
-
-  /** Of about four numbers each. */
-  private axes(): Axis[] {
-    return this.bench.coordinates.map(({ name, lower, upper, angle }) => {
-      const unit = unitOf(this.bench.units, angle);
-      return { name, unit: unit.name, ticks: ticks(lower, upper, 4 / (upper - lower), 1, unit).map((at) => ({ at, text: tickText(at, unit) })) };
-    });
   }
 
   /** The links, where the coordinates are the end effector's place in space. */

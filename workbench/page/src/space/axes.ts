@@ -1,12 +1,22 @@
 // Ticks and names along three edges of the box: numbers as small pictures that face the eye.
 import { BufferGeometry, CanvasTexture, Group, LineBasicMaterial, LineSegments, Sprite, SpriteMaterial, Vector3 } from "three";
 import type { Theme } from "../data/answers";
+import { unitOf, type Units } from "../data/units";
+import { ticks, tickText } from "../draw/view";
 
 export interface Axis {
   name: string;
   unit: string;
   /** Places along the coordinate, and what stands there. */
   ticks: { at: number; text: string }[];
+}
+
+/** Of about four numbers each. */
+export function axesIn(units: Units, coordinates: readonly { name: string; lower: number; upper: number; angle: boolean }[]): Axis[] {
+  return coordinates.map(({ name, lower, upper, angle }) => {
+    const unit = unitOf(units, angle);
+    return { name, unit: unit.name, ticks: ticks(lower, upper, 4 / (upper - lower), 1, unit).map((at) => ({ at, text: tickText(at, unit) })) };
+  });
 }
 
 const pixels = 40; // of a line of letters; drawn at a third of it

@@ -2,6 +2,7 @@
 import { h, replace } from "../app/dom";
 import { readingOf } from "../app/reading";
 import { sameMode, type ModeNames } from "../data/answers";
+import { axesIn } from "../space/axes";
 import { Space, type Slice } from "../space/scene";
 import { themeOf, type LociView, type Settings } from "./view";
 
@@ -61,6 +62,8 @@ export class SurfacesView implements LociView {
     const own = new Set([...(data.loci.surfaces ?? []), ...data.loci.curves].filter(here).map((one) => one.id));
     const ofMode = (index: number): boolean => { const point = data.loci.isolated_points[index]; return point !== undefined && here(point); };
     const groups = data.surface_groups.map((group) => ({ ...group, ids: group.ids.filter((id) => own.has(id)), points: group.points.filter(ofMode) }));
-    this.space?.show({ ...data, surface_groups: groups }, themeOf(this.settings), hidden, this.slice);
+    const { coordinates, box, units } = data.loci;
+    const axes = axesIn(data.units, coordinates.map((name, k) => ({ name, lower: box[k]?.[0] ?? 0, upper: box[k]?.[1] ?? 1, angle: units?.[k] === "rad" })));
+    this.space?.show({ ...data, surface_groups: groups }, themeOf(this.settings), hidden, this.slice, axes);
   }
 }
