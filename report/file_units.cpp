@@ -180,11 +180,13 @@ std::string place_words(std::span<const double> at, const std::vector<bool>& ang
   return "(" + words + ")" + (mixed ? "" : " " + length.name);
 }
 
-core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles) {
+core::FieldMap in_file_units(core::FieldMap map, const core::Units& units) {
   if (!units.declared) return map;
-  const Scaling scaling(units, angles);
+  const Scaling scaling(units, map.angles);
   scaling.place(map.lower);
   scaling.place(map.upper);
+  for (std::size_t c = 0; c < map.dimension(); ++c)
+    for (double& value : map.axes[c]) value *= scaling.factor(c);
   for (core::Field& field : map.fields) {
     const ShownUnit shown = shown_unit(field.unit, units);
     field.unit = shown.name;

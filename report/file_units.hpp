@@ -20,8 +20,8 @@ namespace clearloci::report {
 core::LocusMap in_file_units(core::LocusMap map);
 core::Zones in_file_units(core::Zones map);
 core::Sketch in_file_units(core::Sketch sketch, const core::Units& units);
-/// `angles` as of LocusMap. Fields in m and rad get the file's units, angles among them.
-core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles);
+/// Fields in m and rad get the file's units, angles among them.
+core::FieldMap in_file_units(core::FieldMap map, const core::Units& units);
 /// Columns of m, rad, N and their rates.
 core::Table in_file_units(core::Table table, const core::Units& units);
 

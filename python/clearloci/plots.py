@@ -92,8 +92,7 @@ def plot_field(errors: Any, field: str, ax: Axes | None) -> Axes:
     most = float(np.percentile(known, 90)) if known.size else 1.0
     signed = bool(np.nanmin(values) < 0) if known.size else False
     image = ax.pcolormesh(
-        errors.x,
-        errors.y,
+        *(errors.axes[name] for name in errors.coordinates),
         values,
         cmap="coolwarm" if signed else "viridis",
         vmin=-most if signed else 0,
@@ -101,6 +100,19 @@ def plot_field(errors: Any, field: str, ax: Axes | None) -> Axes:
         shading="nearest",
     )
     ax.figure.colorbar(image, ax=ax, label=f"{field} ({errors.units[field]})", extend="both" if signed else "max")
+    return ax
+
+
+def plot_line(errors: Any, field: str, ax: Axes | None) -> Axes:
+    """A field over a single coordinate, broken at the loci."""
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        ax = plt.subplots(layout="constrained")[1]
+    (name,) = errors.coordinates
+    ax.plot(errors.axes[name], errors.fields[field])
+    ax.set_xlabel(f"{name} ({errors.units[name]})")
+    ax.set_ylabel(f"{field} ({errors.units[field]})")
     return ax
 
 
