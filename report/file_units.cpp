@@ -157,12 +157,15 @@ core::Sketch in_file_units(core::Sketch sketch, const core::Units& units) {
   return sketch;
 }
 
-ShownUnit table_unit(const std::string& si, const core::Units& units, double most) {
-  if (si != "m" || units.declared) return core::told_unit(si, units);
+ShownUnit unit_of_size(const std::string& si, double most) {
   // From a tenth of the larger unit on, which reads better: 0.2 mm, and 50 µm.
-  if (most >= 0.1 || !(most > 0)) return {"m", 1};
-  if (most >= 1e-4) return {"mm", 1e3};
-  return most >= 1e-7 ? ShownUnit{"µm", 1e6} : ShownUnit{"nm", 1e9};
+  if (most >= 0.1 || !(most > 0)) return {si, 1};
+  if (most >= 1e-4) return {"m" + si, 1e3};
+  return most >= 1e-7 ? ShownUnit{"µ" + si, 1e6} : ShownUnit{"n" + si, 1e9};
+}
+
+ShownUnit table_unit(const std::string& si, const core::Units& units, double most) {
+  return si != "m" || units.declared ? core::told_unit(si, units) : unit_of_size(si, most);
 }
 
 std::string place_words(std::span<const double> at, const std::vector<bool>& angles, const core::Units& units,
