@@ -4,16 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/error.hpp"
-#include "analysis/framed.hpp"
-#include "analysis/model.hpp"
+#include "analysis/coordinate_errors.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/reaction_rows.hpp"
-#include "analysis/request_limits.hpp"
-#include "analysis/singular_modes.hpp"
-#include "core/errors.hpp"
-#include "mechanism/fits.hpp"
-#include "mechanism/notes.hpp"
 #include "numeric/error_map.hpp"
 #include "numeric/error_range.hpp"
 
@@ -100,8 +93,20 @@ void put_take_up(TableRows& row, const numeric::NumericModel& model, const Range
   }
 }
 
-/// Of numeric::error_components.
-std::vector<double> values_of(mechanism::Space space, const numeric::Accuracy& accuracy) {
+/// A row a pose.
+core::Table take_up_of(const numeric::NumericModel& model, const std::vector<RangePose>& poses) {
+  core::Table table;
+  TableRows row(table);
+  for (const RangePose& pose : poses) {
+    put_reactions(row, model, pose);
+    put_take_up(row, model, pose);
+    row.end_row();
+  }
+  return table;
+}
+
+/// Of numeric::error_fields.
+std::vector<double> values_of(mechanism::Space space, const RangePose& pose, bool under_load, bool worst_case) {
   std::vector<double> values;
   const auto add = [&](const numeric::PoseError& error, double distance) {
     const PoseError parts = error_of(space, error);
@@ -109,29 +114,24 @@ std::vector<double> values_of(mechanism::Space space, const numeric::Accuracy& a
     values.insert(values.end(), parts.rotation.begin(), parts.rotation.end());
     values.push_back(distance);
   };
-  add(accuracy.error, accuracy.error.dp.norm());
-  add({accuracy.worst.dalpha, accuracy.worst.dp}, accuracy.worst.distance);
+  const numeric::Accuracy& own = pose.accuracy;
+  if (under_load) add(own.error, own.error.dp.norm());
+  if (worst_case) add({own.worst.dalpha, own.worst.dp}, own.worst.distance);
+  for (double& value : values)
+    if (!pose.reachable || !std::isfinite(value)) value = nan;
   return values;
 }
 
-core::Table table_of(const numeric::NumericModel& model, const std::vector<RangePose>& poses,
-                     const std::vector<core::IsolatedPoint>& events, const std::vector<ErrorComponent>& components) {
-  core::Table table;
-  TableRows row(table);
-  const mechanism::Coordinate& coordinate = model.mechanism.coordinates.front();
-  for (RangePose pose : poses) {
-    // On an event nothing is told: what has a limit there has the same one in the rows beside it.
-    const bool on_event = std::any_of(events.begin(), events.end(), [&](const auto& e) { return e.at[0] == pose.at; });
-    pose.reachable = pose.reachable && !on_event;
-    const std::vector<double> values = values_of(model.mechanism.space, pose.accuracy);
-    row.put(coordinate.name, coordinate.angle ? "rad" : "m", pose.at);
-    put_reactions(row, model, pose);
-    put_take_up(row, model, pose);
-    for (std::size_t c = 0; c < components.size(); ++c)
-      row.put(components[c].name, components[c].unit, pose.reachable && std::isfinite(values[c]) ? values[c] : nan);
-    row.end_row();
+void put_values(const numeric::NumericModel& model, const std::vector<RangePose>& poses, bool worst_case,
+                ModeErrors& errors) {
+  const mechanism::Space space = model.mechanism.space;
+  const bool under_load = errors.never_loaded.empty();
+  std::vector<core::Field>& fields = errors.map.fields;
+  fields = numeric::error_fields(space, under_load, worst_case);
+  for (const RangePose& pose : poses) {
+    const std::vector<double> values = values_of(space, pose, under_load, worst_case);
+    for (std::size_t f = 0; f < fields.size(); ++f) fields[f].values.push_back(values[f]);
   }
-  return table;
 }
 
 /// The error is smooth from an event to its neighbours, or to the ends of the range.
@@ -146,16 +146,16 @@ double free_beside(const std::vector<core::IsolatedPoint>& events, std::size_t i
 }
 
 /// The jump without what is rounding only.
-PoseError without_noise(PoseError jump, const core::Table& table, const std::vector<core::ErrorComponent>& components) {
+PoseError without_noise(PoseError jump, const core::FieldMap& map) {
   // Of the largest displacement, or rotation, in any direction. A platform that cannot turn does so by rounding: by a
   // displacement's last digits over a metre.
   constexpr double rounding = 1e-12;  // 1/m
   double displaced = 0;
   const auto drop = [&](std::vector<double>& parts, const std::string& unit) {
     double most = 0;
-    for (const core::ErrorComponent& own : components)
-      if (own.is_signed && own.unit == unit)
-        for (const double value : table.at(own.name))
+    for (const core::Field& field : map.fields)
+      if (field.is_signed && field.unit == unit)
+        for (const double value : field.values)
           if (std::isfinite(value)) most = std::max(most, std::abs(value));
     for (double& part : parts)
       if (std::abs(part) <= std::max(least_jump * most, rounding * displaced)) part = 0;
@@ -168,50 +168,33 @@ PoseError without_noise(PoseError jump, const core::Table& table, const std::vec
 
 }  // namespace
 
-CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
-  if (mechanism.coordinates.size() != 1)
-    throw core::InputError({mechanism.file}, "errors over a range need one free coordinate",
-                           "write the others as parameters");
-  if (const std::optional<Framed> own = framed_where_far(mechanism))
-    return from_frame(coordinate_errors(own->mechanism, request), mechanism, own->frame);
-  CoordinateErrors all;
-  all.loci = loci_below(mechanism, request);
-  const std::vector<DyadSides> modes =
-      regular_modes(mechanism, requested_modes(mechanism, request.loci), all.loci.notes);
-  const numeric::NumericModel model = numeric::compile(mechanism);
-  all.mechanism = mechanism.name;
-  all.notes = mechanism::fit_notes(mechanism);
-  for (std::string& note : mechanism::notes_of(mechanism)) all.notes.push_back(std::move(note));
-  all.coordinate = mechanism.coordinates.front().name;
-  all.angle = mechanism.coordinates.front().angle;
-  all.range = model.box.front();
-  all.steps = request.steps;
-  for (const mechanism::Joint& joint : mechanism.joints) all.joints.push_back(joint.name);
-  all.components = numeric::error_components(mechanism.space, request.worst_case);
-  for (const DyadSides& sides : modes) {
-    CoordinateModeErrors own;
-    own.mode = mode_in(all.loci, sides);
-    const std::vector<core::IsolatedPoint> events = events_of(all.loci, own.mode);
-    const std::vector<RangePose> poses = numeric::error_range(model, sides, values_of(all.range, all.steps, events));
-    own.samples = table_of(model, poses, events, all.components);
-    for (const ErrorComponent& component : all.components)
-      own.sizes.push_back(sizes_of(own.samples.at(component.name)));
-    own.never_loaded = numeric::never_loaded(model, poses);
-    for (std::size_t i = 0; i < events.size(); ++i) {
-      const numeric::PoseError jump =
-          numeric::error_jump(model, sides, events[i].at.front(), free_beside(events, i, all.range));
-      own.events.push_back(
-          {events[i], jumps(events[i]), without_noise(error_of(mechanism.space, jump), own.samples, all.components)});
-    }
-    all.modes.push_back(std::move(own));
+ModeErrors coordinate_errors(const numeric::NumericModel& model, const DyadSides& sides, const core::LocusMap& loci,
+                             const ErrorRequest& request) {
+  const std::array<double, 2> range = model.box.front();
+  ModeErrors errors;
+  errors.mode = mode_in(loci, sides);
+  const std::vector<core::IsolatedPoint> events = events_of(loci, errors.mode);
+  errors.map = numeric::empty_error_map(model, {values_of(range, request.grid.front(), events)});
+  std::vector<RangePose> poses =
+      numeric::error_range(model, sides, errors.map.axes.front(), request.loci.deadline);
+  errors.never_loaded = numeric::never_loaded(model, poses);
+  for (RangePose& pose : poses) {
+    if (pose.reachable) ++errors.reachable;
+    // On an event nothing is told: what has a limit there has the same one in the rows beside it.
+    const bool on_event = std::any_of(events.begin(), events.end(), [&](const auto& e) { return e.at[0] == pose.at; });
+    const bool defined = !on_event && pose.accuracy.undefined.empty();
+    if (pose.reachable && errors.never_loaded.empty() && !defined) ++errors.undefined;
+    pose.reachable = pose.reachable && !on_event;
   }
-  return all;
-}
-
-CoordinateErrors coordinate_errors(const Model& model, const ErrorRequest& request) {
-  const mechanism::Mechanism& mechanism = model.content().mechanism;
-  check_request(mechanism, request);
-  return coordinate_errors(mechanism, request);
+  errors.take_up = take_up_of(model, poses);
+  put_values(model, poses, request.worst_case, errors);
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const numeric::PoseError jump =
+        numeric::error_jump(model, sides, events[i].at.front(), free_beside(events, i, range));
+    errors.events.push_back(
+        {events[i], jumps(events[i]), without_noise(error_of(model.mechanism.space, jump), errors.map)});
+  }
+  return errors;
 }
 
 }  // namespace clearloci

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/coordinate_errors.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
@@ -25,22 +26,43 @@ core::LocusMap with_modes(const mechanism::Mechanism& mechanism, core::LocusMap 
   return loci;
 }
 
+/// The loci that are drawn over the errors, or a map without any, complete with the names of the working modes.
+core::LocusMap loci_below(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
+  const bool traced = request.with_loci && mechanism.coordinates.size() < 3;
+  return traced ? with_modes(mechanism, trace_loci(mechanism, request.loci)) : empty_map(mechanism);
+}
+
 std::vector<std::optional<ErrorSizes>> sizes_in(const core::FieldMap& map, const std::vector<std::size_t>* cells) {
   std::vector<std::optional<ErrorSizes>> sizes;
   for (const core::Field& field : map.fields) sizes.push_back(sizes_of(field.values, cells));
   return sizes;
 }
 
-ModeErrors mode_errors(const numeric::NumericModel& model, const DyadSides& sides, const ErrorRequest& request) {
-  numeric::ErrorMap found =
-      numeric::error_map(model, sides, {.nx = request.nx, .ny = request.ny, .worst_case = request.worst_case});
-  ModeErrors own;
-  own.map = std::move(found.map);
-  own.sizes = sizes_in(own.map, nullptr);
-  own.reachable = found.reachable;
-  own.undefined = found.undefined;
-  own.never_loaded = std::move(found.never_loaded);
-  return own;
+ModeErrors grid_errors(const numeric::NumericModel& model, const DyadSides& sides, const ErrorRequest& request) {
+  numeric::ErrorMap found = numeric::error_map(
+      model, sides,
+      {.cells = request.grid, .worst_case = request.worst_case, .deadline = request.loci.deadline});
+  ModeErrors errors;
+  errors.map = std::move(found.map);
+  errors.reachable = found.reachable;
+  errors.undefined = found.undefined;
+  errors.never_loaded = std::move(found.never_loaded);
+  return errors;
+}
+
+void add_zones(const core::Zones& zones, const DyadSides& sides, ModeErrors& errors) {
+  const core::WorkingMode mode = mode_in(zones.loci, sides);
+  for (std::size_t z = 0; z < zones.zones.size(); ++z) {
+    if (zones.zones[z].mode != mode) continue;
+    std::vector<std::size_t> cells = cells_in(zones, z, errors.map);
+    std::vector<std::optional<ErrorSizes>> sizes = sizes_in(errors.map, &cells);
+    errors.zones.push_back({zones.zones[z].id, std::move(cells), std::move(sizes)});
+  }
+}
+
+void check_zones(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
+  if (request.with_zones && !request.with_loci && mechanism::is_plane(mechanism))
+    throw core::InputError({mechanism.file}, "zones are bounded by the loci", "ask for the loci too");
 }
 
 }  // namespace
@@ -67,48 +89,53 @@ std::optional<ErrorSizes> sizes_of(const std::vector<double>& values, const std:
   return ErrorSizes{part(0.5), part(0.9), part(0.99), values[at], at};
 }
 
-core::LocusMap loci_below(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
-  return request.with_loci ? with_modes(mechanism, trace_loci(mechanism, request.loci)) : empty_map(mechanism);
-}
-
 core::WorkingMode mode_in(const core::LocusMap& loci, const DyadSides& sides) {
   return loci.tower.roots.empty() ? sides : mode_of(sides, loci.tower);
 }
 
-ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
-  if (request.with_zones && !request.with_loci)
-    throw core::InputError({mechanism.file}, "zones are bounded by the loci", "ask for the loci too");
-  require_coordinates(mechanism, 2, 2, "maps of errors are drawn");
-  if (request.with_zones && !mechanism::is_plane(mechanism))
-    throw core::InputError({mechanism.file}, "errors zone by zone are those over two lengths", "ask without zones");
-  if (const std::optional<Framed> own = framed_where_far(mechanism))
-    return from_frame(error_map(own->mechanism, request), mechanism, own->frame);
+std::vector<int> error_grid(const ErrorRequest& request, std::size_t coordinates) {
+  if (!request.grid.empty()) return request.grid;
+  return coordinates == 1 ? std::vector<int>{720} : std::vector<int>(coordinates, coordinates == 2 ? 400 : 40);
+}
+
+Errors find_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& given) {
+  require_coordinates(mechanism, 1, 3, "errors are mapped");
+  check_zones(mechanism, given);
+  if (const std::optional<Framed> inside = framed_where_far(mechanism))
+    return from_frame(find_errors(inside->mechanism, given), mechanism, inside->frame);
+  ErrorRequest request = given;
+  request.grid = error_grid(given, mechanism.coordinates.size());
   const numeric::NumericModel model = numeric::compile(mechanism);
-  ErrorMap errors;
+  Errors errors;
+  errors.grid = request.grid;
+  for (const mechanism::Joint& joint : mechanism.joints) errors.joints.push_back(joint.name);
   errors.notes = mechanism::fit_notes(mechanism);
   for (std::string& note : mechanism::notes_of(mechanism)) errors.notes.push_back(std::move(note));
   core::Zones zones;
-  if (request.with_zones) zones = find_zones(mechanism, {request.loci});
-  errors.loci = request.with_zones ? with_modes(mechanism, std::move(zones.loci)) : loci_below(mechanism, request);
-  for (const DyadSides& sides : regular_modes(mechanism, requested_modes(mechanism, request.loci), errors.loci.notes)) {
-    if (request.loci.progress) request.loci.progress(0.9, "errors");
-    ModeErrors own = mode_errors(model, sides, request);
-    own.mode = mode_in(errors.loci, sides);
-    for (const core::Zone& zone : zones.zones) {
-      if (zone.mode != own.mode) continue;
-      std::vector<std::size_t> cells = cells_in(zone, own.map);
-      std::vector<std::optional<ErrorSizes>> sizes = sizes_in(own.map, &cells);
-      own.zones.push_back({zone.id, std::move(cells), std::move(sizes)});
-    }
-    errors.modes.push_back(std::move(own));
+  if (request.with_zones) zones = find_zones(mechanism, {.loci = request.loci, .cells = request.zone_cells, .grid = request.grid});
+  if (request.with_zones && !zones.by_cells)
+    errors.loci = with_modes(mechanism, zones.loci);
+  else
+    errors.loci = loci_below(mechanism, request);
+  if (zones.loci.out_of_time) errors.loci.complete = false, errors.loci.out_of_time = true;
+  // Where the loci took all of the time, the errors are still worth having.
+  if (errors.loci.out_of_time) request.loci.deadline.reset();
+  for (const DyadSides& sides : regular_modes(mechanism, requested_modes(mechanism, request.loci), errors.notes)) {
+    if (request.loci.progress) request.loci.progress(request.with_loci || request.with_zones ? 0.9 : 0, "errors");
+    ModeErrors mode = mechanism.coordinates.size() == 1 ? coordinate_errors(model, sides, errors.loci, request)
+                                                        : grid_errors(model, sides, request);
+    mode.mode = mode_in(errors.loci, sides);
+    mode.sizes = sizes_in(mode.map, nullptr);
+    add_zones(zones, sides, mode);
+    errors.modes.push_back(std::move(mode));
   }
   return errors;
 }
 
-ErrorMap error_map(const Model& model, const ErrorRequest& request) {
+Errors find_errors(const Model& model, const ErrorRequest& request) {
   const mechanism::Mechanism& mechanism = model.content().mechanism;
   check_request(mechanism, request);
-  return error_map(mechanism, request);
+  return find_errors(mechanism, request);
 }
 
 }  // namespace clearloci

@@ -1,5 +1,5 @@
 // Pose errors over the workspace (clearloci/error.hpp), together with the loci at which they jump:
-//     Mechanism -> trace_loci, find_zones; numeric::error_map, numeric::error_range -> ErrorMap, CoordinateErrors
+//     Mechanism -> trace_loci, find_zones; numeric::error_map, numeric::error_range -> Errors
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,14 @@
 
 namespace clearloci {
 
-/// As the public ones.
-ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& request = {});
-VolumeErrors error_volume(const mechanism::Mechanism& mechanism, const ErrorRequest& request = {});
-CoordinateErrors coordinate_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& request = {});
+/// As the public one.
+Errors find_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& request = {});
+
+/// The cells along each coordinate that a request means.
+std::vector<int> error_grid(const ErrorRequest& request, std::size_t coordinates);
 
 /// Sizes of some values; `which`: those that count, null: all. Nothing where none is finite.
 std::optional<ErrorSizes> sizes_of(const std::vector<double>& values, const std::vector<std::size_t>* which = nullptr);
-
-/// The loci that are drawn below the errors, or a map without any, complete with the names of the working modes.
-core::LocusMap loci_below(const mechanism::Mechanism& mechanism, const ErrorRequest& request);
 
 /// Sides as a mode of that map.
 core::WorkingMode mode_in(const core::LocusMap& loci, const DyadSides& sides);

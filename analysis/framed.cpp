@@ -283,31 +283,16 @@ Pose from_frame(Pose pose, const mechanism::Mechanism& mechanism, const Frame& f
   return pose;
 }
 
-ErrorMap from_frame(ErrorMap errors, const mechanism::Mechanism& mechanism, const Frame& frame) {
-  errors.loci = from_frame(std::move(errors.loci), mechanism, frame);
-  for (core::ModeErrors& mode : errors.modes)
-    for (std::size_t i = 0; i < 2; ++i) {
-      mode.map.lower[i] = core::to_double(mechanism.coordinates[i].lower);
-      mode.map.upper[i] = core::to_double(mechanism.coordinates[i].upper);
-    }
-  return errors;
-}
-
-VolumeErrors from_frame(VolumeErrors errors, const mechanism::Mechanism& mechanism) {
-  for (core::VolumeModeErrors& mode : errors.modes)
-    for (std::size_t i = 0; i < 3; ++i) {
-      mode.volume.lower[i] = core::to_double(mechanism.coordinates[i].lower);
-      mode.volume.upper[i] = core::to_double(mechanism.coordinates[i].upper);
-    }
-  return errors;
-}
-
-CoordinateErrors from_frame(CoordinateErrors errors, const mechanism::Mechanism& mechanism, const Frame& frame) {
+Errors from_frame(Errors errors, const mechanism::Mechanism& mechanism, const Frame& frame) {
   const Outward outward(mechanism, frame);
   errors.loci = from_frame(std::move(errors.loci), mechanism, frame);
-  errors.range = {core::to_double(mechanism.coordinates[0].lower), core::to_double(mechanism.coordinates[0].upper)};
-  for (core::CoordinateModeErrors& mode : errors.modes) {
-    for (double& value : mode.samples.columns.front()) value = outward.value(value, 0);
+  for (core::ModeErrors& mode : errors.modes) {
+    core::FieldMap& map = mode.map;
+    for (std::size_t c = 0; c < map.dimension(); ++c) {
+      map.lower[c] = core::to_double(mechanism.coordinates[c].lower);
+      map.upper[c] = core::to_double(mechanism.coordinates[c].upper);
+      for (double& value : map.axes[c]) value = outward.value(value, c);
+    }
     for (core::ErrorEvent& event : mode.events) outward.move(event.point.at);
   }
   return errors;

@@ -49,10 +49,7 @@ mechanism::Trajectory in_frame(mechanism::Trajectory trajectory, const mechanism
 core::LocusMap from_frame(core::LocusMap map, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 core::Zones from_frame(core::Zones map, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 Pose from_frame(Pose pose, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
-ErrorMap from_frame(ErrorMap errors, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
-VolumeErrors from_frame(VolumeErrors errors, const mechanism::Mechanism& mechanism);
-CoordinateErrors from_frame(CoordinateErrors errors, const mechanism::Mechanism& mechanism,
-                            const mechanism::Frame& frame);
+Errors from_frame(Errors errors, const mechanism::Mechanism& mechanism, const mechanism::Frame& frame);
 TrajectoryResult from_frame(TrajectoryResult result, const mechanism::Mechanism& mechanism,
                             const mechanism::Frame& frame);
 /// Where a task fails or stays open.

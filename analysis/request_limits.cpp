@@ -107,10 +107,14 @@ void check_request(const mechanism::Mechanism& mechanism, const LociRequest& req
 
 void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
   check_request(mechanism, request.loci);
+  if (request.grid.empty()) return;
   const std::size_t count = mechanism.coordinates.size();
-  if (count == 1) check_nodes({request.steps}, 1);
-  if (count == 2) check_nodes({request.nx, request.ny}, 1);
-  if (count == 3) check_nodes({request.cells.begin(), request.cells.end()}, 1);
+  if (request.grid.size() != count)
+    throw InputError({},
+                     "the grid has " + std::to_string(request.grid.size()) + " numbers of cells, and " +
+                         std::to_string(count) + " coordinates are free",
+                     "give one for each");
+  check_nodes(request.grid, 1);
 }
 
 void check_nodes(const std::vector<int>& nodes, int least) {

@@ -9,7 +9,8 @@
 
 namespace clearloci {
 
-/// The cells whose middle lies in the zone, by their index in the map's fields, ascending.
-std::vector<std::size_t> cells_in(const core::Zone& zone, const core::FieldMap& map);
+/// The cells of the map whose place lies in the zone of that number, by their index, ascending: over two lengths by the
+/// zone's rings, over a single coordinate by its ends, else by labels, which the zones have on the map's grid.
+std::vector<std::size_t> cells_in(const core::Zones& zones, std::size_t number, const core::FieldMap& map);
 
 }  // namespace clearloci

@@ -8,6 +8,7 @@
 #include "analysis/framed.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/verification.hpp"
@@ -286,7 +287,12 @@ Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& r
     ground.lower.push_back(core::to_double(c.lower));
     ground.upper.push_back(core::to_double(c.upper));
   }
-  map.grid.assign(ground.lower.size(), raster_of(ground.lower.size()));
+  if (!request.grid.empty() && request.grid.size() != ground.lower.size())
+    throw core::InputError({}, "the grid of labels has another number of coordinates than the mechanism",
+                           "give a number of cells for each");
+  if (!request.grid.empty()) check_nodes(request.grid, 1);
+  map.grid = request.grid;
+  if (map.grid.empty()) map.grid.assign(ground.lower.size(), raster_of(ground.lower.size()));
   std::vector<DyadSides> modes = requested_modes(mechanism, request.loci);
   if (modes.size() > 1) modes = regular_modes(mechanism, modes, map.loci.notes);
   for (std::size_t m = 0; m < modes.size(); ++m) {

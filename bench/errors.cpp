@@ -17,7 +17,7 @@ void error_map(benchmark::State& state) {
   const std::vector<int> mode = mechanism::working_mode(model.mechanism);
   const bool worst_case = state.range(0) != 0;
   for (auto _ : state)
-    benchmark::DoNotOptimize(numeric::error_map(model, mode, {.nx = 1000, .ny = 1000, .worst_case = worst_case}));
+    benchmark::DoNotOptimize(numeric::error_map(model, mode, {.cells = {1000, 1000}, .worst_case = worst_case}));
 }
 
 void period_sweep(benchmark::State& state) {

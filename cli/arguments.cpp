@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <optional>
 
@@ -228,31 +229,24 @@ std::vector<double> parse_rates(const std::string& text, const std::string& opti
   return rates;
 }
 
-std::pair<int, int> parse_grid(const std::string& text) {
-  constexpr int most = 20000;  // nodes along an axis; their square is the edge of what a machine of today holds
-  const std::vector<std::string> words = split(text, 'x');
-  if (words.size() == 2) {
-    const std::optional<int> columns = whole_number(words[0]);
-    const std::optional<int> rows = whole_number(words[1]);
-    if (columns && rows && *columns >= 2 && *rows >= 2 && *columns <= most && *rows <= most) return {*columns, *rows};
-  }
-  refuse("--grid", fmt::format("'{}' is not a grid", text),
-         fmt::format("give the nodes along each coordinate, from 2 to {}, e.g. --grid 400x400", most));
-}
-
-std::array<int, 3> parse_volume_grid(const std::string& text) {
-  constexpr int most = 2000;
-  const std::vector<std::string> words = split(text, 'x');
-  std::array<int, 3> grid{};
-  bool good = words.size() == 3;
-  for (std::size_t c = 0; good && c < 3; ++c) {
-    const std::optional<int> own = whole_number(words[c]);
-    good = own && *own >= 2 && *own <= most;
-    if (good) grid[c] = *own;
-  }
-  if (good) return grid;
-  refuse("--grid", fmt::format("'{}' is not a grid over three coordinates", text),
-         fmt::format("give the nodes along each, from 2 to {}, e.g. --grid 40x40x40", most));
+std::vector<int> parse_grid(const std::string& text, std::size_t coordinates) {
+  struct Usual {
+    int most;  // along a coordinate; their product is the edge of what a machine of today holds
+    const char *what, *example;
+  };
+  constexpr std::array<Usual, 3> usual = {{{1000000, "number of steps along the only free coordinate", "720"},
+                                           {20000, "grid over two coordinates", "400x400"},
+                                           {2000, "grid over three coordinates", "40x40x40"}}};
+  core::ensure(1 <= coordinates && coordinates <= usual.size(), "grids are over one to three coordinates");
+  const Usual& own = usual[coordinates - 1];
+  std::vector<int> grid;
+  for (const std::string& word : split(text, 'x'))
+    if (const std::optional<int> count = whole_number(word); count && *count >= 2 && *count <= own.most)
+      grid.push_back(*count);
+  if (grid.size() == coordinates && split(text, 'x').size() == coordinates) return grid;
+  refuse("--grid", fmt::format("'{}' is not a {}", text, own.what),
+         coordinates == 1 ? fmt::format("give one number from 2 to {}, e.g. --grid {}", own.most, own.example)
+                          : fmt::format("give the cells along each, from 2 to {}, e.g. --grid {}", own.most, own.example));
 }
 
 std::pair<std::size_t, double> parse_slice(const std::string& text, const mechanism::Mechanism& mechanism) {
@@ -266,14 +260,6 @@ std::pair<std::size_t, double> parse_slice(const std::string& text, const mechan
     return {c, core::to_double(value)};
   }
   refuse("--slice", fmt::format("'{}' is no slice", text), "give a free coordinate and its value, such as z=0.3");
-}
-
-int parse_steps(const std::string& text) {
-  constexpr int most = 1000000;
-  const std::optional<int> steps = whole_number(text);
-  if (steps && *steps >= 2 && *steps <= most) return *steps;
-  refuse("--grid", fmt::format("'{}' is no number of steps along the only free coordinate", text),
-         fmt::format("give one number from 2 to {}, e.g. --grid 720", most));
 }
 
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <set>
@@ -67,17 +66,11 @@ std::vector<core::Rational> parse_pose(const std::string& text, const mechanism:
 std::vector<double> parse_rates(const std::string& text, const std::string& option,
                                 const mechanism::Mechanism& mechanism);
 
-/// "400x400": nodes along each coordinate.
-std::pair<int, int> parse_grid(const std::string& text);
-
-/// "40x40x40".
-std::array<int, 3> parse_volume_grid(const std::string& text);
+/// "400x400", "40x40x40" or "720": a number for each of so many coordinates, 2 at least.
+std::vector<int> parse_grid(const std::string& text, std::size_t coordinates);
 
 /// "z=0.3": a coordinate by its place, and a value within its range.
 std::pair<std::size_t, double> parse_slice(const std::string& text, const mechanism::Mechanism& mechanism);
-
-/// "720": steps along the only coordinate.
-int parse_steps(const std::string& text);
 
 /// `options.joints`, each of which may list several after commas; checked against the mechanism.
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism);

@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <tuple>
+#include <numeric>
 
 #include "analysis/loci.hpp"
 #include "cli/commands.hpp"
@@ -31,20 +31,14 @@ numeric::GridSpec grid_of(const ValidateCommand& arguments, const mechanism::Mec
   const std::size_t coordinates = mechanism.coordinates.size();
   const std::string usual = coordinates == 1 ? "4000" : coordinates == 3 ? "40x40x40" : "400x400";
   const std::string& words = arguments.grid.empty() ? usual : arguments.grid;
+  const std::vector<int> along = parse_grid(words, coordinates);
   numeric::GridSpec grid;
-  double nodes = 1;  // that are held at once
-  if (coordinates == 1) {
-    nodes = grid.nx = parse_steps(words);
-  } else if (coordinates == 3) {
-    const std::array<int, 3> along = parse_volume_grid(words);
-    grid.nx = along[0];
-    grid.ny = along[1];
-    grid.nz = along[2];
-    nodes = *std::max_element(along.begin(), along.end());
-  } else {
-    std::tie(grid.nx, grid.ny) = parse_grid(words);
-    nodes = static_cast<double>(grid.nx) * grid.ny;
-  }
+  grid.nx = along[0];
+  if (coordinates > 1) grid.ny = along[1];
+  if (coordinates > 2) grid.nz = along[2];
+  // Those that are held at once: over three coordinates a row.
+  const double nodes = coordinates == 3 ? *std::max_element(along.begin(), along.end())
+                                        : std::accumulate(along.begin(), along.end(), 1.0, std::multiplies<>());
   // At every node of one mode |A| and the numerators.
   require_memory(nodes * 8 * (2.0 + static_cast<double>(mechanism::unknowns(mechanism).size())), "--grid", words);
   return grid;
@@ -57,6 +51,7 @@ int run(const ValidateCommand& arguments, TimeLimit& limit) {
   });
   Progress progress(arguments.common.quiet);
   LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
+  require_coordinates(mechanism, 1, 3, "loci are held against a grid");
   const numeric::GridSpec grid = grid_of(arguments, mechanism);
   const core::Validation validation = validate_loci(mechanism, std::move(request), grid);
   progress.clear();

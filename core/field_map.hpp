@@ -1,5 +1,4 @@
-// Scalar fields over the plane of two free coordinates (clearloci/error.hpp): what numeric/ computes and report/ draws
-// and writes.
+// Scalar fields over the free coordinates (clearloci/error.hpp): what numeric/ computes and report/ draws and writes.
 #pragma once
 
 #include "clearloci/error.hpp"

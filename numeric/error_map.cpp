@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.hpp"
 #include "numeric/error_samples.hpp"
 #include "numeric/wrench_rows.hpp"
 
@@ -47,36 +48,14 @@ std::vector<std::string> joints_never_loaded(const NumericModel& model, std::spa
   return names;
 }
 
-void check_model(const NumericModel& model, std::size_t coordinates, const std::string& what) {
-  const auto refuse = [&](const std::string& problem, const std::string& mend) {
-    throw core::InputError({model.mechanism.file, 0, 0}, problem, mend);
-  };
-  if (model.box.size() != coordinates)
-    refuse(what + " free coordinates, and the workspace has " + std::to_string(model.box.size()),
-           "write the others as parameters, or use clearloci pose");
-  if (!any_clearance(joint_clearances(model.mechanism)))
-    refuse("no joint has a clearance, so there is no error", "write such as clearance: {radial: 10e-6} at a joint");
-}
-
 /// Errors of a row of cells, field after field.
 struct RowErrors {
   std::vector<std::vector<double>> fields;
   std::vector<bool> reachable;
 };
 
-std::vector<core::Field> fields_of(mechanism::Space space, bool under_load, bool worst_case, std::size_t cells) {
-  const std::vector<core::ErrorComponent> components = error_components(space, worst_case);
-  const std::size_t first = under_load ? 0 : error_components(space, false).size();
-  std::vector<core::Field> fields;
-  for (std::size_t c = first; c < components.size(); ++c) {
-    const core::ErrorComponent& own = components[c];
-    fields.push_back({own.name, own.label, own.unit, own.is_signed, std::vector<double>(cells, nan)});
-  }
-  return fields;
-}
-
 RowErrors row_of(const NumericModel& model, std::span<const double> poses, std::span<const int> mode, bool under_load,
-                 const VolumeGrid& grid) {
+                 const ErrorGrid& grid) {
   const ErrorSamples s = error_samples(model, poses, mode, under_load, grid.worst_case, grid.worst_case_accuracy);
   RowErrors row{{}, s.reachable};
   const auto add = [&](const auto& values, const auto& of) {
@@ -101,31 +80,27 @@ RowErrors row_of(const NumericModel& model, std::span<const double> poses, std::
 /// Fields over a grid, a row of cells along the first coordinate at a time.
 class FieldRows {
  public:
-  FieldRows(const NumericModel& model, std::span<const int> mode, const VolumeGrid& grid)
-      : model_(model), mode_(mode), grid_(grid) {
-    for (const int n : grid.cells)
-      if (n < 1) throw core::InputError({}, "the grid has no cells", "ask for 1x1 at least");
-  }
+  FieldRows(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid)
+      : model_(model), mode_(mode), grid_(grid), map_(empty_error_map(model, middles_of(model, grid.cells))) {}
 
-  ErrorVolume run() {
-    ErrorVolume result;
+  ErrorMap run() {
+    ErrorMap result;
     result.never_loaded = joints_never_loaded(model_, mode_, samples());
     const bool under_load = result.never_loaded.empty();
-    const int columns = grid_.cells[0];
-    const std::size_t lines = static_cast<std::size_t>(grid_.cells[1]) * static_cast<std::size_t>(grid_.cells[2]);
-    std::vector<core::Field>& fields = result.volume.fields;
-    fields = fields_of(model_.mechanism.space, under_load, grid_.worst_case, lines * static_cast<std::size_t>(columns));
+    map_.fields = error_fields(model_.mechanism.space, under_load, grid_.worst_case);
+    for (core::Field& field : map_.fields) field.values.assign(map_.size(), nan);
+    const std::size_t columns = map_.axes.front().size(), lines = map_.size() / columns;
     std::vector<std::array<std::size_t, 2>> counts(lines);  // reachable, undefined
     tbb::task_arena arena(grid_.threads > 0 ? grid_.threads : tbb::task_arena::automatic);
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, lines, [&](std::size_t line) {
         if (grid_.deadline && std::chrono::steady_clock::now() >= *grid_.deadline)
           throw core::LimitReached("the errors could not be computed within the time limit; ask for fewer cells");
-        const std::vector<double> poses = poses_of(line);
+        const std::vector<double> poses = poses_of(line * columns, columns);
         const RowErrors row = row_of(model_, poses, mode_, under_load, grid_);
         for (std::size_t f = 0; f < row.fields.size(); ++f)
           std::copy(row.fields[f].begin(), row.fields[f].end(),
-                    fields[f].values.begin() + static_cast<std::ptrdiff_t>(line * static_cast<std::size_t>(columns)));
+                    map_.fields[f].values.begin() + static_cast<std::ptrdiff_t>(line * columns));
         for (std::size_t i = 0; i < row.reachable.size(); ++i) {
           if (!row.reachable[i]) continue;
           ++counts[line][0];
@@ -137,104 +112,96 @@ class FieldRows {
       result.reachable += reachable;
       result.undefined += undefined;
     }
+    result.map = std::move(map_);
     return result;
   }
 
  private:
-  double at(std::size_t coordinate, int cell) const {
-    const auto& [low, high] = model_.box[coordinate];
-    return low + (cell + 0.5) * (high - low) / grid_.cells[coordinate];
+  static std::vector<std::vector<double>> middles_of(const NumericModel& model, const std::vector<int>& cells) {
+    if (cells.size() != model.box.size())
+      throw core::InputError({model.mechanism.file},
+                             "the grid has " + std::to_string(cells.size()) + " numbers of cells, and " +
+                                 std::to_string(model.box.size()) + " coordinates are free",
+                             "give one for each");
+    std::vector<std::vector<double>> axes;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (cells[c] < 1) throw core::InputError({}, "the grid has no cells", "ask for 1x1 at least");
+      const auto& [low, high] = model.box[c];
+      std::vector<double>& axis = axes.emplace_back();
+      for (int i = 0; i < cells[c]; ++i) axis.push_back(low + (i + 0.5) * (high - low) / cells[c]);
+    }
+    return axes;
   }
 
-  std::vector<double> poses_of(std::size_t line) const {
-    const auto rows = static_cast<std::size_t>(grid_.cells[1]);
+  std::vector<double> poses_of(std::size_t first, std::size_t count) const {
     std::vector<double> poses;
-    poses.reserve(model_.box.size() * static_cast<std::size_t>(grid_.cells[0]));
-    for (int i = 0; i < grid_.cells[0]; ++i) {
-      poses.push_back(at(0, i));
-      poses.push_back(at(1, static_cast<int>(line % rows)));
-      if (model_.box.size() > 2) poses.push_back(at(2, static_cast<int>(line / rows)));
+    poses.reserve(model_.box.size() * count);
+    for (std::size_t cell = first; cell < first + count; ++cell) {
+      const std::array<std::size_t, 3> at = map_.cell(cell);
+      for (std::size_t c = 0; c < map_.axes.size(); ++c) poses.push_back(map_.axes[c][at[c]]);
     }
     return poses;
   }
 
-  /// Middles of some cells, the last coordinate slowest.
+  /// Some hundred places, spread over the cells.
   std::vector<std::vector<double>> samples() const {
-    const std::size_t n = model_.box.size();
-    const int each = n > 2 ? 9 : 24;
+    const std::size_t n = map_.axes.size(), each = n == 1 ? 576 : n == 2 ? 24 : 9;
+    core::FieldMap spread;
+    for (const std::vector<double>& axis : map_.axes) {
+      std::vector<double>& some = spread.axes.emplace_back();
+      for (std::size_t i = 0; i < each; ++i) some.push_back(axis[i * axis.size() / each]);
+    }
     std::vector<std::vector<double>> poses;
-    const int layers = n > 2 ? each : 1;
-    for (int k = 0; k < layers; ++k)
-      for (int j = 0; j < each; ++j)
-        for (int i = 0; i < each; ++i) {
-          std::vector<double> pose;
-          const std::array<int, 3> part = {i, j, k};
-          for (std::size_t c = 0; c < n; ++c) pose.push_back(at(c, part[c] * grid_.cells[c] / each));
-          poses.push_back(std::move(pose));
-        }
+    for (std::size_t k = 0; k < spread.size(); ++k) poses.push_back(spread.place(k));
     return poses;
   }
 
   const NumericModel& model_;
   std::span<const int> mode_;
-  const VolumeGrid& grid_;
+  const ErrorGrid& grid_;
+  core::FieldMap map_;
 };
 
 }  // namespace
 
-std::vector<core::ErrorComponent> error_components(mechanism::Space space, bool worst_case) {
-  std::vector<core::ErrorComponent> components = {{"dx", "error in x", "m", true}, {"dy", "error in y", "m", true}};
+std::vector<core::Field> error_fields(mechanism::Space space, bool under_load, bool worst_case) {
+  std::vector<core::Field> components = {{"dx", "error in x", "m", true, {}}, {"dy", "error in y", "m", true, {}}};
   if (space == mechanism::Space::planar) {
-    components.push_back({"dalpha", "error in orientation", "rad", true});
+    components.push_back({"dalpha", "error in orientation", "rad", true, {}});
   } else {
-    components.push_back({"dz", "error in z", "m", true});
+    components.push_back({"dz", "error in z", "m", true, {}});
     for (const std::string axis : {"x", "y", "z"})
-      components.push_back({"dalpha_" + axis, "rotation about " + axis, "rad", true});
+      components.push_back({"dalpha_" + axis, "rotation about " + axis, "rad", true, {}});
   }
-  components.push_back({"dp", "distance from the nominal place", "m"});
-  const std::size_t under_load = components.size();
-  for (std::size_t c = 0; worst_case && c < under_load; ++c) {
-    const core::ErrorComponent own = components[c];
-    components.push_back({"worst_" + own.name, "largest " + own.label + " under any load", own.unit});
+  components.push_back({"dp", "distance from the nominal place", "m", false, {}});
+  std::vector<core::Field> fields;
+  if (under_load) fields = components;
+  for (std::size_t c = 0; worst_case && c < components.size(); ++c)
+    fields.push_back({"worst_" + components[c].name,
+                      "largest " + components[c].label + " under any load",
+                      components[c].unit,
+                      false,
+                      {}});
+  return fields;
+}
+
+core::FieldMap empty_error_map(const NumericModel& model, std::vector<std::vector<double>> axes) {
+  if (!any_clearance(joint_clearances(model.mechanism)))
+    throw core::InputError({model.mechanism.file, 0, 0}, "no joint has a clearance, so there is no error",
+                           "write such as clearance: {radial: 10e-6} at a joint");
+  core::FieldMap map;
+  for (std::size_t c = 0; c < model.box.size(); ++c) {
+    map.coordinates.push_back(model.mechanism.coordinates[c].name);
+    map.angles.push_back(model.mechanism.coordinates[c].angle);
+    map.lower.push_back(model.box[c][0]);
+    map.upper.push_back(model.box[c][1]);
   }
-  return components;
+  map.axes = std::move(axes);
+  return map;
 }
 
 ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid) {
-  check_model(model, 2, "an error map needs two");
-  ErrorVolume own = FieldRows(model, mode,
-                              {.cells = {grid.nx, grid.ny, 1},
-                               .threads = grid.threads,
-                               .worst_case = grid.worst_case,
-                               .worst_case_accuracy = grid.worst_case_accuracy})
-                        .run();
-  ErrorMap result{{}, own.reachable, own.undefined, std::move(own.never_loaded)};
-  core::FieldMap& map = result.map;
-  map.mechanism = model.mechanism.name;
-  map.nx = grid.nx;
-  map.ny = grid.ny;
-  map.fields = std::move(own.volume.fields);
-  for (std::size_t c = 0; c < 2; ++c) {
-    map.coordinates[c] = model.mechanism.coordinates[c].name;
-    map.lower[c] = model.box[c][0];
-    map.upper[c] = model.box[c][1];
-  }
-  return result;
-}
-
-ErrorVolume error_volume(const NumericModel& model, std::span<const int> mode, const VolumeGrid& grid) {
-  check_model(model, 3, "an error volume needs three");
-  ErrorVolume result = FieldRows(model, mode, grid).run();
-  core::FieldVolume& volume = result.volume;
-  volume.mechanism = model.mechanism.name;
-  volume.cells = grid.cells;
-  for (std::size_t c = 0; c < 3; ++c) {
-    volume.coordinates[c] = model.mechanism.coordinates[c].name;
-    volume.angles[c] = model.mechanism.coordinates[c].angle;
-    volume.lower[c] = model.box[c][0];
-    volume.upper[c] = model.box[c][1];
-  }
-  return result;
+  return FieldRows(model, mode, grid).run();
 }
 
 }  // namespace clearloci::numeric

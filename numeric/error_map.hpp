@@ -1,7 +1,6 @@
 // Pose errors over the workspace, by the compiled elimination: reactions, take-up and H Δ_C of many poses at once.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <optional>
 #include <span>
@@ -13,21 +12,24 @@
 
 namespace clearloci::numeric {
 
-/// Of the plane dx, dy, dalpha, dp, of space dx, dy, dz, dalpha_x, dalpha_y, dalpha_z, dp; with the worst case worst_
-/// of each behind them.
-std::vector<core::ErrorComponent> error_components(mechanism::Space space, bool worst_case);
+/// The fields of errors without values. Of the plane dx, dy, dalpha, dp, of space dx, dy, dz, dalpha_x, dalpha_y,
+/// dalpha_z, dp, `under_load`; with the worst case worst_ of each.
+std::vector<core::Field> error_fields(mechanism::Space space, bool under_load, bool worst_case);
+
+/// A map over the model's box without values; `axes`: as of core::FieldMap. Throws core::InputError where no joint has a
+/// clearance.
+core::FieldMap empty_error_map(const NumericModel& model, std::vector<std::vector<double>> axes);
 
 struct ErrorGrid {
-  int nx = 400, ny = 400;
+  std::vector<int> cells;             ///< along each coordinate
   int threads = 0;                    ///< 0: as many as the machine has
   bool worst_case = true;             ///< also the worst case over all take-ups
   double worst_case_accuracy = 1e-9;  ///< relative: how far the bound of |Δp| may be above the true value
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
 };
 
 struct ErrorMap {
-  /// dx, dy, dalpha, dp; worst_dx, worst_dy, worst_dalpha, worst_dp. In space dx, dy, dz, dalpha_x, dalpha_y, dalpha_z,
-  /// dp; worst_ of each.
-  core::FieldMap map;
+  core::FieldMap map;         ///< in the middles of the cells; NaN outside the workspace
   std::size_t reachable = 0;  ///< cells with a posture
   std::size_t undefined = 0;  ///< of those, cells on a locus to the last bit: no error there
   /// Joints whose reaction is zero in every pose, to rounding: their take-up is undefined everywhere, and the map has
@@ -35,25 +37,8 @@ struct ErrorMap {
   std::vector<std::string> never_loaded;
 };
 
-/// `mode`: a sign a dyad. Fields are NaN outside the workspace. Throws core::InputError where the
-/// mechanism has no clearance or not two free coordinates.
-ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid = {});
-
-struct ErrorVolume {
-  core::FieldVolume volume;  ///< fields as of ErrorMap
-  std::size_t reachable = 0, undefined = 0;
-  std::vector<std::string> never_loaded;
-};
-
-struct VolumeGrid {
-  std::array<int, 3> cells = {40, 40, 40};
-  int threads = 0;
-  bool worst_case = true;
-  double worst_case_accuracy = 1e-9;
-  std::optional<std::chrono::steady_clock::time_point> deadline = {};
-};
-
-/// Over three free coordinates; likewise. Throws core::LimitReached where the deadline comes first.
-ErrorVolume error_volume(const NumericModel& model, std::span<const int> mode, const VolumeGrid& grid = {});
+/// `mode`: a sign a dyad. Throws core::InputError where no joint has a clearance, where there are no cells, or not as
+/// many numbers of them as coordinates; core::LimitReached where the deadline comes first.
+ErrorMap error_map(const NumericModel& model, std::span<const int> mode, const ErrorGrid& grid);
 
 }  // namespace clearloci::numeric

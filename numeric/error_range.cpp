@@ -34,15 +34,15 @@ PoseError one_sided(const NumericModel& model, std::span<const int> mode, double
 
 }  // namespace
 
-std::vector<RangePose> error_range(const NumericModel& model, std::span<const int> mode, std::span<const double> at) {
-  if (model.box.size() != 1)
-    throw core::InputError({.file = model.mechanism.file}, "errors over a range need one free coordinate",
-                           "write the others as parameters");
-  if (!any_clearance(joint_clearances(model.mechanism)))
-    throw core::InputError({.file = model.mechanism.file}, "no joint has a clearance, so there is no error",
-                           "write such as clearance: {radial: 10e-6} at a joint");
+std::vector<RangePose> error_range(const NumericModel& model, std::span<const int> mode, std::span<const double> at,
+                                   std::optional<std::chrono::steady_clock::time_point> deadline) {
+  core::ensure(model.box.size() == 1, "a range is that of a single coordinate");
   std::vector<RangePose> poses;
-  for (const double value : at) poses.push_back(pose_at(model, mode, value));
+  for (const double value : at) {
+    if (deadline && std::chrono::steady_clock::now() >= *deadline)
+      throw core::LimitReached("the errors could not be computed within the time limit; ask for fewer steps");
+    poses.push_back(pose_at(model, mode, value));
+  }
   return poses;
 }
 

@@ -1,7 +1,10 @@
 // Reactions, take-up and pose error over the range of a single free coordinate.
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "numeric/pose_error.hpp"
@@ -14,9 +17,10 @@ struct RangePose {
   Accuracy accuracy;  ///< where reachable
 };
 
-/// The poses at the given values of the coordinate. `mode`: a sign a dyad. Throws core::InputError where the mechanism
-/// has no clearance or not one free coordinate.
-std::vector<RangePose> error_range(const NumericModel& model, std::span<const int> mode, std::span<const double> at);
+/// The poses at the given values of the one free coordinate. `mode`: a sign a dyad. Throws core::LimitReached where the
+/// deadline comes first.
+std::vector<RangePose> error_range(const NumericModel& model, std::span<const int> mode, std::span<const double> at,
+                                   std::optional<std::chrono::steady_clock::time_point> deadline = {});
 
 /// Joints with a clearance whose take-up is undefined at every reachable pose: they bear nothing.
 std::vector<std::string> never_loaded(const NumericModel& model, const std::vector<RangePose>& poses);

@@ -20,9 +20,9 @@ struct LociSheet {
   const core::Zones* zones = nullptr;             ///< that the page shows; may be null
 };
 
-struct VolumeSheet {
-  const core::VolumeErrors& errors;
-  const std::vector<core::VolumeSlice>& slices;  ///< that are drawn; empty: one in the middle
+struct ErrorSheet {
+  const core::Errors& errors;
+  std::vector<core::FieldSlice> slices = {};  ///< that are drawn over three coordinates; empty: one in the middle
 };
 
 }  // namespace clearloci::report

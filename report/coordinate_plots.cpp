@@ -18,38 +18,41 @@ enum MarkStyle { contact_mark, couple_mark, singularity_mark, boundary_mark };
 
 class ModePlots {
  public:
-  ModePlots(const core::CoordinateErrors& result, const core::CoordinateModeErrors& errors)
-      : result_(result), errors_(errors) {
-    const bool angle = result.angle;
-    const core::Units& units = result.loci.units;
+  ModePlots(const core::Errors& all, const core::ModeErrors& errors)
+      : all_(all), errors_(errors), samples_(core::samples_of(errors)) {
+    const bool angle = errors.map.angles.front();
+    const core::Units& units = all.loci.units;
     to_axis_ = angle ? 180 / std::numbers::pi : shown_unit("m", units).per_si;
-    axis_ = printable(result.coordinate) + (angle ? " (deg)" : " (" + units.length.name + ")");
+    axis_ = printable(errors.map.coordinates.front()) + (angle ? " (deg)" : " (" + units.length.name + ")");
     angle_ = core::told_unit("rad", units);
     if (units.declared) {
       length_ = small_length_ = shown_unit("m", units);
       force_ = shown_unit("N", units);
     }
-    for (const double value : errors.samples.columns.front()) at_.push_back(to_axis_ * value);
+    for (const double value : errors.map.axes.front()) at_.push_back(to_axis_ * value);
   }
 
   Plot error() const {
     Plot plot = frame("pose error");
     int number = 0;
-    for (const core::ErrorComponent& component : result_.components) {
-      if (!component.is_signed) continue;
-      const std::string& column = component.name;
-      const ShownUnit& unit = component.unit == "m" ? length_ : angle_;
+    for (const core::Field& field : errors_.map.fields) {
+      // Where no error under the load is defined the bound stands alone.
+      const bool alone = !field.is_signed && field.name.starts_with("worst_") && field.name != "worst_dp" &&
+                         !samples_.has(field.name.substr(6));
+      if (!field.is_signed && !alone) continue;
+      const ShownUnit& unit = field.unit == "m" ? length_ : angle_;
       PlotPanel panel;
       panel.y_label = unit.name;
-      const std::string worst = "worst_" + column;
-      if (errors_.samples.has(worst)) {
-        const core::Polyline above = line(at_, errors_.samples.at(worst), unit.per_si);
+      const std::string worst = alone ? field.name : "worst_" + field.name;
+      if (samples_.has(worst)) {
+        const core::Polyline above = line(at_, samples_.at(worst), unit.per_si);
         core::Polyline below = above;
         for (core::Point2& point : below) point[1] = -point[1];
         const bool is_first = plot.panels.empty();  // grey is the same in all panels
-        panel.series.push_back({is_first ? "bound under any load" : "", {above, std::move(below)}, -1, true});
+        const std::string bound = alone ? field.label : is_first ? "bound under any load" : "";
+        panel.series.push_back({bound, {above, std::move(below)}, -1, true});
       }
-      panel.series.push_back({component.label, {line(at_, errors_.samples.at(column), unit.per_si)}, number++});
+      if (!alone) panel.series.push_back({field.label, {line(at_, field.values, unit.per_si)}, number++});
       panel.y_range = clipped_range(panel);
       plot.panels.push_back(std::move(panel));
     }
@@ -74,18 +77,18 @@ class ModePlots {
   Plot reactions() const {
     Plot plot = frame("reactions");
     std::vector<PlotSeries> forces, efforts, couples;
-    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
-      const std::string& name = result_.joints[j];
-      if (errors_.samples.has("f" + name + "x")) {
-        std::vector<double> size = lengths(errors_.samples.at("f" + name + "x"), errors_.samples.at("f" + name + "y"));
-        if (const std::string fz = "f" + name + "z"; errors_.samples.has(fz))
-          size = lengths(size, errors_.samples.at(fz));
+    for (std::size_t j = 0; j < all_.joints.size(); ++j) {
+      const std::string& name = all_.joints[j];
+      if (samples_.has("f" + name + "x")) {
+        std::vector<double> size = lengths(samples_.at("f" + name + "x"), samples_.at("f" + name + "y"));
+        if (const std::string fz = "f" + name + "z"; samples_.has(fz))
+          size = lengths(size, samples_.at(fz));
         forces.push_back({"f_" + name, {line(at_, size, force_.per_si)}, static_cast<int>(j)});
       }
       const auto add = [&](std::vector<PlotSeries>& series, const std::string& quantity, double factor) {
-        if (errors_.samples.has(quantity + name))
+        if (samples_.has(quantity + name))
           series.push_back({quantity + "_" + name,
-                            {line(at_, errors_.samples.at(quantity + name), factor)},
+                            {line(at_, samples_.at(quantity + name), factor)},
                             static_cast<int>(series.size())});
       };
       for (const char* const force : {"F", "N"}) add(efforts, force, force_.per_si);
@@ -101,10 +104,10 @@ class ModePlots {
  private:
   Plot frame(const std::string& what) const {
     Plot plot;
-    plot.title = result_.mechanism + ": " + what;
-    plot.subtitle = mode_words(result_.loci.tower, errors_.mode);
+    plot.title = all_.loci.mechanism + ": " + what;
+    plot.subtitle = mode_words(all_.loci.tower, errors_.mode);
     plot.x_label = axis_;
-    plot.degrees = result_.angle;
+    plot.degrees = errors_.map.angles.front();
     const std::vector<double>& values = at_;
     plot.x_range = {values.front(), values.back()};
     std::vector<core::Quantity> zeros;
@@ -173,11 +176,11 @@ class ModePlots {
   void add_displacements(Plot& plot, char axis) const {
     PlotPanel panel;
     panel.y_label = fmt::format("d{} ({})", axis, small_length_.name);
-    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
-      const std::string column = "d_" + result_.joints[j] + "_" + axis;
-      if (!errors_.samples.has(column)) continue;
-      panel.series.push_back({fmt::format("d{} of {}", axis, result_.joints[j]),
-                              {line(at_, errors_.samples.at(column), small_length_.per_si)},
+    for (std::size_t j = 0; j < all_.joints.size(); ++j) {
+      const std::string column = "d_" + all_.joints[j] + "_" + axis;
+      if (!samples_.has(column)) continue;
+      panel.series.push_back({fmt::format("d{} of {}", axis, all_.joints[j]),
+                              {line(at_, samples_.at(column), small_length_.per_si)},
                               static_cast<int>(j)});
     }
     add_even(plot, std::move(panel));
@@ -189,10 +192,10 @@ class ModePlots {
     const bool direction = unit.per_si == 0;
     PlotPanel panel;
     panel.y_label = direction ? unit.name : what + " (" + unit.name + ")";
-    for (std::size_t j = 0; j < result_.joints.size(); ++j) {
-      const std::string& name = result_.joints[j];
-      if (!errors_.samples.has(column + name)) continue;
-      const std::vector<double>& values = errors_.samples.at(column + name);
+    for (std::size_t j = 0; j < all_.joints.size(); ++j) {
+      const std::string& name = all_.joints[j];
+      if (!samples_.has(column + name)) continue;
+      const std::vector<double>& values = samples_.at(column + name);
       panel.series.push_back(
           {label + name, {direction ? angle_line(at_, values) : line(at_, values, unit.per_si)}, static_cast<int>(j)});
     }
@@ -241,8 +244,9 @@ class ModePlots {
   /// In the units shown: picometres, nanonewtons. What is smaller is what rounding leaves of zero.
   static constexpr double rounding = 1e-9;
 
-  const core::CoordinateErrors& result_;
-  const core::CoordinateModeErrors& errors_;
+  const core::Errors& all_;
+  const core::ModeErrors& errors_;
+  const core::Table samples_;
   double to_axis_ = 1;
   std::string axis_;
   ShownUnit length_{"mm", 1e3}, small_length_{"µm", 1e6}, angle_{"deg", 180 / std::numbers::pi}, force_{"N", 1};
@@ -251,16 +255,9 @@ class ModePlots {
 
 }  // namespace
 
-std::vector<NamedPlot> coordinate_plots(const core::CoordinateErrors& result) {
-  std::vector<NamedPlot> plots;
-  for (const core::CoordinateModeErrors& mode : result.modes) {
-    const ModePlots own(result, mode);
-    const std::string which = result.modes.size() > 1 ? "-" + mode_slug(result.loci.tower, mode.mode) : std::string();
-    plots.push_back({"error" + which, own.error()});
-    plots.push_back({"take-up" + which, own.take_up()});
-    plots.push_back({"reactions" + which, own.reactions()});
-  }
-  return plots;
+std::vector<NamedPlot> coordinate_plots(const core::Errors& errors, const core::ModeErrors& mode) {
+  const ModePlots plots(errors, mode);
+  return {{"error", plots.error()}, {"take-up", plots.take_up()}, {"reactions", plots.reactions()}};
 }
 
 }  // namespace clearloci::report

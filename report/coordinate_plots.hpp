@@ -9,7 +9,7 @@
 
 namespace clearloci::report {
 
-/// error, take-up, reactions of every mode, over the coordinate.
-std::vector<NamedPlot> coordinate_plots(const core::CoordinateErrors& result);
+/// error, take-up, reactions of a mode, over the coordinate.
+std::vector<NamedPlot> coordinate_plots(const core::Errors& errors, const core::ModeErrors& mode);
 
 }  // namespace clearloci::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <numbers>
 
 #include "report/label_places.hpp"
@@ -71,17 +72,20 @@ void draw_search_box(const Context& context, const Box& box) {
 void draw_field(const Context& context, const FieldLayer& layer, const Layout& layout) {
   PixelImage image(layout.plot);
   const core::FieldMap& map = *layer.map;
-  const auto cell = [](double at, double low, double high, int cells) {
-    const double place = (at - low) / (high - low) * cells;
-    return place < 0 || place >= cells ? -1 : static_cast<int>(place);
+  const std::size_t columns = map.axes[0].size();
+  /// The cell along a coordinate, nothing outside the box.
+  const auto cell = [&](double at, std::size_t c) -> std::optional<std::size_t> {
+    const auto cells = static_cast<double>(map.axes[c].size());
+    const double place = (at - map.lower[c]) / (map.upper[c] - map.lower[c]) * cells;
+    return place < 0 || place >= cells ? std::nullopt : std::optional(static_cast<std::size_t>(place));
   };
   for (int row = 0; row < image.height(); ++row) {
     const double y = layout.high[1] - (row + 0.5) / PixelImage::pixels_per_point / layout.scale[1];
-    const int j = cell(y, map.lower[1], map.upper[1], map.ny);
-    for (int column = 0; column < image.width(); ++column) {
+    const std::optional<std::size_t> j = cell(y, 1);
+    for (int column = 0; j && column < image.width(); ++column) {
       const double x = layout.low[0] + (column + 0.5) / PixelImage::pixels_per_point / layout.scale[0];
-      const int i = cell(x, map.lower[0], map.upper[0], map.nx);
-      const double value = i < 0 || j < 0 ? NAN : layer.field->values[map.index(i, j)];
+      const std::optional<std::size_t> i = cell(x, 0);
+      const double value = i ? layer.field->values[*j * columns + *i] : NAN;
       if (!std::isnan(value)) image.put(column, row, layer.scale.colour(value));
     }
   }

@@ -1,4 +1,4 @@
-// A FieldMap or FieldVolume in the formats of other programs; the bytes of the file.
+// A FieldMap over one to three coordinates in the formats of other programs; the bytes of the file.
 #pragma once
 
 #include <string>
@@ -8,16 +8,12 @@
 
 namespace clearloci::report {
 
-/// One row a cell that has a value in some field: both coordinates of its middle, then the fields by name, empty where
-/// there is none. In SI units; `map` in those of its file (in_file_units), which the heads then name, with `loci`.
-std::string field_csv(const core::FieldMap& map, const core::LocusMap& loci = {});
-
-/// Likewise; fields in the units of the file, coordinates in SI.
-std::string field_csv(const core::FieldVolume& volume, const core::Units& units);
+/// One row a cell that has a value in some field: the coordinates of its place, then the fields by name, empty where
+/// there is none. In the units of the file, which the heads then name; where it declares none, in SI units.
+std::string field_csv(const core::FieldMap& map, const core::Units& units = {});
 
 /// VTK XML ImageData, one point in the middle of each cell, point data of 64-bit numbers, NaN where there is none. In
-/// SI units.
+/// SI units. Required: two or three coordinates, cells of one size.
 std::string vti(const core::FieldMap& map);
-std::string vti(const core::FieldVolume& volume);
 
 }  // namespace clearloci::report

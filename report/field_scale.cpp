@@ -3,32 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "report/colour_map.hpp"
+#include "report/file_units.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
 namespace {
 
-struct Unit {
-  double from;  ///< the least size that is told in it
-  double factor;
-  std::string name;
-};
-
-/// A size of 0.05 mm reads better as 50 µm, one of 0.2 mm as it stands.
-const std::array<Unit, 4> lengths = {{{0.1, 1, "m"}, {1e-4, 1e3, "mm"}, {1e-7, 1e6, "µm"}, {0, 1e9, "nm"}}};
-const std::array<Unit, 4> angles = {{{0.1, 1, "rad"}, {1e-4, 1e3, "mrad"}, {1e-7, 1e6, "µrad"}, {0, 1e9, "nrad"}}};
-
-/// The unit in which a size is told.
-Unit unit_for(double size, const std::string& unit, bool radians) {
-  if (unit != "m" && unit != "rad") return {0, 1, unit};
-  if (unit == "rad" && !radians) return {0, 180 / std::numbers::pi, "deg"};
-  const auto& units = unit == "m" ? lengths : angles;
-  return *std::find_if(units.begin(), units.end(), [&](const Unit& u) { return size >= u.from; });
+/// The unit in which a size is shown.
+ShownUnit unit_for(double size, const std::string& unit, bool radians) {
+  if (unit == "rad" && !radians) return {"deg", 180 / std::numbers::pi};
+  return unit == "m" || unit == "rad" ? unit_of_size(unit, size) : ShownUnit{unit, 1};
 }
 
 }  // namespace
@@ -55,10 +43,10 @@ FieldScale scale_of(const std::vector<double>& values, bool is_signed, const std
   }
   if (!(scale.high > 0)) scale.high = 1e-9;  // zero everywhere: any range shows that
   scale.low = is_signed ? -scale.high : 0;
-  const Unit shown = unit_for(scale.high, unit, radians), of_largest = unit_for(scale.largest, unit, radians);
-  scale.factor = shown.factor;
+  const ShownUnit shown = unit_for(scale.high, unit, radians), of_largest = unit_for(scale.largest, unit, radians);
+  scale.factor = shown.per_si;
   scale.unit = shown.name;
-  scale.largest_words = short_number(of_largest.factor * scale.largest, 3) + " " + of_largest.name;
+  scale.largest_words = short_number(of_largest.per_si * scale.largest, 3) + " " + of_largest.name;
   return scale;
 }
 

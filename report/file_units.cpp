@@ -157,12 +157,15 @@ core::Sketch in_file_units(core::Sketch sketch, const core::Units& units) {
   return sketch;
 }
 
-ShownUnit table_unit(const std::string& si, const core::Units& units, double most) {
-  if (si != "m" || units.declared) return core::told_unit(si, units);
+ShownUnit unit_of_size(const std::string& si, double most) {
   // From a tenth of the larger unit on, which reads better: 0.2 mm, and 50 µm.
-  if (most >= 0.1 || !(most > 0)) return {"m", 1};
-  if (most >= 1e-4) return {"mm", 1e3};
-  return most >= 1e-7 ? ShownUnit{"µm", 1e6} : ShownUnit{"nm", 1e9};
+  if (most >= 0.1 || !(most > 0)) return {si, 1};
+  if (most >= 1e-4) return {"m" + si, 1e3};
+  return most >= 1e-7 ? ShownUnit{"µ" + si, 1e6} : ShownUnit{"n" + si, 1e9};
+}
+
+ShownUnit table_unit(const std::string& si, const core::Units& units, double most) {
+  return si != "m" || units.declared ? core::told_unit(si, units) : unit_of_size(si, most);
 }
 
 std::string place_words(std::span<const double> at, const std::vector<bool>& angles, const core::Units& units,
@@ -180,11 +183,13 @@ std::string place_words(std::span<const double> at, const std::vector<bool>& ang
   return "(" + words + ")" + (mixed ? "" : " " + length.name);
 }
 
-core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles) {
+core::FieldMap in_file_units(core::FieldMap map, const core::Units& units) {
   if (!units.declared) return map;
-  const Scaling scaling(units, angles);
+  const Scaling scaling(units, map.angles);
   scaling.place(map.lower);
   scaling.place(map.upper);
+  for (std::size_t c = 0; c < map.dimension(); ++c)
+    for (double& value : map.axes[c]) value *= scaling.factor(c);
   for (core::Field& field : map.fields) {
     const ShownUnit shown = shown_unit(field.unit, units);
     field.unit = shown.name;

@@ -20,8 +20,8 @@ namespace clearloci::report {
 core::LocusMap in_file_units(core::LocusMap map);
 core::Zones in_file_units(core::Zones map);
 core::Sketch in_file_units(core::Sketch sketch, const core::Units& units);
-/// `angles` as of LocusMap. Fields in m and rad get the file's units, angles among them.
-core::FieldMap in_file_units(core::FieldMap map, const core::Units& units, const std::vector<bool>& angles);
+/// Fields in m and rad get the file's units, angles among them.
+core::FieldMap in_file_units(core::FieldMap map, const core::Units& units);
 /// Columns of m, rad, N and their rates.
 core::Table in_file_units(core::Table table, const core::Units& units);
 
@@ -31,8 +31,10 @@ core::TrajectoryResult in_file_units(core::TrajectoryResult result);
 using core::shown_unit;
 using core::ShownUnit;
 
-/// As core::told_unit, and where it declares no units, lengths
-/// of which the largest is `most` (m) are in m, mm, µm or nm.
+/// "m" or "rad", or a thousandth of it, ..., by the largest size that is shown in it (in m or rad).
+ShownUnit unit_of_size(const std::string& si, double most);
+
+/// As core::told_unit, and where it declares no units, lengths of which the largest is `most` (m) by that.
 ShownUnit table_unit(const std::string& si, const core::Units& units, double most = 1);
 
 /// A place by its coordinates in SI units: "(250, -700) mm", where there are angles "(0.25 m, 30 deg)".

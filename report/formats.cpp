@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "report/coordinate_errors.hpp"
-#include "report/coordinate_plots.hpp"
 #include "report/error.hpp"
-#include "report/error_volume.hpp"
 #include "report/exports.hpp"
-#include "report/field_exports.hpp"
-#include "report/file_units.hpp"
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
@@ -29,11 +24,6 @@ namespace {
 bool any(std::size_t) { return true; }
 bool curves(std::size_t coordinates) { return coordinates < 3; }
 bool surfaces(std::size_t coordinates) { return coordinates == 3; }
-
-/// The same of a mode's errors among several.
-std::string which(const auto& errors, const auto& own) {
-  return errors.modes.size() > 1 ? "-" + mode_slug(errors.loci.tower, own.mode) : "";
-}
 
 /// The modes to draw: those of the map, else (nothing was found in any) those of the sketches.
 std::vector<core::WorkingMode> modes_to_draw(const LociSheet& loci) {
@@ -95,68 +85,17 @@ Files loci_stl(const LociSheet& loci) {
 Files loci_html(const LociSheet& loci) { return {{"loci.html", html_page(loci)}}; }
 Files zones_html(const core::Zones& map) { return {{"zones.html", html_page({map.loci, {}, &map})}}; }
 
-/// The values of all fields of the answer that are to be compared with this one.
-std::vector<double> like(const core::ErrorMap& errors, const core::Field& field) {
-  std::vector<double> values;
-  for (const core::ModeErrors& one : errors.modes)
-    for (const core::Field& other : one.map.fields)
-      if (other.unit == field.unit && other.is_signed == field.is_signed)
-        values.insert(values.end(), other.values.begin(), other.values.end());
-  return values;
-}
-
 template <PictureFormat format>
-Files error_pictures(const core::ErrorMap& errors) {
-  Files files;
-  for (const core::ModeErrors& one : errors.modes)
-    for (const core::Field& field : one.map.fields) {
-      std::string name = field.name;
-      std::replace(name.begin(), name.end(), '_', '-');
-      files.push_back({"error-" + name + which(errors, one) + ending_of(format),
-                       field_picture(errors.loci, one.mode, one.map, field, format, like(errors, field))});
-    }
-  return files;
+Files error_drawn(const ErrorSheet& sheet) {
+  return error_pictures(sheet, format);
 }
-
-Files error_json(const core::ErrorMap& errors) { return {{"error.json", json_text(error_object(errors))}}; }
-Files error_csv(const core::ErrorMap& errors) {
-  Files files;
-  for (const core::ModeErrors& one : errors.modes)
-    files.push_back({"error" + which(errors, one) + ".csv",
-                     field_csv(in_file_units(one.map, errors.loci.units, errors.loci.angles), errors.loci)});
-  return files;
-}
-Files error_vtk(const core::ErrorMap& errors) {
-  Files files;
-  for (const core::ModeErrors& one : errors.modes)
-    files.push_back({"error" + which(errors, one) + ".vti", vti(one.map)});
-  return files;
-}
-
-template <PictureFormat format>
-Files drawn(const std::vector<NamedPlot>& plots) {
-  Files files;
-  for (const NamedPlot& one : plots) files.push_back({one.name + ending_of(format), plot(one.plot, format)});
-  return files;
-}
-
-template <PictureFormat format>
-Files coordinate_pictures(const core::CoordinateErrors& result) {
-  return drawn<format>(coordinate_plots(result));
-}
-Files coordinate_json(const core::CoordinateErrors& result) {
-  return {{"error.json", json_text(coordinate_errors_object(result))}};
-}
-Files coordinate_csv(const core::CoordinateErrors& result) {
-  Files files;
-  for (const core::CoordinateModeErrors& one : result.modes)
-    files.push_back({"error" + which(result, one) + ".csv", table_csv(one.samples.names, one.samples.columns)});
-  return files;
-}
+Files error_json(const ErrorSheet& sheet) { return {{"error.json", json_text(error_object(sheet.errors))}}; }
 
 template <PictureFormat format>
 Files trajectory_pictures(const core::TrajectoryResult& result) {
-  return drawn<format>(trajectory_plots(result));
+  Files files;
+  for (const NamedPlot& one : trajectory_plots(result)) files.push_back({one.name + ending_of(format), plot(one.plot, format)});
+  return files;
 }
 Files trajectory_json(const core::TrajectoryResult& result) {
   return {{"trajectory.json", json_text(trajectory_object(result))}};
@@ -175,11 +114,6 @@ Files pose_in_modes_json(const core::PoseInModes& poses) {
 Files validation_json(const core::Validation& validation) {
   return {{"validation.json", json_text(validation_object(validation))}};
 }
-template <PictureFormat format>
-Files volume_slices(const VolumeSheet& sheet) {
-  return volume_pictures(sheet, format);
-}
-Files volume_json(const VolumeSheet& sheet) { return {{"error.json", json_text(error_volume_object(sheet.errors))}}; }
 
 /// What is drawn is drawn alike as svg, png and pdf.
 template <PictureFormat format>
@@ -189,9 +123,7 @@ Format pictures(std::string_view name) {
           loci_pictures<format>,
           zone_pictures<format>,
           verification_pictures<format>,
-          error_pictures<format>,
-          coordinate_pictures<format>,
-          volume_slices<format>,
+          error_drawn<format>,
           trajectory_pictures<format>};
 }
 
@@ -200,16 +132,15 @@ Format pictures(std::string_view name) {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = [] {
     std::vector<Format> list = {
-        {"json", any, loci_json, zones_json, verification_json, error_json, coordinate_json, volume_json,
-         trajectory_json, pose_json, pose_in_modes_json, validation_json},
-        {"csv", any, loci_csv, error_csv, coordinate_csv, volume_csv, trajectory_csv},
+        {"json", any, loci_json, zones_json, verification_json, error_json, trajectory_json, pose_json, pose_in_modes_json, validation_json},
+        {"csv", any, loci_csv, error_csv, trajectory_csv},
         pictures<PictureFormat::svg>("svg"),
         pictures<PictureFormat::png>("png"),
         pictures<PictureFormat::pdf>("pdf"),
         {"dxf", curves, loci_dxf},
         {"dxf-r12", curves, loci_dxf_r12},
         {"geojson", curves, loci_geojson, zones_in_geojson},
-        {"vtk", any, loci_vtk, zones_vtk, error_vtk, volume_vti},
+        {"vtk", any, loci_vtk, zones_vtk, error_vti},
         {"stl", surfaces, loci_stl, zones_stl},
         {"obj", surfaces, loci_obj},
         {"html", any, loci_html, zones_html},

@@ -46,9 +46,8 @@ class Format {
   }
 
  private:
-  std::tuple<Maker<LociSheet>, Maker<core::Zones>, Maker<core::Verification>, Maker<core::ErrorMap>,
-             Maker<core::CoordinateErrors>, Maker<VolumeSheet>, Maker<core::TrajectoryResult>, Maker<core::Pose>,
-             Maker<core::PoseInModes>, Maker<core::Validation>>
+  std::tuple<Maker<LociSheet>, Maker<core::Zones>, Maker<core::Verification>, Maker<ErrorSheet>,
+             Maker<core::TrajectoryResult>, Maker<core::Pose>, Maker<core::PoseInModes>, Maker<core::Validation>>
       makers_ = {};
 };
 

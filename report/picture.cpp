@@ -67,7 +67,7 @@ std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& 
   const core::LocusMap map = in_file_units(in_si);
   core::FieldMap own = si_fields;
   own.fields = {si_field};
-  const core::FieldMap fields = in_file_units(std::move(own), map.units, map.angles);
+  const core::FieldMap fields = in_file_units(std::move(own), map.units);
   const core::Field& field = fields.fields.front();
   std::vector<double> values = coloured_by.empty() ? field.values : coloured_by;
   if (!coloured_by.empty())

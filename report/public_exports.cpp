@@ -9,9 +9,7 @@
 #include "analysis/model.hpp"
 #include "clearloci/export.hpp"
 #include "core/errors.hpp"
-#include "report/coordinate_errors.hpp"
 #include "report/error.hpp"
-#include "report/error_volume.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
@@ -49,14 +47,10 @@ const Verification& told(const Verification& answer) {
   require(!answer.coordinates.empty(), "the verification");
   return answer;
 }
-template <class Errors>
-const Errors& told_errors(const Errors& errors) {
+const Errors& told(const Errors& errors) {
   require(!errors.modes.empty(), "the map of errors");
   return errors;
 }
-const ErrorMap& told(const ErrorMap& errors) { return told_errors(errors); }
-const CoordinateErrors& told(const CoordinateErrors& errors) { return told_errors(errors); }
-const VolumeErrors& told(const VolumeErrors& errors) { return told_errors(errors); }
 const TrajectoryResult& told(const TrajectoryResult& result) {
   require(!result.samples.columns.empty() && !result.samples.columns.front().empty(), "the trajectory");
   return result;
@@ -64,6 +58,18 @@ const TrajectoryResult& told(const TrajectoryResult& result) {
 
 std::vector<std::string> formats_of(const Zones& zones) {
   return report::zone_formats(zones.loci.tower.coordinates.size(), zones.by_cells);
+}
+std::vector<std::string> formats_of(const Errors& errors) {
+  return report::error_formats(errors.modes.front().map.dimension());
+}
+
+/// Throws InputError for a layer that the errors do not have.
+report::ErrorSheet sheet_of(const Errors& errors, const std::vector<FieldSlice>& slices) {
+  const core::FieldMap& map = told(errors).modes.front().map;
+  for (const FieldSlice& slice : slices)
+    if (map.dimension() != 3 || slice.across >= 3 || slice.layer >= map.axes[slice.across].size())
+      throw core::InputError({}, "the errors have no such slice", "give layers of cells over three coordinates");
+  return {errors, slices};
 }
 
 using Paths = std::vector<std::filesystem::path>;
@@ -96,11 +102,7 @@ std::vector<std::string> zone_formats(std::size_t coordinates, bool by_cells) {
   return report::zone_formats(coordinates, by_cells || coordinates != 2);
 }
 std::vector<std::string> verification_formats() { return report::format_names<Verification>(); }
-std::vector<std::string> error_formats(std::size_t coordinates) {
-  return coordinates == 1   ? report::format_names<CoordinateErrors>()
-         : coordinates == 2 ? report::format_names<ErrorMap>()
-                            : report::format_names<report::VolumeSheet>();
-}
+std::vector<std::string> error_formats(std::size_t coordinates) { return report::error_formats(coordinates); }
 std::vector<std::string> trajectory_formats() { return report::format_names<TrajectoryResult>(); }
 
 Paths export_loci(const Model& model, const LocusMap& loci, const std::filesystem::path& folder,
@@ -116,16 +118,9 @@ Paths export_verification(const Verification& answer, const std::filesystem::pat
                           const std::set<std::string>& formats) {
   return write_checked(told(answer), folder, formats);
 }
-Paths export_errors(const ErrorMap& errors, const std::filesystem::path& folder, const std::set<std::string>& formats) {
-  return write_checked(told(errors), folder, formats);
-}
-Paths export_errors(const CoordinateErrors& errors, const std::filesystem::path& folder,
-                    const std::set<std::string>& formats) {
-  return write_checked(told(errors), folder, formats);
-}
-Paths export_errors(const VolumeErrors& errors, const std::filesystem::path& folder,
-                    const std::set<std::string>& formats, const std::vector<VolumeSlice>& slices) {
-  return write_checked(report::VolumeSheet{told(errors), slices}, folder, formats);
+Paths export_errors(const Errors& errors, const std::filesystem::path& folder, const std::set<std::string>& formats,
+                    const std::vector<FieldSlice>& slices) {
+  return write_checked(sheet_of(errors, slices), folder, formats, formats_of(errors));
 }
 Paths export_trajectory(const TrajectoryResult& result, const std::filesystem::path& folder,
                         const std::set<std::string>& formats) {
@@ -142,15 +137,9 @@ std::vector<ExportedFile> zone_files(const Zones& zones, const std::set<std::str
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
   return files_checked(told(answer), formats);
 }
-std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats) {
-  return files_checked(told(errors), formats);
-}
-std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats) {
-  return files_checked(told(errors), formats);
-}
-std::vector<ExportedFile> error_files(const VolumeErrors& errors, const std::set<std::string>& formats,
-                                      const std::vector<VolumeSlice>& slices) {
-  return files_checked(report::VolumeSheet{told(errors), slices}, formats);
+std::vector<ExportedFile> error_files(const Errors& errors, const std::set<std::string>& formats,
+                                      const std::vector<FieldSlice>& slices) {
+  return files_checked(sheet_of(errors, slices), formats, formats_of(errors));
 }
 std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const std::set<std::string>& formats) {
   return files_checked(told(result), formats);
@@ -160,11 +149,7 @@ using report::json_text;
 std::string to_json(const LocusMap& loci) { return json_text(report::loci_object(told(loci))); }
 std::string to_json(const Zones& zones) { return json_text(report::zones_object(told(zones))); }
 std::string to_json(const Verification& answer) { return json_text(report::verification_object(told(answer))); }
-std::string to_json(const ErrorMap& errors) { return json_text(report::error_object(told(errors))); }
-std::string to_json(const CoordinateErrors& errors) {
-  return json_text(report::coordinate_errors_object(told(errors)));
-}
-std::string to_json(const VolumeErrors& errors) { return json_text(report::error_volume_object(told(errors))); }
+std::string to_json(const Errors& errors) { return json_text(report::error_object(told(errors))); }
 std::string to_json(const TrajectoryResult& result) { return json_text(report::trajectory_object(told(result))); }
 std::string to_json(const Pose& pose) { return json_text(report::pose_object(pose)); }
 std::string to_json(const PoseInModes& poses) { return json_text(report::pose_in_modes_object(poses)); }
@@ -173,9 +158,7 @@ std::string to_json(const Validation& validation) { return json_text(report::val
 std::string to_table(const LocusMap& loci) { return report::loci_table(told(loci)); }
 std::string to_table(const Zones& zones) { return report::zones_table(told(zones)); }
 std::string to_text(const Verification& answer) { return report::verification_text(told(answer)); }
-std::string to_text(const ErrorMap& errors) { return report::error_text(told(errors)); }
-std::string to_text(const CoordinateErrors& errors) { return report::coordinate_errors_text(told(errors)); }
-std::string to_text(const VolumeErrors& errors) { return report::error_volume_text(told(errors)); }
+std::string to_text(const Errors& errors) { return report::error_text(told(errors)); }
 std::string to_text(const TrajectoryResult& result) { return report::trajectory_text(told(result)); }
 std::string to_text(const Pose& pose) { return report::pose_text(pose); }
 std::string to_text(const PoseInModes& poses) { return report::pose_in_modes_text(poses); }

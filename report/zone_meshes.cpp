@@ -24,27 +24,18 @@ core::LocusSurface surface_of(const core::Zone& zone) {
 
 /// The grid of labels as a field.
 std::string label_vti(const core::Zones& map, const core::ZonedMode& mode) {
-  core::Field zone{"zone", "zone", "", true, {mode.labels.begin(), mode.labels.end()}};
-  const auto lower = [&](std::size_t c) { return core::to_double(map.loci.lower[c]); };
-  const auto upper = [&](std::size_t c) { return core::to_double(map.loci.upper[c]); };
-  const std::vector<std::string>& names = map.loci.tower.coordinates;
-  if (map.grid.size() == 2)
-    return vti(core::FieldMap{map.loci.mechanism,
-                              {names[0], names[1]},
-                              {lower(0), lower(1)},
-                              {upper(0), upper(1)},
-                              map.grid[0],
-                              map.grid[1],
-                              {std::move(zone)}});
-  core::FieldVolume volume;
-  for (std::size_t c = 0; c < 3; ++c) {
-    volume.coordinates[c] = names[c];
-    volume.lower[c] = lower(c);
-    volume.upper[c] = upper(c);
-    volume.cells[c] = map.grid[c];
+  core::FieldMap labels;
+  labels.coordinates = map.loci.tower.coordinates;
+  labels.angles = angles_of(map.loci);
+  for (std::size_t c = 0; c < map.grid.size(); ++c) {
+    const double low = core::to_double(map.loci.lower[c]), high = core::to_double(map.loci.upper[c]);
+    labels.lower.push_back(low);
+    labels.upper.push_back(high);
+    std::vector<double>& axis = labels.axes.emplace_back();
+    for (int i = 0; i < map.grid[c]; ++i) axis.push_back(low + (i + 0.5) * (high - low) / map.grid[c]);
   }
-  volume.fields.push_back(std::move(zone));
-  return vti(volume);
+  labels.fields.push_back({"zone", "zone", "", true, {mode.labels.begin(), mode.labels.end()}});
+  return vti(labels);
 }
 
 }  // namespace

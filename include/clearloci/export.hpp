@@ -4,7 +4,7 @@
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::LocusMap loci = trace_loci(model);
 //     for (const auto& file : export_loci(model, loci, "out", {"svg", "dxf"})) std::cout << file << "\n";
-//     export_errors(clearloci::error_map(model), "out", {"png", "vtk"});
+//     export_errors(find_errors(model), "out", {"png", "vtk"});
 //
 // Formats are known by name: "json" (always written), "csv", "svg", "png", "pdf", "dxf", "dxf-r12", "geojson", "vtk",
 // "stl", "obj", "html". Coordinates in files are m and rad.
@@ -44,14 +44,10 @@ std::vector<std::filesystem::path> export_zones(const Zones& zones, const std::f
                                                 const std::set<std::string>& formats = {"svg", "png"});
 std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
                                                        const std::set<std::string>& formats = {"svg", "png"});
-std::vector<std::filesystem::path> export_errors(const ErrorMap& errors, const std::filesystem::path& folder,
-                                                 const std::set<std::string>& formats = {"png"});
-std::vector<std::filesystem::path> export_errors(const CoordinateErrors& errors, const std::filesystem::path& folder,
-                                                 const std::set<std::string>& formats = {"png"});
-/// `slices`: the layers of cells that are drawn; none: the one in the middle of the last coordinate.
-std::vector<std::filesystem::path> export_errors(const VolumeErrors& errors, const std::filesystem::path& folder,
+/// `slices`: over three coordinates the layers of cells that are drawn; none: the one in the middle of the last one.
+std::vector<std::filesystem::path> export_errors(const Errors& errors, const std::filesystem::path& folder,
                                                  const std::set<std::string>& formats = {"png"},
-                                                 const std::vector<VolumeSlice>& slices = {});
+                                                 const std::vector<FieldSlice>& slices = {});
 std::vector<std::filesystem::path> export_trajectory(const TrajectoryResult& result,
                                                      const std::filesystem::path& folder,
                                                      const std::set<std::string>& formats = {"png", "csv"});
@@ -65,10 +61,8 @@ struct ExportedFile {
 std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats);
 std::vector<ExportedFile> zone_files(const Zones& zones, const std::set<std::string>& formats);
 std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats);
-std::vector<ExportedFile> error_files(const ErrorMap& errors, const std::set<std::string>& formats);
-std::vector<ExportedFile> error_files(const CoordinateErrors& errors, const std::set<std::string>& formats);
-std::vector<ExportedFile> error_files(const VolumeErrors& errors, const std::set<std::string>& formats,
-                                      const std::vector<VolumeSlice>& slices = {});
+std::vector<ExportedFile> error_files(const Errors& errors, const std::set<std::string>& formats,
+                                      const std::vector<FieldSlice>& slices = {});
 std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const std::set<std::string>& formats);
 
 /// The bytes of loci.json, zones.json, verify.json, error.json, trajectory.json, pose.json, validation.json. Required
@@ -76,9 +70,7 @@ std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const
 std::string to_json(const LocusMap& loci);
 std::string to_json(const Zones& zones);
 std::string to_json(const Verification& answer);
-std::string to_json(const ErrorMap& errors);
-std::string to_json(const CoordinateErrors& errors);
-std::string to_json(const VolumeErrors& errors);
+std::string to_json(const Errors& errors);
 std::string to_json(const TrajectoryResult& result);
 std::string to_json(const Pose& pose);
 std::string to_json(const PoseInModes& poses);
@@ -88,9 +80,7 @@ std::string to_json(const Validation& validation);
 std::string to_table(const LocusMap& loci);
 std::string to_table(const Zones& zones);
 std::string to_text(const Verification& answer);
-std::string to_text(const ErrorMap& errors);
-std::string to_text(const CoordinateErrors& errors);
-std::string to_text(const VolumeErrors& errors);
+std::string to_text(const Errors& errors);
 std::string to_text(const TrajectoryResult& result);
 std::string to_text(const Pose& pose);
 std::string to_text(const PoseInModes& poses);

@@ -106,6 +106,8 @@ struct ZoneRequest {
   LociRequest loci = {};  ///< what cuts, working modes, deadline, progress; and how loci over two lengths are traced
   long cells = 300'000;   ///< by cells: how many are looked at in each mode; more part zones sharper
   bool by_cells = false;  ///< over two lengths, too
+  /// By cells: of ZonedMode::labels; the larger, the better are the balls. Empty: 1024, 256 x 256 or 64 x 64 x 64.
+  std::vector<int> grid = {};
 };
 
 /// The zones of the request's modes. Over two lengths polylines are finer than the request's tolerance where areas

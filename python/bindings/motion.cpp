@@ -86,66 +86,60 @@ py::dict dict_of(const Pose& pose) {
   return all;
 }
 
-py::array_t<double> grid_of(const FieldMap& map, const Field& field) {
-  py::array_t<double> array({static_cast<py::ssize_t>(map.ny), static_cast<py::ssize_t>(map.nx)});
-  std::copy(field.values.begin(), field.values.end(), array.mutable_data());
-  return array;
-}
-
-py::dict dict_of(const ErrorMap& map) {
-  py::list modes;
-  for (const ModeErrors& own : map.modes) {
-    py::dict fields, units, one;
-    for (const Field& field : own.map.fields) {
-      fields[py::str(field.name)] = grid_of(own.map, field);
-      units[py::str(field.name)] = field.unit;
-    }
-    std::vector<double> x, y;
-    for (int i = 0; i < own.map.nx; ++i) x.push_back(own.map.x(i));
-    for (int j = 0; j < own.map.ny; ++j) y.push_back(own.map.y(j));
-    one["working_mode"] = mode_of(map.loci.tower, own.mode);
-    one["fields"] = fields;
-    one["units"] = units;
-    one["x"] = column(x);
-    one["y"] = column(y);
-    one["reachable"] = own.reachable;
-    one["undefined"] = own.undefined;
-    one["never_loaded"] = own.never_loaded;
-    modes.append(one);
-  }
-  py::dict all;
-  all["modes"] = modes;
-  all["coordinates"] = map.loci.tower.coordinates;
-  all["complete"] = map.loci.complete;
-  return all;
-}
-
-py::dict dict_of(const CoordinateErrors& errors) {
-  py::list modes;
-  for (const CoordinateModeErrors& own : errors.modes) {
-    py::list events;
-    for (const ErrorEvent& event : own.events) {
-      py::dict one;
-      one["at"] = event.point.at.front();
-      one["kind"] = to_string(event.point.kind);
-      one["vanishing"] = names_of(event.point.vanishing);
-      one["jumps"] = event.jumps;
-      put_error(one, event.jump);
-      events.append(one);
-    }
+py::list list_of(const std::vector<ErrorEvent>& events) {
+  py::list all;
+  for (const ErrorEvent& event : events) {
     py::dict one;
-    one["working_mode"] = mode_of(errors.loci.tower, own.mode);
-    one["samples"] = dict_of(own.samples);
-    one["units"] = units_of(own.samples);
-    one["events"] = events;
-    one["never_loaded"] = own.never_loaded;
-    modes.append(one);
+    one["at"] = event.point.at.front();
+    one["kind"] = to_string(event.point.kind);
+    one["vanishing"] = names_of(event.point.vanishing);
+    one["jumps"] = event.jumps;
+    put_error(one, event.jump);
+    all.append(one);
   }
-  py::dict all;
-  all["modes"] = modes;
-  all["coordinate"] = errors.coordinate;
-  all["complete"] = errors.loci.complete;
   return all;
+}
+
+py::dict dict_of(const Errors& errors, const ModeErrors& mode) {
+  const FieldMap& map = mode.map;
+  // The last coordinate first, as images and volumes are indexed.
+  std::vector<py::ssize_t> shape;
+  for (std::size_t c = map.dimension(); c-- > 0;) shape.push_back(static_cast<py::ssize_t>(map.axes[c].size()));
+  py::dict fields, units = units_of(mode.take_up), axes, zones, one;
+  for (const Field& field : map.fields) {
+    py::array_t<double> array(shape);
+    std::copy(field.values.begin(), field.values.end(), array.mutable_data());
+    fields[py::str(field.name)] = array;
+    units[py::str(field.name)] = field.unit;
+  }
+  for (std::size_t c = 0; c < map.dimension(); ++c) {
+    axes[py::str(map.coordinates[c])] = column(map.axes[c]);
+    units[py::str(map.coordinates[c])] = map.angles[c] ? "rad" : "m";
+  }
+  for (const ZoneErrors& zone : mode.zones) {
+    py::array_t<std::size_t> cells(static_cast<py::ssize_t>(zone.cells.size()), zone.cells.data());
+    zones[py::str(zone.zone)] = cells;
+  }
+  one["working_mode"] = mode_of(errors.loci.tower, mode.mode);
+  one["coordinates"] = map.coordinates;
+  one["axes"] = axes;
+  one["fields"] = fields;
+  one["take_up"] = dict_of(mode.take_up);
+  one["units"] = units;
+  one["events"] = list_of(mode.events);
+  one["zones"] = zones;
+  one["reachable"] = mode.reachable;
+  one["undefined"] = mode.undefined;
+  one["never_loaded"] = mode.never_loaded;
+  one["notes"] = in_python(errors.notes);
+  one["complete"] = errors.loci.complete;
+  return one;
+}
+
+py::list list_of(const Errors& errors) {
+  py::list modes;
+  for (const ModeErrors& mode : errors.modes) modes.append(dict_of(errors, mode));
+  return modes;
 }
 
 py::dict dict_of(const TrajectoryResult& result) {
@@ -202,37 +196,6 @@ py::dict dict_of(const TrajectoryResult& result) {
   return all;
 }
 
-py::dict dict_of(const VolumeErrors& errors) {
-  py::list modes;
-  for (const VolumeModeErrors& own : errors.modes) {
-    // The last coordinate first, as volumes are indexed.
-    const std::vector<py::ssize_t> shape(own.volume.cells.rbegin(), own.volume.cells.rend());
-    py::dict fields, units, axes, one;
-    for (const Field& field : own.volume.fields) {
-      py::array_t<double> array(shape);
-      std::copy(field.values.begin(), field.values.end(), array.mutable_data());
-      fields[py::str(field.name)] = array;
-      units[py::str(field.name)] = field.unit;
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-      std::vector<double> middles;
-      for (int i = 0; i < own.volume.cells[c]; ++i) middles.push_back(own.volume.at(c, i));
-      axes[py::str(own.volume.coordinates[c])] = column(middles);
-    }
-    one["working_mode"] = mode_of(own.mode);
-    one["fields"] = fields;
-    one["units"] = units;
-    one["axes"] = axes;
-    one["reachable"] = own.reachable;
-    one["undefined"] = own.undefined;
-    one["never_loaded"] = own.never_loaded;
-    modes.append(one);
-  }
-  py::dict all;
-  all["modes"] = modes;
-  return all;
-}
-
 py::list list_of(const PoseInModes& poses) {
   py::list all;
   for (const ModePose& own : poses.modes)
@@ -240,8 +203,8 @@ py::list list_of(const PoseInModes& poses) {
   return all;
 }
 
-std::vector<std::filesystem::path> export_volume(const VolumeErrors& errors, const std::filesystem::path& folder,
-                                                 const std::set<std::string>& formats) {
+std::vector<std::filesystem::path> export_files(const Errors& errors, const std::filesystem::path& folder,
+                                                const std::set<std::string>& formats) {
   return export_errors(errors, folder, formats);
 }
 
@@ -266,12 +229,8 @@ void put_error(py::dict& to, const PoseError& error) {
 void bind_motion(py::module_& module) {
   bind_answer<Pose>(module, "Pose", [](const Pose& own) { return dict_of(own); });
   bind_answer<PoseInModes>(module, "PoseInModes", [](const PoseInModes& own) { return list_of(own); });
-  bind_answer<ErrorMap>(
-      module, "ErrorMap", [](const ErrorMap& own) { return dict_of(own); }, &export_errors);
-  bind_answer<CoordinateErrors>(
-      module, "CoordinateErrors", [](const CoordinateErrors& own) { return dict_of(own); }, &export_errors);
-  bind_answer<VolumeErrors>(
-      module, "VolumeErrors", [](const VolumeErrors& own) { return dict_of(own); }, &export_volume);
+  bind_answer<Errors>(
+      module, "Errors", [](const Errors& own) { return list_of(own); }, &export_files);
   bind_answer<TrajectoryResult>(
       module, "TrajectoryResult", [](const TrajectoryResult& own) { return dict_of(own); }, &export_trajectory);
   module.def("solve_pose",
@@ -290,31 +249,14 @@ void bind_motion(py::module_& module) {
     }();
     return dict_of(own.table);
   });
-  module.def("error_map",
-             [](const Model& model, int nx, int ny, bool worst_case, bool loci, const py::kwargs& options) {
-               ErrorRequest request{
-                   .nx = nx, .ny = ny, .worst_case = worst_case, .with_loci = loci, .loci = request_of(model, options)};
-               LociRequest own = request.loci;
-               return unlocked(own, [&](const LociRequest& with_signals) {
-                 request.loci = with_signals;
-                 return error_map(model, request);
-               });
-             });
-  module.def("error_volume",
-             [](const Model& model, const std::array<int, 3>& cells, bool worst_case, const py::kwargs& options) {
-               ErrorRequest request{.cells = cells, .worst_case = worst_case, .loci = request_of(model, options)};
-               LociRequest own = request.loci;
-               return unlocked(own, [&](const LociRequest& with_signals) {
-                 request.loci = with_signals;
-                 return error_volume(model, request);
-               });
-             });
-  module.def("coordinate_errors", [](const Model& model, int steps, bool worst_case, const py::kwargs& options) {
-    ErrorRequest request{.steps = steps, .worst_case = worst_case, .loci = request_of(model, options)};
+  module.def("find_errors", [](const Model& model, const std::vector<int>& grid, bool worst_case, bool loci, bool zones,
+                               const py::kwargs& options) {
+    ErrorRequest request{
+        .grid = grid, .worst_case = worst_case, .with_loci = loci, .with_zones = zones, .loci = request_of(model, options)};
     LociRequest own = request.loci;
     return unlocked(own, [&](const LociRequest& with_signals) {
       request.loci = with_signals;
-      return coordinate_errors(model, request);
+      return find_errors(model, request);
     });
   });
   module.def("follow_trajectory", [](const Model& model, const std::string& path, const py::object& period, int samples,

@@ -19,14 +19,12 @@ from ._clearloci import InputError, LimitReached, __version__
 from .answers import Curve, Loci, Surface, Validation, Verification, Zone, ZonedMode, Zones
 from .design import Designs, design
 from .model import Model, NormalizedFile, parse, read
-from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
+from .motion import Errors, Pose, Trajectory
 
 __all__ = [
-    "CoordinateErrors",
     "Curve",
     "Designs",
-    "ErrorMap",
-    "ErrorVolume",
+    "Errors",
     "InputError",
     "LimitReached",
     "Loci",

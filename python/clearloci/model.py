@@ -12,7 +12,7 @@ from . import _arguments as arguments
 from . import _clearloci
 from ._arguments import Names, Number, Value, WorkingMode
 from .answers import Loci, Validation, Verification, Zones, ask, validation_of
-from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
+from .motion import Errors, Pose, Trajectory
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -284,62 +284,40 @@ class Model:
         given = arguments.options(self, working_mode=_single(working_mode))
         return _clearloci.reactions(self._handle, arguments.poses(self, poses), **given)
 
-    def error_map(
+    def errors(
         self,
-        grid: tuple[int, int] = (400, 400),
+        grid: int | Sequence[int] = (),
         worst_case: bool = True,
         *,
+        loci: bool | None = None,
+        zones: bool = False,
         working_mode: WorkingMode | None = None,
+        tolerance: float | None = None,
+        engine: Engine | None = None,
         time_limit: float | None = None,
-    ) -> ErrorMap | list[ErrorMap]:
-        """The pose error over two coordinates, on a grid of (nx, ny) cells; with working_mode="all" a list, one map a
-        mode. `worst_case`: also the bounds over all take-ups.
+    ) -> Errors | list[Errors]:
+        """The pose error that the clearances cause, over one to three coordinates; with working_mode="all" a list, one a
+        mode.
+
+        `grid`: so many cells along each coordinate, along a single one so many steps; 720, (400, 400) or (40, 40, 40)
+        where none are given. `worst_case`: also the bounds over all take-ups. `loci`: also the loci, which pictures over
+        two coordinates show and at which errors over a single one jump; unless said over a single one alone. `zones`:
+        also which cells lie in which discontinuity-free zone.
         """
 
-        def maps_of(answer: dict[str, Any]) -> list[ErrorMap]:
-            return [ErrorMap(coordinates=answer["coordinates"], **own) for own in answer["modes"]]
+        def modes_of(answer: list[dict[str, Any]]) -> list[Errors]:
+            return [Errors(**own) for own in answer]
 
-        cells = arguments.counts("grid", grid, 2)
-        given = arguments.options(self, working_mode=working_mode, time_limit=time_limit)
-        maps = ask(maps_of, "error_map", self, *cells, bool(worst_case), False, **given)
-        return maps[0] if working_mode != "all" else maps
-
-    def error_volume(
-        self,
-        grid: tuple[int, int, int] = (40, 40, 40),
-        worst_case: bool = True,
-        *,
-        working_mode: WorkingMode | None = None,
-        time_limit: float | None = None,
-    ) -> ErrorVolume | list[ErrorVolume]:
-        """The pose error over three coordinates, on so many cells along each; with working_mode="all" a list, one a
-        mode."""
-
-        def volumes_of(answer: dict[str, Any]) -> list[ErrorVolume]:
-            return [ErrorVolume(**own) for own in answer["modes"]]
-
-        cells = arguments.counts("grid", grid, 3)
-        given = arguments.options(self, working_mode=working_mode, time_limit=time_limit)
-        volumes = ask(volumes_of, "error_volume", self, cells, bool(worst_case), **given)
-        return volumes[0] if working_mode != "all" else volumes
-
-    def coordinate_errors(
-        self,
-        steps: int = 720,
-        worst_case: bool = True,
-        *,
-        working_mode: WorkingMode | None = None,
-        time_limit: float | None = None,
-    ) -> CoordinateErrors | list[CoordinateErrors]:
-        """The pose error over a single coordinate, with its jumps at the loci; with working_mode="all" a list, one a
-        mode."""
-
-        def errors_of(answer: dict[str, Any]) -> list[CoordinateErrors]:
-            return [CoordinateErrors(coordinate=answer["coordinate"], **own) for own in answer["modes"]]
-
-        given = arguments.options(self, working_mode=working_mode, time_limit=time_limit)
-        all_modes = ask(errors_of, "coordinate_errors", self, arguments.count("steps", steps), bool(worst_case), **given)
-        return all_modes[0] if working_mode != "all" else all_modes
+        count = len(self.coordinates)
+        cells = arguments.counts("grid", [grid] if isinstance(grid, int) else grid)
+        if cells and len(cells) != count:
+            raise ValueError(f"grid has {len(cells)} numbers; give one for each of {', '.join(self.coordinates)}")
+        given = arguments.options(
+            self, working_mode=working_mode, tolerance=tolerance, engine=engine, time_limit=time_limit
+        )
+        traced = count == 1 or bool(zones) if loci is None else bool(loci)
+        modes = ask(modes_of, "find_errors", self, cells, bool(worst_case), traced, bool(zones), **given)
+        return modes if working_mode == "all" else modes[0]
 
     def trajectory(
         self,

@@ -58,58 +58,52 @@ class Pose(Asked):
 
 
 @dataclass(frozen=True)
-class ErrorMap(Asked, Exported):
-    """The pose error of one working mode over two coordinates; every field is an array (ny, nx), NaN where none is."""
+class Errors(Asked, Exported):
+    """The pose error of one working mode over one to three coordinates. Every field is an array indexed by the last
+    coordinate first, (ny, nx) over x and y, NaN where there is no error; fields are attributes, too: ``errors.dx``."""
 
     working_mode: dict[str, str]
     coordinates: list[str]
+    axes: dict[str, np.ndarray] = field(repr=False)  #: of each coordinate the values at which fields are known, m or rad
     fields: dict[str, np.ndarray] = field(repr=False)  #: "dx", "dy", "dalpha", "dp", "worst_dx", ...
-    units: dict[str, str]
-    x: np.ndarray = field(repr=False)  #: middles of the cells, m or, of an angle, rad
-    y: np.ndarray = field(repr=False)
-    reachable: int
-    undefined: int
+    #: Over a single coordinate the reactions and the joints' take-up, name -> values, as fields.
+    take_up: dict[str, np.ndarray] = field(repr=False)
+    units: dict[str, str] = field(repr=False)  #: of coordinates, fields and take-up
+    #: Over a single coordinate what vanishes where, and by how much the end effector jumps there.
+    events: list[dict[str, Any]] = field(repr=False)
+    #: Where they were asked for: zone -> numbers of the cells in it, for ``errors.dx.ravel()``.
+    zones: dict[str, np.ndarray] = field(repr=False)
+    reachable: int  #: cells in the workspace
+    undefined: int  #: of those, cells without an error, exactly on a locus
     never_loaded: list[str]
+    complete: bool  #: False where a time limit came before all loci were traced
+    notes: list[str] = field(repr=False)
 
     def __getattr__(self, name: str) -> np.ndarray:
         if name.startswith("_"):
             raise AttributeError(name)
         try:
-            return self.fields[name]
+            return self.fields[name] if name in self.fields else self.axes[name]
         except KeyError:
             raise AttributeError(name) from None
 
+    @property
+    def samples(self) -> dict[str, np.ndarray]:
+        """Over a single coordinate all columns by name: the coordinate, reactions, take-up and errors."""
+        self._require(len(self.coordinates) == 1, "samples are those of a single coordinate; see `fields` and `axes`")
+        return {**self.axes, **self.take_up, **self.fields}
+
     def plot(self, field: str = "dp", ax: Axes | None = None) -> Axes:
-        """One field in colours, in the Axes given or in new ones."""
-        from .plots import plot_field
+        """One field over two coordinates in colours, or over a single one as a line, in the Axes given or in new ones."""
+        from .plots import plot_field, plot_line
 
-        return plot_field(self, field, ax)
+        self._require(len(self.coordinates) < 3, "errors over three coordinates have no plot; `export` draws slices")
+        return plot_field(self, field, ax) if len(self.coordinates) == 2 else plot_line(self, field, ax)
 
-
-@dataclass(frozen=True)
-class ErrorVolume(Asked, Exported):
-    """The pose error of one working mode over three coordinates; every field is an array indexed by the last coordinate
-    first, NaN where there is none."""
-
-    working_mode: dict[str, str]
-    fields: dict[str, np.ndarray] = field(repr=False)  #: "dx", "dy", "dz", "dalpha_x", ..., "dp", "worst_dx", ...
-    units: dict[str, str]
-    axes: dict[str, np.ndarray] = field(repr=False)  #: of each coordinate the middles of the cells, m or rad
-    reachable: int
-    undefined: int
-    never_loaded: list[str]
-
-
-@dataclass(frozen=True)
-class CoordinateErrors(Asked, Exported):
-    """The pose error of one working mode over a single coordinate."""
-
-    working_mode: dict[str, str]
-    coordinate: str
-    samples: dict[str, np.ndarray] = field(repr=False)  #: the coordinate, reactions, take-up, errors; NaN at events
-    units: dict[str, str]
-    events: list[dict[str, Any]] = field(repr=False)  #: what vanishes where, and by how much the end effector jumps
-    never_loaded: list[str]
+    @staticmethod
+    def _require(holds: bool, otherwise: str) -> None:
+        if not holds:
+            raise ValueError(otherwise)
 
 
 @dataclass(frozen=True)

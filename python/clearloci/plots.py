@@ -172,8 +172,7 @@ def plot_field(errors: Any, field: str, ax: Axes | None) -> Axes:
     most = float(np.percentile(known, 90)) if known.size else 1.0
     signed = bool(np.nanmin(values) < 0) if known.size else False
     image = ax.pcolormesh(
-        errors.x * plane.scale[0],
-        errors.y * plane.scale[1],
+        *(errors.axes[name] * scale for name, scale in zip(errors.coordinates, plane.scale)),
         values,
         cmap="coolwarm" if signed else "viridis",
         vmin=-most if signed else 0,
@@ -181,6 +180,18 @@ def plot_field(errors: Any, field: str, ax: Axes | None) -> Axes:
         shading="nearest",
     )
     ax.figure.colorbar(image, ax=ax, label=f"{field} ({unit})", extend="both" if signed else "max")
+    return ax
+
+
+def plot_line(errors: Any, field: str, ax: Axes | None) -> Axes:
+    """A field over a single coordinate, broken at the loci."""
+    ax = _new_axes() if ax is None else ax
+    axis = _Plane(errors.model, errors.coordinates)
+    unit, per_si = _shown_unit(errors.model, errors.units[field])
+    (name,) = errors.coordinates
+    ax.plot(errors.axes[name] * axis.scale[0], errors.fields[field] * per_si)
+    ax.set_xlabel(axis.labels[0])
+    ax.set_ylabel(f"{field} ({unit})")
     return ax
 
 

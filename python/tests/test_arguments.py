@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from conftest import EXAMPLES
 
-QUESTIONS = ("loci", "zones", "verify", "validate", "pose", "reactions", "error_map",
-             "error_volume", "coordinate_errors", "trajectory")  # fmt: skip
+QUESTIONS = ("loci", "zones", "verify", "validate", "pose", "reactions", "errors",
+             "trajectory")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", QUESTIONS)
@@ -55,10 +55,11 @@ WRONG = [
     ("reactions", {"poses": [[1, 2, 3]]}),
     ("reactions", {"poses": "here"}),
     ("reactions", {"poses": [[0.1, -0.7]], "working_mode": "all"}),
-    ("error_map", {"grid": (0, 3)}),
-    ("error_map", {"grid": (10**30, 3)}),
-    ("error_map", {"grid": 5}),
-    ("error_map", {"grid": (2.5, 3)}),
+    ("errors", {"grid": (0, 3)}),
+    ("errors", {"grid": (10**30, 3)}),
+    ("errors", {"grid": 5}),
+    ("errors", {"grid": (2.5, 3)}),
+    ("errors", {"grid": (4, 4, 4)}),
     ("validate", {"grid": "12"}),
     ("validate", {"grid": [-4, 4]}),
     ("verify", {"task": 3}),
@@ -74,7 +75,7 @@ WRONG = [
     ("with_parameters", {"L": "1/0"}),
     ("with_parameters", {"L": math.nan}),
     ("with_parameters", {"nothing": 1}),
-    ("coordinate_errors", {"steps": 2**40}),
+    ("errors", {"grid": 2**40}),
 ]
 
 

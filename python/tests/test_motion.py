@@ -25,7 +25,7 @@ def test_reactions_are_vectorised(five_bar):
 
 
 def test_error_maps_are_arrays(five_bar):
-    errors = five_bar.error_map((20, 30))
+    errors = five_bar.errors((20, 30))
     assert errors.dx.shape == (30, 20)
     assert np.isnan(errors.dx).any() and np.isfinite(errors.dx).any()
     inside = np.isfinite(errors.dp)
@@ -38,17 +38,27 @@ def test_error_maps_are_arrays(five_bar):
 
 def test_answers_print_in_a_few_lines(five_bar):
     four_bar = cl.read(EXAMPLES / "four_bar.yaml")
-    for answer in (five_bar.error_map((20, 30)), five_bar.validate([40, 40]), four_bar.coordinate_errors(steps=90)):
+    for answer in (five_bar.errors((20, 30)), five_bar.validate([40, 40]), four_bar.errors(90)):
         assert repr(answer).startswith(type(answer).__name__ + "(")
         assert len(repr(answer)) < 500
 
 
 def test_a_single_coordinate_has_jumps():
-    errors = cl.read(EXAMPLES / "four_bar.yaml").coordinate_errors(steps=90)
+    errors = cl.read(EXAMPLES / "four_bar.yaml").errors(90)
     assert len(errors.samples["dx"]) >= 90
     assert errors.units["dx"] == "m"
     for event in errors.events:
         assert event["vanishing"] or event["kind"] in ("workspace-boundary", "direct-singularity", "no-limit")
+
+
+def test_errors_zone_by_zone(five_bar):
+    errors = five_bar.errors((20, 30), worst_case=False, zones=True)
+    inside = np.concatenate(list(errors.zones.values()))
+    assert len(set(inside)) == len(inside) > 0
+    assert np.isfinite(errors.dp.ravel()[inside]).all()
+    assert five_bar.errors((20, 30)).zones == {}
+    with pytest.raises(ValueError):
+        errors.samples
 
 
 def test_a_motion_has_samples_and_losses(tmp_path):
@@ -63,6 +73,7 @@ def test_a_motion_has_samples_and_losses(tmp_path):
 
 def test_plots_of_errors_and_motions(five_bar):
     plt = pytest.importorskip("matplotlib.pyplot")
-    ax = five_bar.error_map((20, 30)).plot("dx")
+    ax = five_bar.errors((20, 30)).plot("dx")
     assert ax.collections
+    assert cl.read(EXAMPLES / "four_bar.yaml").errors(36).plot("dx").lines
     plt.close("all")

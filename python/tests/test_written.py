@@ -34,12 +34,12 @@ def test_poses_of_all_modes(five_bar):
 
 
 def test_answers_are_written(tmp_path, five_bar, four_bar):
-    errors = five_bar.error_map((20, 30))
+    errors = five_bar.errors((20, 30))
     names = {path.rsplit("/", 1)[-1] for path in errors.export(tmp_path / "map", ["csv", "vtk"])}
     assert names == {"error.json", "error.csv", "error.vti"}
     with pytest.raises(cl.InputError):
         errors.export(tmp_path, ["dxf"])
-    over_one = four_bar.coordinate_errors(steps=36)
+    over_one = four_bar.errors(36)
     assert any(path.endswith("error.csv") for path in over_one.export(tmp_path / "one", ["csv"]))
     zones = four_bar.zones()
     again = pickle.loads(pickle.dumps(zones))
@@ -48,7 +48,7 @@ def test_answers_are_written(tmp_path, five_bar, four_bar):
 
 
 def test_errors_over_volumes():
-    volume = cl.read(EXAMPLES / "three_upu.yaml").error_volume((3, 4, 5))
+    volume = cl.read(EXAMPLES / "three_upu.yaml").errors((3, 4, 5))
     assert volume.fields["dp"].shape == (5, 4, 3)
     assert [len(own) for own in volume.axes.values()] == [3, 4, 5]
     assert volume.units["dp"] == "m" and volume.reachable > 0

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 #include "clearloci/error.hpp"
+#include "clearloci/errors.hpp"
+#include "clearloci/export.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
 #include "tests/source_dir.hpp"
@@ -23,13 +26,19 @@ std::string example_text(const std::string& name) {
 
 Model four_bar() { return Model::read(source_dir() + "/examples/four_bar.yaml"); }
 
+const std::vector<double>& values_of(const ModeErrors& errors, const std::string& name) {
+  for (const Field& field : errors.map.fields)
+    if (field.name == name) return field.values;
+  throw std::out_of_range(name);
+}
+
 TEST(CoordinateErrorsOfAModel, JumpAtTheLociByWhatTheirRowsSay) {
-  const CoordinateErrors errors = coordinate_errors(four_bar(), {.steps = 360});
-  EXPECT_TRUE(errors.angle);
-  EXPECT_EQ(errors.coordinate, "theta");
+  const Errors errors = find_errors(four_bar(), {.grid = {360}});
+  EXPECT_EQ(errors.loci.angles, (std::vector<bool>{true}));
+  EXPECT_EQ(errors.loci.tower.coordinates, (std::vector<std::string>{"theta"}));
   ASSERT_EQ(errors.modes.size(), 1U);
-  const CoordinateModeErrors& own = errors.modes.front();
-  const std::vector<double>& at = own.samples.at("theta");
+  const ModeErrors& own = errors.modes.front();
+  const std::vector<double>& at = own.map.axes.front();
   EXPECT_TRUE(std::is_sorted(at.begin(), at.end()));
   int jumps = 0;
   for (const ErrorEvent& event : own.events) {
@@ -38,7 +47,7 @@ TEST(CoordinateErrorsOfAModel, JumpAtTheLociByWhatTheirRowsSay) {
     const auto row = std::find(at.begin(), at.end(), event.point.at.front()) - at.begin();
     ASSERT_LT(static_cast<std::size_t>(row), at.size()) << "the event has a row";
     const auto i = static_cast<std::size_t>(row);
-    const std::vector<double>& dx = own.samples.at("dx");
+    const std::vector<double>& dx = values_of(own, "dx");
     EXPECT_TRUE(std::isnan(dx[i])) << "lines are broken there";
     ASSERT_TRUE(i > 0 && i + 1 < at.size());
     EXPECT_NEAR(dx[i + 1] - dx[i - 1], event.jump.displacement[0], 1e-9);
@@ -47,8 +56,8 @@ TEST(CoordinateErrorsOfAModel, JumpAtTheLociByWhatTheirRowsSay) {
 }
 
 TEST(CoordinateErrorsOfAModel, SayTheUnitOfEveryColumn) {
-  const CoordinateErrors errors = coordinate_errors(four_bar(), {.steps = 30, .worst_case = false, .with_loci = false});
-  const Table& samples = errors.modes.front().samples;
+  const Errors errors = find_errors(four_bar(), {.grid = {30}, .worst_case = false, .with_loci = false});
+  const Table samples = samples_of(errors.modes.front());
   ASSERT_EQ(samples.units.size(), samples.names.size());
   const auto unit = [&](const std::string& name) {
     return samples.units[static_cast<std::size_t>(std::find(samples.names.begin(), samples.names.end(), name) -
@@ -61,7 +70,7 @@ TEST(CoordinateErrorsOfAModel, SayTheUnitOfEveryColumn) {
   EXPECT_EQ(unit("dx"), "m");
   EXPECT_EQ(unit("dalpha"), "rad");
   EXPECT_FALSE(samples.has("worst_dx"));
-  EXPECT_EQ(errors.components.size(), 4U);
+  EXPECT_EQ(errors.modes.front().map.fields.size(), 4U);
   EXPECT_EQ(samples.columns.front().size(), 31U) << "no events without loci";
 }
 
@@ -79,34 +88,35 @@ Model upu_along_x() {
 
 TEST(CoordinateErrorsOfAModel, InSpaceAreThoseOfItsPoses) {
   const Model model = upu_along_x();
-  const CoordinateErrors errors = coordinate_errors(model, {.steps = 40});
+  const Errors errors = find_errors(model, {.grid = {40}});
   ASSERT_EQ(errors.modes.size(), 1U);
-  const CoordinateModeErrors& own = errors.modes.front();
-  const std::vector<double>& at = own.samples.at("x");
+  const ModeErrors& own = errors.modes.front();
+  const std::vector<double>& at = own.map.axes.front();
+  const Table samples = samples_of(own);
   int compared = 0;
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const double x = own.samples.at("dx")[i];
+    const double x = samples.at("dx")[i];
     if (!std::isfinite(x)) continue;
     const Pose pose = solve_pose(model, std::vector<double>{at[i]});
     ASSERT_TRUE(pose.error);
     const double scale = 1e-9 * pose.worst.distance;
     EXPECT_NEAR(x, pose.error->displacement[0], scale);
-    EXPECT_NEAR(own.samples.at("dz")[i], pose.error->displacement[2], scale);
-    EXPECT_NEAR(own.samples.at("dalpha_y")[i], pose.error->rotation[1], 1e-9 * pose.worst.angle);
-    EXPECT_NEAR(own.samples.at("worst_dy")[i], pose.worst.displacement[1], scale);
-    EXPECT_NEAR(own.samples.at("worst_dalpha_z")[i], pose.worst.rotation[2], 1e-9 * pose.worst.angle);
+    EXPECT_NEAR(samples.at("dz")[i], pose.error->displacement[2], scale);
+    EXPECT_NEAR(samples.at("dalpha_y")[i], pose.error->rotation[1], 1e-9 * pose.worst.angle);
+    EXPECT_NEAR(samples.at("worst_dy")[i], pose.worst.displacement[1], scale);
+    EXPECT_NEAR(samples.at("worst_dalpha_z")[i], pose.worst.rotation[2], 1e-9 * pose.worst.angle);
     const std::array axes = {"x", "y", "z"};
     for (std::size_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(own.samples.at(std::string("d_V2_") + axes[c])[i], pose.take_up[5].displacement[c], 1e-12);
+      EXPECT_NEAR(samples.at(std::string("d_V2_") + axes[c])[i], pose.take_up[5].displacement[c], 1e-12);
     ++compared;
   }
   EXPECT_GT(compared, 35);
 }
 
 TEST(CoordinateErrorsOfAModel, InSpaceJumpByWhatTheirRowsSay) {
-  const CoordinateErrors errors = coordinate_errors(upu_along_x(), {.steps = 40});
-  const CoordinateModeErrors& own = errors.modes.front();
-  const std::vector<double>& at = own.samples.at("x");
+  const Errors errors = find_errors(upu_along_x(), {.grid = {40}});
+  const ModeErrors& own = errors.modes.front();
+  const std::vector<double>& at = own.map.axes.front();
   int jumps = 0;
   for (const ErrorEvent& event : own.events) {
     if (!event.jumps) continue;
@@ -118,7 +128,7 @@ TEST(CoordinateErrorsOfAModel, InSpaceJumpByWhatTheirRowsSay) {
     const std::array places = {"dx", "dy", "dz"};
     double size = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::vector<double>& column = own.samples.at(places[c]);
+      const std::vector<double>& column = values_of(own, places[c]);
       EXPECT_NEAR(column[i + 1] - column[i - 1], event.jump.displacement[c], 1e-9);
       size = std::max(size, std::abs(event.jump.displacement[c]));
     }
@@ -128,26 +138,54 @@ TEST(CoordinateErrorsOfAModel, InSpaceJumpByWhatTheirRowsSay) {
   EXPECT_GT(jumps, 0);
 }
 
-TEST(Errors, AreRefusedInTheirOwnWordsOverSixCoordinates) {
-  const Model model = Model::read(source_dir() + "/examples/gough_stewart_poses.yaml");
-  const auto words = [&](const auto& ask) -> std::string {
-    try {
-      ask(model, ErrorRequest{});
-    } catch (const InputError& error) {
-      return error.what();
+TEST(CoordinateErrorsOfAModel, LieInTheZonesBetweenTheirJumps) {
+  const Errors errors = find_errors(four_bar(), {.grid = {200}, .with_zones = true});
+  const ModeErrors& own = errors.modes.front();
+  const std::vector<double>& at = own.map.axes.front();
+  ASSERT_GT(own.zones.size(), 1U);
+  std::vector<int> zones_of(at.size(), 0);
+  for (const ZoneErrors& zone : own.zones) {
+    ASSERT_FALSE(zone.cells.empty());
+    for (const std::size_t cell : zone.cells) ++zones_of[cell];
+    for (const ErrorEvent& event : own.events) {
+      if (!event.jumps) continue;
+      const double place = event.point.at.front();
+      EXPECT_FALSE(at[zone.cells.front()] < place && place < at[zone.cells.back()]) << zone.zone << " at " << place;
     }
-    return "none";
-  };
-  for (const std::string& own : {words([](const Model&m, const ErrorRequest&r) { error_map(m, r); }),
-                                 words([](const Model&m, const ErrorRequest&r) { error_volume(m, r); }),
-                                 words([](const Model&m, const ErrorRequest&r) { coordinate_errors(m, r); })}) {
-    EXPECT_NE(own.find("errors"), std::string::npos) << own;
-    EXPECT_EQ(own.find("loci are"), std::string::npos) << own;
   }
+  const auto alone = [](int count) { return count == 1; };
+  EXPECT_GT(std::count_if(zones_of.begin(), zones_of.end(), alone), 190);
+  EXPECT_EQ(*std::max_element(zones_of.begin(), zones_of.end()), 1);
 }
 
-TEST(CoordinateErrorsOfAModel, WantOneCoordinate) {
-  EXPECT_THROW(coordinate_errors(Model::read(source_dir() + "/examples/five_bar.yaml")), InputError);
+TEST(CoordinateErrorsOfAModel, AreBoundsAloneWithoutALoad) {
+  std::string text = example_text("four_bar");
+  text.erase(text.find("\nloads:") + 1);
+  const Errors errors = find_errors(Model::parse(text), {.grid = {40}});
+  const ModeErrors& own = errors.modes.front();
+  EXPECT_FALSE(own.never_loaded.empty());
+  EXPECT_EQ(own.map.fields.size(), 4U);
+  EXPECT_EQ(own.map.fields.front().name, "worst_dx");
+  EXPECT_EQ(own.undefined, 0U);
+  EXPECT_FALSE(error_files(errors, {"svg"}).empty());
+}
+
+TEST(CoordinateErrorsOfAModel, AreWholeWhereTheLociAreNotAndEndWithTheirTime) {
+  ErrorRequest late{.grid = {20}, .with_loci = false};
+  late.loci.deadline = std::chrono::steady_clock::now();
+  EXPECT_THROW(find_errors(four_bar(), late), LimitReached);
+}
+
+TEST(Errors, AreRefusedInTheirOwnWordsOverSixCoordinates) {
+  const Model model = Model::read(source_dir() + "/examples/gough_stewart_poses.yaml");
+  try {
+    find_errors(model);
+    FAIL();
+  } catch (const InputError& error) {
+    const std::string words = error.what();
+    EXPECT_NE(words.find("errors"), std::string::npos) << words;
+    EXPECT_EQ(words.find("loci are"), std::string::npos) << words;
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "clearloci/mechanism.hpp"
@@ -23,17 +24,17 @@ std::size_t field(const FieldMap& map, const std::string& name) {
 
 TEST(ErrorMapOfAModel, HoldsWhatSinglePosesSay) {
   const Model model = five_bar();
-  const ErrorMap errors = error_map(model, {.nx = 9, .ny = 7});
+  const Errors errors = find_errors(model, {.grid = {9, 7}});
   ASSERT_EQ(errors.modes.size(), 1U);
   const ModeErrors& own = errors.modes.front();
   EXPECT_FALSE(errors.loci.curves.empty());
   std::size_t reachable = 0;
-  for (int j = 0; j < 7; ++j)
-    for (int i = 0; i < 9; ++i) {
-      const Pose pose = solve_pose(model, {own.map.x(i), own.map.y(j)});
-      const auto value = [&](const char* name) {
-        return own.map.fields[field(own.map, name)].values[own.map.index(i, j)];
-      };
+  for (std::size_t j = 0; j < 7; ++j)
+    for (std::size_t i = 0; i < 9; ++i) {
+      const std::size_t cell = own.map.index({i, j});
+      EXPECT_EQ(own.map.cell(cell), (std::array<std::size_t, 3>{i, j, 0}));
+      const Pose pose = solve_pose(model, own.map.place(cell));
+      const auto value = [&](const char* name) { return own.map.fields[field(own.map, name)].values[cell]; };
       if (!pose.unreachable.empty()) {
         EXPECT_TRUE(std::isnan(value("worst_dp")));
         continue;
@@ -47,7 +48,7 @@ TEST(ErrorMapOfAModel, HoldsWhatSinglePosesSay) {
 }
 
 TEST(ErrorMapOfAModel, HasSizesOfEveryField) {
-  const ErrorMap errors = error_map(five_bar(), {.nx = 20, .ny = 20, .with_loci = false});
+  const Errors errors = find_errors(five_bar(), {.grid = {20, 20}, .with_loci = false});
   const ModeErrors& own = errors.modes.front();
   EXPECT_TRUE(errors.loci.curves.empty());
   ASSERT_EQ(own.sizes.size(), own.map.fields.size());
@@ -65,7 +66,7 @@ TEST(ErrorMapOfAModel, HasSizesOfEveryField) {
 }
 
 TEST(ErrorMapOfAModel, SharesItsCellsOutAmongTheZones) {
-  const ErrorMap errors = error_map(five_bar(), {.nx = 30, .ny = 40, .worst_case = false, .with_zones = true});
+  const Errors errors = find_errors(five_bar(), {.grid = {30, 40}, .worst_case = false, .with_zones = true});
   const ModeErrors& own = errors.modes.front();
   ASSERT_GT(own.zones.size(), 1U);
   std::vector<std::size_t> cells;
@@ -82,14 +83,14 @@ TEST(ErrorMapOfAModel, SharesItsCellsOutAmongTheZones) {
 }
 
 TEST(ErrorMapOfAModel, IsMadeForEveryModeAskedFor) {
-  const ErrorMap errors =
-      error_map(five_bar(), {.nx = 8, .ny = 8, .with_loci = false, .loci = {.all_working_modes = true}});
+  const Errors errors =
+      find_errors(five_bar(), {.grid = {8, 8}, .with_loci = false, .loci = {.all_working_modes = true}});
   ASSERT_EQ(errors.modes.size(), 4U);
   for (const ModeErrors& own : errors.modes) EXPECT_EQ(describe_mode(errors.loci.tower, own.mode).size(), 2U);
 }
 
 TEST(ErrorMapOfAModel, RefusesZonesWithoutLoci) {
-  EXPECT_THROW(error_map(five_bar(), {.with_loci = false, .with_zones = true}), InputError);
+  EXPECT_THROW(find_errors(five_bar(), {.with_loci = false, .with_zones = true}), InputError);
 }
 
 }  // namespace

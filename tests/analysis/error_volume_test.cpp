@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "clearloci/error.hpp"
 #include "clearloci/errors.hpp"
@@ -19,7 +20,7 @@ constexpr double degree = std::numbers::pi / 180;
 
 Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name + ".yaml"); }
 
-const Field& field(const FieldVolume& volume, const std::string& name) {
+const Field& field(const FieldMap& volume, const std::string& name) {
   for (const Field& own : volume.fields)
     if (own.name == name) return own;
   throw std::out_of_range(name);
@@ -45,18 +46,18 @@ Platform three_rpr(double x, double y, double phi) {
 }
 
 TEST(ErrorVolume, OfA3RprIsThatOfItsLegsLengths) {
-  const VolumeErrors errors = error_volume(example("three_rpr_orientation"), {.cells = {9, 8, 7}});
+  const Errors errors = find_errors(example("three_rpr_orientation"), {.grid = {9, 8, 7}});
   ASSERT_EQ(errors.modes.size(), 1U);
-  const FieldVolume& volume = errors.modes.front().volume;
-  EXPECT_EQ(volume.coordinates, (std::array<std::string, 3>{"x", "y", "phi"}));
-  EXPECT_EQ(volume.angles, (std::array<bool, 3>{false, false, true}));
+  const FieldMap& volume = errors.modes.front().map;
+  EXPECT_EQ(volume.coordinates, (std::vector<std::string>{"x", "y", "phi"}));
+  EXPECT_EQ(volume.angles, (std::vector<bool>{false, false, true}));
   EXPECT_EQ(errors.modes.front().reachable, 9U * 8U * 7U);
   constexpr double play = 10e-6 + 5e-6 + 10e-6;  // both pins and the cylinder
   int compared = 0;
-  for (int k = 0; k < 7; ++k)
-    for (int j = 0; j < 8; ++j)
-      for (int i = 0; i < 9; ++i) {
-        const Platform own = three_rpr(volume.at(0, i), volume.at(1, j), volume.at(2, k));
+  for (std::size_t k = 0; k < 7; ++k)
+    for (std::size_t j = 0; j < 8; ++j)
+      for (std::size_t i = 0; i < 9; ++i) {
+        const Platform own = three_rpr(volume.axes[0][i], volume.axes[1][j], volume.axes[2][k]);
         if (std::abs(own.jacobian.determinant()) < 1e-3) continue;
         ++compared;
         const auto inverse = own.jacobian.inverse().eval();
@@ -78,31 +79,60 @@ TEST(ErrorVolume, OfA3RprIsThatOfItsLegsLengths) {
 }
 
 TEST(ErrorVolume, HasSlicesAcrossEachCoordinate) {
-  const VolumeErrors errors = error_volume(example("three_rpr_orientation"), {.cells = {5, 4, 3}, .worst_case = false});
-  const FieldVolume& volume = errors.modes.front().volume;
+  const Errors errors = find_errors(example("three_rpr_orientation"), {.grid = {5, 4, 3}, .worst_case = false});
+  const FieldMap& volume = errors.modes.front().map;
   for (std::size_t across = 0; across < 3; ++across) {
-    const FieldMap map = slice_of(volume, across, 2);
+    const FieldMap map = slice_of(volume, {across, 2});
     const std::size_t u = across == 0 ? 1 : 0, v = across == 2 ? 1 : 2;
-    ASSERT_EQ(map.nx, volume.cells[u]);
-    ASSERT_EQ(map.ny, volume.cells[v]);
-    for (int j = 0; j < map.ny; ++j)
-      for (int i = 0; i < map.nx; ++i) {
-        std::array<int, 3> cell{};
+    ASSERT_EQ(map.axes, (std::vector<std::vector<double>>{volume.axes[u], volume.axes[v]}));
+    EXPECT_EQ(map.coordinates, (std::vector<std::string>{volume.coordinates[u], volume.coordinates[v]}));
+    for (std::size_t j = 0; j < map.axes[1].size(); ++j)
+      for (std::size_t i = 0; i < map.axes[0].size(); ++i) {
+        std::array<std::size_t, 3> cell{};
         cell[across] = 2;
         cell[u] = i;
         cell[v] = j;
-        EXPECT_EQ(map.x(i), volume.at(u, i));
         for (std::size_t f = 0; f < map.fields.size(); ++f)
-          EXPECT_EQ(map.fields[f].values[map.index(i, j)], volume.fields[f].values[volume.index(cell)]);
+          EXPECT_EQ(map.fields[f].values[map.index({i, j})], volume.fields[f].values[volume.index(cell)]);
       }
   }
 }
 
-TEST(ErrorVolume, RefusesOtherNumbersOfCoordinatesAndEndsWithItsTime) {
-  EXPECT_THROW(error_volume(example("five_bar")), InputError);
-  ErrorRequest late{.cells = {9, 8, 7}};
+/// In a zone no leg's force changes its sign: by the closed form, which knows nothing of cells.
+TEST(ErrorVolume, SharesItsCellsOutAmongZonesInWhichNoLegsForceTurns) {
+  const Errors errors = find_errors(example("three_rpr_orientation"), {.grid = {9, 8, 7},
+                                                                       .worst_case = false,
+                                                                       .with_zones = true,
+                                                                       .zone_cells = 20'000});
+  const ModeErrors& mode = errors.modes.front();
+  ASSERT_GT(mode.zones.size(), 1U);
+  std::vector<int> zones_of(mode.map.size(), 0);
+  std::size_t cells = 0;
+  for (const ZoneErrors& zone : mode.zones) {
+    std::optional<Eigen::Array4d> signs;  // of the forces, and of the determinant of the legs' lines
+    cells += zone.cells.size();
+    for (const std::size_t cell : zone.cells) {
+      EXPECT_EQ(++zones_of[cell], 1);
+      const std::vector<double> at = mode.map.place(cell);
+      const Platform own = three_rpr(at[0], at[1], at[2]);
+      Eigen::Array4d here;
+      here << own.forces.array(), own.jacobian.determinant();
+      here = here.sign();
+      if (!signs) signs = here;
+      EXPECT_TRUE((here == *signs).all()) << zone.zone << " at " << at[0] << ", " << at[1] << ", " << at[2];
+    }
+    if (!zone.cells.empty()) {
+      EXPECT_LE(std::abs(zone.sizes.back()->largest), std::abs(mode.sizes.back()->largest));
+    }
+  }
+  EXPECT_GT(cells, mode.map.size() / 3) << "most cells are not in doubt";
+}
+
+TEST(ErrorVolume, RefusesOtherNumbersOfCellsAndEndsWithItsTime) {
+  EXPECT_THROW(find_errors(example("five_bar"), {.grid = {9, 8, 7}}), InputError);
+  ErrorRequest late{.grid = {9, 8, 7}};
   late.loci.deadline = std::chrono::steady_clock::now();
-  EXPECT_THROW(error_volume(example("three_upu"), late), LimitReached);
+  EXPECT_THROW(find_errors(example("three_upu"), late), LimitReached);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(RequestLimits, ATolerancesIsOneThatDoublesCanKeep) {
   for (const double tolerance : {std::nan(""), -1e-5, 0.0, 1e-300, infinity, -infinity}) {
     EXPECT_THROW(trace_loci(model, {.tolerance = tolerance}), InputError) << tolerance;
     EXPECT_THROW(find_zones(model, {{.tolerance = tolerance}}), InputError) << tolerance;
-    EXPECT_THROW(coordinate_errors(example("four_bar.yaml"), {.loci = {.tolerance = tolerance}}), InputError);
+    EXPECT_THROW(find_errors(example("four_bar.yaml"), {.loci = {.tolerance = tolerance}}), InputError);
   }
 }
 
@@ -55,7 +55,9 @@ TEST(RequestLimits, ATaskIsOneOfTheMechanism) {
 TEST(RequestLimits, AGridIsOneThatMemoryHolds) {
   const Model model = example("five_bar.yaml");
   for (const int count : {0, -5, std::numeric_limits<int>::max()})
-    EXPECT_THROW(error_map(model, {.nx = count, .ny = count}), InputError) << count;
+    EXPECT_THROW(find_errors(model, {.grid = {count, count}}), InputError) << count;
+  EXPECT_THROW(find_errors(model, {.grid = {4}}), InputError) << "two coordinates are free";
+  EXPECT_THROW(find_zones(model, {.by_cells = true, .grid = {4}}), InputError);
   EXPECT_THROW(validate_loci(model, {.nodes = {std::numeric_limits<int>::max(), 1000}}), InputError);
 }
 
@@ -64,8 +66,7 @@ TEST(AnEmptyAnswer, IsNotWritten) {
   EXPECT_THROW(loci_files(model, LocusMap{}, {"svg"}), InputError);
   EXPECT_THROW(zone_files(Zones{}, {"svg"}), InputError);
   EXPECT_THROW(verification_files(Verification{}, {"pdf"}), InputError);
-  EXPECT_THROW(error_files(ErrorMap{}, {"png"}), InputError);
-  EXPECT_THROW(error_files(VolumeErrors{}, {"png"}), InputError);
+  EXPECT_THROW(error_files(Errors{}, {"png"}), InputError);
   EXPECT_THROW(trajectory_files(TrajectoryResult{}, {"png"}), InputError);
   EXPECT_THROW(to_svg(LocusMap{}, {}), InputError);
 }

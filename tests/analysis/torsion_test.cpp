@@ -186,7 +186,7 @@ TEST(Torsion, OfFingersThatMirrorEachOtherCancelsOut) {
   EXPECT_EQ(losses, 3U) << "R1 and K1, R2 and K2, and the motor, at one pose";
   const Model model = Model::read(file);
   EXPECT_EQ(find_zones(model).zones.size(), 3U);
-  const std::string errors = to_text(coordinate_errors(model));
+  const std::string errors = to_text(find_errors(model));
   EXPECT_EQ(errors.find("nan"), std::string::npos);
   EXPECT_NE(errors.find("undefined"), std::string::npos);
 }

@@ -104,10 +104,16 @@ TEST(ParsePose, NeedsOneValueACoordinate) {
   EXPECT_NE(complaint([] { parse_pose("1,2,3", five_bar()); }), "accepted");
 }
 
-TEST(ParseGrid, TakesTwoCounts) {
-  EXPECT_EQ(parse_grid("400x300"), (std::pair<int, int>{400, 300}));
+TEST(ParseGrid, TakesACountForEachCoordinate) {
+  EXPECT_EQ(parse_grid("400x300", 2), (std::vector<int>{400, 300}));
+  EXPECT_EQ(parse_grid("720", 1), (std::vector<int>{720}));
+  EXPECT_EQ(parse_grid("4x5x6", 3), (std::vector<int>{4, 5, 6}));
   for (const char* wrong : {"", "400", "400x", "x400", "0x5", "-4x5", "4.5x5", "4x5x6", "99999999999x2", "1x1"})
-    EXPECT_NE(complaint([&] { parse_grid(wrong); }), "accepted") << wrong;
+    EXPECT_NE(complaint([&] { parse_grid(wrong, 2); }), "accepted") << wrong;
+  for (const char* wrong : {"", "1", "-4", "20x20", "2000000", "4.5"})
+    EXPECT_NE(complaint([&] { parse_grid(wrong, 1); }).find("steps"), std::string::npos) << wrong;
+  for (const char* wrong : {"40x40", "40", "40x40x1", "3000x3x3", "axbxc"})
+    EXPECT_NE(complaint([&] { parse_grid(wrong, 3); }), "accepted") << wrong;
 }
 
 TEST(ParseJoints, AreThoseOfTheMechanism) {

@@ -374,7 +374,7 @@ class ErrorOverOneCoordinate(InOwnFolder):
             self.assertEqual(first, second, name)
 
     def test_what_has_no_meaning(self):
-        for options, word in ((("--grid", "20x20"), "steps"), (("--zones",), "zones"), (("--export", "vtk"), "vtk")):
+        for options, word in ((("--grid", "20x20"), "steps"), (("--slice", "theta=1"), "slices"), (("--export", "vtk"), "vtk")):
             process = self.run_program("error", FOUR_BAR, *options, status=2)
             self.assertIn(word, process.stderr)
             self.assertEqual(process.stderr.count("\n"), 1)

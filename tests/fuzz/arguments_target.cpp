@@ -77,10 +77,13 @@ void check_values(const Values& values, const mechanism::Mechanism& mechanism) {
     for (const core::Rational& value : *pose)
       require(std::isfinite(core::to_double(value)), "a coordinate of a pose is finite");
   }
-  const auto grid = value_or_complaint([&] { return cli::parse_grid(values.grid); });
-  if (grid) require(grid->first >= 2 && grid->second >= 2, "a grid has two nodes along each coordinate");
-  const auto steps = value_or_complaint([&] { return cli::parse_steps(values.steps); });
-  if (steps) require(*steps >= 2, "a range has two steps");
+  for (const std::size_t coordinates : {1U, 2U, 3U}) {
+    const std::string& words = coordinates == 1 ? values.steps : values.grid;
+    const auto grid = value_or_complaint([&] { return cli::parse_grid(words, coordinates); });
+    if (!grid) continue;
+    require(grid->size() == coordinates, "a grid has a number for each coordinate");
+    for (const int along : *grid) require(along >= 2, "a grid has two cells along each coordinate");
+  }
 }
 
 }  // namespace

@@ -220,8 +220,8 @@ TEST_P(AtPlaces, PosesAndErrors) {
     for (std::size_t i = 0; i < 2; ++i)
       EXPECT_NEAR(a.points[p].at[i], b.points[p].at[i] + core::to_double(frame.origin[i]), within(m, frame));
 
-  const ErrorRequest request = {.nx = 20, .ny = 20, .with_loci = false};
-  const ErrorMap c = error_map(m, request), d = error_map(there, request);
+  const ErrorRequest request = {.grid = {20, 20}, .with_loci = false};
+  const Errors c = find_errors(m, request), d = find_errors(there, request);
   ASSERT_EQ(c.modes.size(), d.modes.size());
   EXPECT_EQ(c.modes[0].reachable, d.modes[0].reachable);
   for (std::size_t f = 0; f < c.modes[0].map.fields.size(); ++f)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "core/errors.hpp"
@@ -36,14 +37,14 @@ mechanism::Mechanism design(int number) {
 TEST_P(ErrorMaps, AgreeWithThePlainRoute) {
   const NumericModel model = compile(design(GetParam()));
   const auto mode = mechanism::working_mode(model.mechanism);
-  const ErrorMap errors = error_map(model, mode, {.nx = 41, .ny = 23});
+  const ErrorMap errors = error_map(model, mode, {.cells = {41, 23}});
   const core::FieldMap& map = errors.map;
   ASSERT_EQ(map.fields.size(), 8u);
   std::size_t compared = 0, reached = 0;
-  for (int j = 0; j < map.ny; ++j) {
-    for (int i = 0; i < map.nx; ++i) {
-      const auto p = posture(model, std::array{map.x(i), map.y(j)}, mode);
-      const auto value = [&](const char* name) { return field(map, name).values[map.index(i, j)]; };
+  for (std::size_t j = 0; j < 23; ++j) {
+    for (std::size_t i = 0; i < 41; ++i) {
+      const auto p = posture(model, std::array{map.axes[0][i], map.axes[1][j]}, mode);
+      const auto value = [&](const char* name) { return field(map, name).values[map.index({i, j})]; };
       if (!p.reachable()) {
         EXPECT_TRUE(std::isnan(value("dx")) && std::isnan(value("worst_dp")));
         continue;
@@ -73,8 +74,8 @@ INSTANTIATE_TEST_SUITE_P(Designs, ErrorMaps, testing::Values(0, 1, 2, 3));
 TEST(ErrorMap, IsTheSameForAnyNumberOfThreads) {
   const NumericModel model = compile(design(2));
   const auto mode = mechanism::working_mode(model.mechanism);
-  const ErrorMap one = error_map(model, mode, {.nx = 30, .ny = 30, .threads = 1});
-  const ErrorMap two = error_map(model, mode, {.nx = 30, .ny = 30, .threads = 2});
+  const ErrorMap one = error_map(model, mode, {.cells = {30, 30}, .threads = 1});
+  const ErrorMap two = error_map(model, mode, {.cells = {30, 30}, .threads = 2});
   for (std::size_t f = 0; f < one.map.fields.size(); ++f)
     for (std::size_t k = 0; k < one.map.fields[f].values.size(); ++k) {
       const double a = one.map.fields[f].values[k], b = two.map.fields[f].values[k];
@@ -85,7 +86,7 @@ TEST(ErrorMap, IsTheSameForAnyNumberOfThreads) {
 TEST(ErrorMap, NamesJointsThatNeverBearAnything) {
   // No load and no weight: every reaction is zero. The bound over all take-ups stands.
   const NumericModel model = compile(test::with_clearances(test::five_bar({.fy = 0}), 1e-5, 5e-4));
-  const ErrorMap errors = error_map(model, mechanism::working_mode(model.mechanism), {.nx = 10, .ny = 10});
+  const ErrorMap errors = error_map(model, mechanism::working_mode(model.mechanism), {.cells = {10, 10}});
   EXPECT_EQ(errors.never_loaded, (std::vector<std::string>{"A1", "B1", "P", "B2", "A2"}));
   EXPECT_EQ(errors.map.fields.front().name, "worst_dx");
 }
@@ -96,16 +97,23 @@ TEST(ErrorMap, LeavesCellsOnALocusOut) {
   b.box(0.5, 1.5, -1.5, 1.5).point("O", 0, 0).point("P", test::symbol("x"), test::symbol("y"));
   b.link("crank", {"O", "P"}).joint("O", "ground", "crank", "O", true).clearance("O", 0, 1e-3);
   const NumericModel model = compile(b.end_effector("crank", "P").load("crank", "P", 5, 0).finish());
-  const ErrorMap errors = error_map(model, {}, {.nx = 4, .ny = 3});
+  const ErrorMap errors = error_map(model, {}, {.cells = {4, 3}});
   EXPECT_EQ(errors.reachable, 12u);
   EXPECT_EQ(errors.undefined, 4u);
-  EXPECT_TRUE(std::isnan(field(errors.map, "dy").values[errors.map.index(0, 1)]));
-  EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index(0, 0)], 1e-3 * 1);
-  EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index(0, 2)], -1e-3 * 1);
+  EXPECT_TRUE(std::isnan(field(errors.map, "dy").values[errors.map.index({0, 1})]));
+  EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index({0, 0})], 1e-3 * 1);
+  EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index({0, 2})], -1e-3 * 1);
 }
 
 TEST(ErrorMap, RefusesWhatHasNoMap) {
-  EXPECT_THROW(error_map(compile(test::five_bar()), std::array{-1, 1}), core::InputError);  // no clearance
+  EXPECT_THROW(error_map(compile(test::five_bar()), std::array{-1, 1}, {.cells = {4, 4}}), core::InputError)
+      << "no clearance";
+  const NumericModel model = compile(design(0));
+  const auto mode = mechanism::working_mode(model.mechanism);
+  EXPECT_THROW(error_map(model, mode, {.cells = {4}}), core::InputError) << "two coordinates";
+  EXPECT_THROW(error_map(model, mode, {.cells = {4, 0}}), core::InputError);
+  EXPECT_THROW(error_map(model, mode, {.cells = {4, 4}, .deadline = std::chrono::steady_clock::now()}),
+               core::LimitReached);
 }
 
 }  // namespace

@@ -301,25 +301,25 @@ TEST(SpatialErrorMap, AgreesWithSinglePoses) {
     if (m.coordinates.size() == 2) all.push_back(m);
   for (const Mechanism& m : all) {
     SCOPED_TRACE(m.name);
-    const ErrorMap errors = error_map(compile(m), {}, {.nx = 7, .ny = 5});
+    const ErrorMap errors = error_map(compile(m), {}, {.cells = {7, 5}});
     const core::FieldMap& map = errors.map;
     ASSERT_EQ(errors.reachable, 35u);
     ASSERT_TRUE(errors.never_loaded.empty());
     ASSERT_EQ(map.fields.size(), 14u);
-    for (int j = 0; j < map.ny; ++j) {
-      for (int i = 0; i < map.nx; ++i) {
-        const Accuracy one = test::accuracy_at(m, std::vector<double>{map.x(i), map.y(j)});
+    for (std::size_t j = 0; j < 5; ++j) {
+      for (std::size_t i = 0; i < 7; ++i) {
+        const Accuracy one = test::accuracy_at(m, map.place(map.index({i, j})));
         const double tolerance = 1e-13 * one.reactions.condition;
         const Vector6 error = as_vector(one.error);
         Vector6 worst;
         worst << one.worst.dp, one.worst.dalpha;
         for (std::size_t c = 0; c < 6; ++c) {
           const auto k = static_cast<Eigen::Index>(c);
-          EXPECT_NEAR(map.fields[c].values[map.index(i, j)], error(k), tolerance * error.norm()) << map.fields[c].name;
-          EXPECT_NEAR(map.fields[7 + c].values[map.index(i, j)], worst(k), tolerance * worst.norm());
+          EXPECT_NEAR(map.fields[c].values[map.index({i, j})], error(k), tolerance * error.norm()) << map.fields[c].name;
+          EXPECT_NEAR(map.fields[7 + c].values[map.index({i, j})], worst(k), tolerance * worst.norm());
         }
-        EXPECT_NEAR(map.fields[6].values[map.index(i, j)], one.error.dp.norm(), tolerance * error.norm());
-        EXPECT_NEAR(map.fields[13].values[map.index(i, j)], one.worst.distance,
+        EXPECT_NEAR(map.fields[6].values[map.index({i, j})], one.error.dp.norm(), tolerance * error.norm());
+        EXPECT_NEAR(map.fields[13].values[map.index({i, j})], one.worst.distance,
                     (tolerance + 3e-9) * one.worst.distance);
       }
     }
@@ -329,11 +329,11 @@ TEST(SpatialErrorMap, AgreesWithSinglePoses) {
 TEST(SpatialErrorMap, WithoutALoadOnlyTheWorstCaseIsLeft) {
   Mechanism m = example("gough_stewart_slice");
   m.loads.clear();
-  const ErrorMap errors = error_map(compile(m), {}, {.nx = 4, .ny = 4});
+  const ErrorMap errors = error_map(compile(m), {}, {.cells = {4, 4}});
   EXPECT_EQ(errors.never_loaded.size(), 18u);
   EXPECT_EQ(errors.map.fields.size(), 7u);
   for (mechanism::Joint& joint : m.joints) joint.clearance.reset();
-  EXPECT_THROW(error_map(compile(m), {}), core::InputError);
+  EXPECT_THROW(error_map(compile(m), {}, {.cells = {4, 4}}), core::InputError);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
-#include "report/coordinate_errors.hpp"
 #include "report/error.hpp"
 #include "report/formats.hpp"
 #include "report/pose.hpp"
@@ -138,11 +138,18 @@ TEST(SweepTable, HasARowForEverySampleOfEveryPeriod) {
   EXPECT_EQ(trajectory_object(result)["periods"]["count"], 2);
 }
 
-core::ErrorMap one_field() {
-  core::ErrorMap errors;
+core::Errors one_field() {
+  core::Errors errors;
+  errors.loci.mechanism = "Crank";
   errors.loci.tower.coordinates = {"x", "y"};
+  errors.grid = {2, 2};
   core::ModeErrors mode;
-  mode.map = {"Crank", {"x", "y"}, {0, 0}, {2, 2}, 2, 2, {{"dp", "distance", "m", false, {1, 2, nan, 4}}}};
+  mode.map = {{"x", "y"},
+              {false, false},
+              {0, 0},
+              {2, 2},
+              {{0.5, 1.5}, {0.5, 1.5}},
+              {{"dp", "distance", "m", false, {1, 2, nan, 4}}}};
   mode.sizes = {core::ErrorSizes{2, 4, 4, 4, 3}};
   mode.reachable = 3;
   mode.zones = {{"z1", {0, 1}, {core::ErrorSizes{1, 2, 2, 2, 1}}}, {"z2", {2}, {std::nullopt}}};
@@ -152,6 +159,7 @@ core::ErrorMap one_field() {
 
 TEST(ErrorText, SaysWhereTheLargestIs) {
   const std::string text = error_text(one_field());
+  EXPECT_TRUE(contains(text, "Crank: pose error over 2 x 2 cells\n")) << text;
   EXPECT_TRUE(contains(text, "  (1.5, 1.5) m\n")) << text;
   EXPECT_TRUE(contains(text, "z1, 2 cells")) << text;
   EXPECT_TRUE(contains(text, "none\n")) << "a zone without a value: " << text;
@@ -159,7 +167,8 @@ TEST(ErrorText, SaysWhereTheLargestIs) {
 
 TEST(WriteError, WritesWhatIsAskedForAndNoMore) {
   const fixture::ScratchFolder folder;
-  const auto files = write_answer(one_field(), folder.path(), {"csv", "vtk"});
+  const core::Errors errors = one_field();
+  const auto files = write_answer(ErrorSheet{errors, {}}, folder.path(), {"csv", "vtk"});
   ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(files[0].filename(), "error.json");
   EXPECT_EQ(files[1].filename(), "error.csv");
@@ -170,11 +179,69 @@ TEST(WriteError, WritesWhatIsAskedForAndNoMore) {
   EXPECT_EQ(json["modes"][0]["fields"]["dp"]["at"][0], 1.5);
 }
 
-TEST(WriteError, HasNoMapOverOneCoordinate) {
+/// Over a crank's angle, with a contact lost in the middle of the range; the file speaks in mm and degrees.
+core::Errors over_an_angle() {
+  core::Errors errors;
+  errors.loci.mechanism = "Crank";
+  errors.loci.tower.coordinates = {"theta"};
+  errors.loci.angles = {true};
+  errors.loci.units = {true, {"mm", 1e-3}, {"deg", std::numbers::pi / 180}, {"kN", 1e3}, {"kg"}};
+  errors.grid = {2};
+  errors.joints = {"A"};
+  core::ModeErrors mode;
+  mode.map = {{"theta"}, {true}, {0}, {1}, {{0, 0.5, 1}}, {{"dx", "error in x", "m", true, {1e-3, nan, -1e-3}}}};
+  mode.sizes = {core::ErrorSizes{1e-3, 1e-3, 1e-3, 1e-3, 0}};
+  mode.take_up = {{"fAx"}, {"N"}, {{2000, nan, -2000}}};
+  core::IsolatedPoint point;
+  point.kind = core::LocusKind::contact_loss;
+  point.at = {0.5};
+  mode.events = {{point, true, {{-2e-3, 0}, {0}}}};
+  errors.modes = {mode};
+  errors.notes = {"a note"};
+  return errors;
+}
+
+TEST(ErrorOverOneCoordinate, SpeaksInTheUnitsOfTheFileAndSaysItsNotes) {
+  const core::Errors errors = over_an_angle();
+  const std::vector<File> files = error_csv({errors, {}});
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0].bytes.substr(0, files[0].bytes.find('\n')), "theta (deg),fAx (kN),dx (mm)") << files[0].bytes;
+  EXPECT_TRUE(contains(files[0].bytes, "\n0,2,1\n")) << files[0].bytes;
+  const std::string text = error_text(errors);
+  EXPECT_TRUE(contains(text, "Crank: pose error over theta in 2 steps\n")) << text;
+  EXPECT_TRUE(contains(text, "jump in x [mm]")) << text;
+  EXPECT_TRUE(contains(text, "a note\n")) << text;
+  const nlohmann::ordered_json json = error_object(errors);
+  EXPECT_EQ(json["grid"], nlohmann::ordered_json({2}));
+  EXPECT_EQ(json["steps"], 2);
+  EXPECT_EQ(json["notes"][0], "a note");
+  EXPECT_EQ(json["modes"][0]["samples"]["fAx"][0], 2000);
+  EXPECT_EQ(json["modes"][0]["jumps"][0]["dx"], -2e-3);
+}
+
+TEST(ErrorOverOneCoordinate, HasNoVolumeOfVtk) {
   const fixture::ScratchFolder folder;
-  core::CoordinateErrors errors;
-  errors.mechanism = "Crank";
-  EXPECT_EQ(write_answer(errors, folder.path(), {"vtk"}).size(), 1U) << "json alone";
+  const core::Errors errors = over_an_angle();
+  EXPECT_EQ(write_answer(ErrorSheet{errors, {}}, folder.path(), {"vtk"}).size(), 1U) << "json alone";
+  EXPECT_EQ(error_formats(1), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
+}
+
+TEST(ErrorPictures, AreNamedByTheirSlices) {
+  core::Errors errors = one_field();
+  errors.loci.tower.coordinates = {"x", "y", "z"};
+  core::FieldMap& map = errors.modes.front().map;
+  map = {{"x", "y", "z"},
+         {false, false, false},
+         {0, 0, 0},
+         {2, 2, 2},
+         {{0.5, 1.5}, {0.5, 1.5}, {0.5, 1.5}},
+         {{"worst_dp", "distance", "m", false, {1, 2, 3, 4, 5, 6, 7, 8}}}};
+  const std::vector<core::FieldSlice> slices = {{0, 1}, {2, 0}};
+  const Files files = error_pictures({errors, slices}, PictureFormat::svg);
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].name, "error-worst-dp-x1.svg");
+  EXPECT_EQ(files[1].name, "error-worst-dp-z0.svg");
+  EXPECT_EQ(error_pictures({errors, {}}, PictureFormat::svg)[0].name, "error-worst-dp.svg");
 }
 
 TEST(ValidationObject, IsValidatedWhereNothingIsDisputed) {

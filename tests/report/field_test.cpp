@@ -70,12 +70,11 @@ TEST(FieldScale, EndsAtAPercentileWhereTheFieldHasPoles) {
 
 core::FieldMap small_map() {
   core::FieldMap map;
-  map.mechanism = "test";
   map.coordinates = {"x", "y"};
+  map.angles = {false, false};
   map.lower = {0, -1};
   map.upper = {1, 1};
-  map.nx = 2;
-  map.ny = 2;
+  map.axes = {{0.25, 0.75}, {-0.5, 0.5}};
   map.fields = {{"dx", "error in x", "m", true, {1e-3, nan, -2.5, 0}},
                 {"dp", "distance", "m", false, {nan, nan, 7, nan}}};
   return map;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "report/error.hpp"
 #include "report/formats.hpp"
 #include "report/loci_json.hpp"
 #include "report/zones.hpp"
@@ -190,13 +191,13 @@ TEST(Formats, HoldWhatTheySay) {
   EXPECT_EQ(zone_formats(2, true), (std::vector<std::string>{"json", "svg", "png", "pdf", "vtk"}));
   EXPECT_EQ(zone_formats(3, true), (std::vector<std::string>{"json", "svg", "png", "pdf", "vtk", "stl"}));
   EXPECT_EQ(format_names<core::Verification>(), (std::vector<std::string>{"json", "svg", "png", "pdf"}));
-  EXPECT_EQ(format_names<core::ErrorMap>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
-  EXPECT_EQ(format_names<core::CoordinateErrors>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
+  EXPECT_EQ(error_formats(2), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
+  EXPECT_EQ(error_formats(1), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
   EXPECT_EQ(format_names<core::TrajectoryResult>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf"}));
   EXPECT_EQ(format_names<core::Pose>(), (std::vector<std::string>{"json"}));
   EXPECT_EQ(format_names<core::PoseInModes>(), (std::vector<std::string>{"json"}));
   EXPECT_EQ(format_names<core::Validation>(), (std::vector<std::string>{"json"}));
-  EXPECT_EQ(format_names<VolumeSheet>(), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
+  EXPECT_EQ(error_formats(3), (std::vector<std::string>{"json", "csv", "svg", "png", "pdf", "vtk"}));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "clearloci/pose.hpp"
 #include "clearloci/sketch.hpp"
 #include "clearloci/trajectory.hpp"
-#include "report/coordinate_errors.hpp"
+#include "report/error.hpp"
 #include "report/pose.hpp"
 #include "report/trajectory.hpp"
 #include "report/viewer.hpp"
@@ -94,9 +94,9 @@ Json answer_cycle(const Json& body, const Watch& watch) {
   const Fields fields(body);
   const Model model = model_of(fields);
   ErrorRequest request;
-  request.steps = fields.count("steps", request.steps, 8, most_poses);
+  request.grid = {fields.count("steps", 720, 8, most_poses)};
   request.loci = watched(loci_request(fields, model), watch);
-  return report::coordinate_errors_object(coordinate_errors(model, request));
+  return report::error_object(find_errors(model, request));
 }
 
 /// Every working mode with a posture to show it by, up to a screenful.

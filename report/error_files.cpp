@@ -1,0 +1,117 @@
+// Errors as files of other programs and as pictures.
+#include <algorithm>
+
+#include "report/coordinate_plots.hpp"
+#include "report/error.hpp"
+#include "report/field_exports.hpp"
+#include "report/file_units.hpp"
+#include "report/formats.hpp"
+#include "report/loci_json.hpp"
+#include "report/trajectory.hpp"
+#include "report/wording.hpp"
+
+namespace clearloci::report {
+namespace {
+
+/// The name of a mode's file, where there are several modes with the mode.
+std::string file_name(const std::string& stem, const core::Errors& errors, const core::ModeErrors& mode,
+                      const std::string& ending) {
+  return stem + (errors.modes.size() > 1 ? "-" + mode_slug(errors.loci.tower, mode.mode) : "") + ending;
+}
+
+/// The values of all fields of the answer that are to be compared with this one.
+std::vector<double> like(const core::Errors& errors, const core::Field& field) {
+  std::vector<double> values;
+  for (const core::ModeErrors& mode : errors.modes)
+    for (const core::Field& other : mode.map.fields)
+      if (other.unit == field.unit && other.is_signed == field.is_signed)
+        values.insert(values.end(), other.values.begin(), other.values.end());
+  return values;
+}
+
+/// A map over two coordinates and the loci to be drawn over it.
+struct Plane {
+  core::FieldMap map;
+  core::LocusMap loci;
+  std::string name = {};  ///< "-z12" where slices are named
+};
+
+Plane sliced(const core::Errors& errors, const core::FieldMap& map, const core::FieldSlice& slice) {
+  const std::size_t across = slice.across;
+  Plane plane{core::slice_of(map, slice), {}};
+  core::LocusMap& loci = plane.loci;
+  const std::string value = core::told(map.axes[across][slice.layer], map.angles[across] ? "rad" : "m",
+                                       errors.loci.units, few_digits);
+  loci.mechanism = errors.loci.mechanism + ", " + map.coordinates[across] + " = " + value;
+  loci.units = errors.loci.units;
+  loci.tower.roots = errors.loci.tower.roots;
+  loci.tower.coordinates = plane.map.coordinates;
+  loci.angles = plane.map.angles;
+  for (std::size_t c = 0; c < plane.map.dimension(); ++c) {
+    loci.lower.emplace_back(plane.map.lower[c]);
+    loci.upper.emplace_back(plane.map.upper[c]);
+  }
+  return plane;
+}
+
+std::vector<Plane> planes_of(const ErrorSheet& sheet, const core::FieldMap& map) {
+  if (map.dimension() < 3) return {{map, sheet.errors.loci}};
+  if (sheet.slices.empty()) return {sliced(sheet.errors, map, {2, map.axes[2].size() / 2})};
+  std::vector<Plane> planes;
+  for (const core::FieldSlice& slice : sheet.slices) {
+    planes.push_back(sliced(sheet.errors, map, slice));
+    planes.back().name = "-" + map.coordinates[slice.across] + std::to_string(slice.layer);
+  }
+  return planes;
+}
+
+Files plots(const core::Errors& errors, PictureFormat format) {
+  Files files;
+  for (const core::ModeErrors& mode : errors.modes)
+    for (const NamedPlot& own : coordinate_plots(errors, mode))
+      files.push_back({file_name(own.name, errors, mode, ending_of(format)), plot(own.plot, format)});
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::string> error_formats(std::size_t coordinates) {
+  std::vector<std::string> names = format_names<ErrorSheet>();
+  if (coordinates == 1) std::erase(names, "vtk");
+  return names;
+}
+
+Files error_csv(const ErrorSheet& sheet) {
+  Files files;
+  const core::Units& units = sheet.errors.loci.units;
+  for (const core::ModeErrors& mode : sheet.errors.modes)
+    files.push_back({file_name("error", sheet.errors, mode, ".csv"),
+                     mode.map.dimension() == 1 ? shown_csv(core::samples_of(mode), units) : field_csv(mode.map, units)});
+  return files;
+}
+
+Files error_vti(const ErrorSheet& sheet) {
+  Files files;
+  for (const core::ModeErrors& mode : sheet.errors.modes)
+    if (mode.map.dimension() > 1)
+      files.push_back({file_name("error", sheet.errors, mode, ".vti"), vti(mode.map)});
+  return files;
+}
+
+Files error_pictures(const ErrorSheet& sheet, PictureFormat format) {
+  const core::Errors& errors = sheet.errors;
+  if (!errors.modes.empty() && errors.modes.front().map.dimension() == 1) return plots(errors, format);
+  Files files;
+  for (const core::ModeErrors& mode : errors.modes)
+    for (const Plane& plane : planes_of(sheet, mode.map))
+      for (std::size_t f = 0; f < plane.map.fields.size(); ++f) {
+        const core::Field& field = plane.map.fields[f];
+        std::string name = field.name;
+        std::replace(name.begin(), name.end(), '_', '-');
+        files.push_back({file_name("error-" + name, errors, mode, plane.name + ending_of(format)),
+                         field_picture(plane.loci, mode.mode, plane.map, field, format, like(errors, field))});
+      }
+  return files;
+}
+
+}  // namespace clearloci::report
