@@ -139,6 +139,10 @@ void change(PointForm& form, const Change& by) {
 /// Every expression that the statics are made of.
 void change(Mechanism& m, const Change& by) {
   for (Point& point : m.points) change(point.form, by);
+  for (Group& group : m.groups) {
+    for (Group::Distance& own : group.distances) own.length = by(own.length);
+    for (Group::Line& own : group.lines) change(own.along, by);
+  }
   for (Link& link : m.links) {
     link.mass = by(link.mass);
     for (PointMass& own : link.masses) own.mass = by(own.mass);
