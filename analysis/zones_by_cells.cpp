@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/group_sheets.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/singular_modes.hpp"
@@ -225,9 +226,10 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   const numeric::NumericModel& model = ground.models.front();
   constexpr std::size_t poses = 24;
   const std::vector<core::TaskDemand> wanted = demands_of(ground.mechanism, request);
-  const core::PoseStatics statics = symbolic::pose_statics(
+  core::PoseStatics statics = symbolic::pose_statics(
       {&ground.mechanism}, sides,
       loaded_demands(ground.models, sides, wanted, mechanism::spread_poses(ground.mechanism, poses), map.loci.notes));
+  cover_groups(ground.mechanism, ground.lower, ground.upper, request.deadline, statics, map.loci.notes);
   loci::pose::CellZoneEffort effort;
   effort.most_cells = ground.request.cells;
   effort.deadline = request.deadline;

@@ -246,6 +246,8 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
     const auto [low, high] = rough_range(variable.meaning, mechanism, ranges);
     result.mechanism.coordinates.push_back(
         {variable.name, false, Expression::number(low), Expression::number(high), low, high});
+    // The postures of groups are those of the file's own values.
+    if (!mechanism.groups.empty()) result.mechanism.near.push_back(value_of(variable.meaning, mechanism));
   }
   result.mechanism.parameters.clear();
   return result;
