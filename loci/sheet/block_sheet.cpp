@@ -85,10 +85,11 @@ class Growth {
   bool out_of_effort() const { return out_of_effort_; }
   bool differs() const { return differs_; }
   /// Over one coordinate: cells at the end of what is covered.
-  std::vector<std::array<double, 2>> ends() const {
-    std::vector<std::array<double, 2>> all;
+  std::vector<SheetEnd> ends() const {
+    std::vector<SheetEnd> all;
     for (const Node& own : nodes_)
-      if (own.axis < 0 && own.state != State::open && own.state != State::proven) all.push_back(own.box[0]);
+      if (own.axis < 0 && own.state != State::open && own.state != State::proven)
+        all.push_back({own.box[0][0], own.box[0][1], own.block, false});
     return all;
   }
 
@@ -98,6 +99,7 @@ class Growth {
     PoseBox box;
     int axis = -1, low = -1, high = -1;
     State state = State::open;
+    std::size_t block = 0;  ///< of a cell that was tried: the one that did not close
     std::vector<typename PoseForms<Form>::Unique> unique = {};
   };
 
@@ -193,7 +195,14 @@ class Growth {
     BlockUnknowns start = unknowns;
     const std::vector<double> middle = middle_of(leaf.box);
     if (!values_.close(chart_.at(middle), start)) return false;
-    if (forms_.run(chart_, leaf.box, start) != PoseForms<Form>::Outcome::complete) return false;
+    if (forms_.run(chart_, leaf.box, start) != PoseForms<Form>::Outcome::complete) {
+      std::size_t closed = forms_.unique().size();
+      for (leaf.block = 0; leaf.block + 1 < program_.blocks.size(); ++leaf.block) {
+        if (closed < program_.blocks[leaf.block].unknowns.size()) break;
+        closed -= program_.blocks[leaf.block].unknowns.size();
+      }
+      return false;
+    }
     leaf.unique = forms_.unique();
     if (!holds(leaf, at, unknowns)) {
       leaf.unique.clear();

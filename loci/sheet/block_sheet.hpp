@@ -20,6 +20,13 @@ struct BlockSheetEffort {
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
 };
 
+/// A cell, the finest, in which the sheet ends.
+struct SheetEnd {
+  double lower = 0, upper = 0;
+  std::size_t block = 0;  ///< whose det J vanishes there
+  bool proven = false;    ///< that it does
+};
+
 struct CoveredBox {
   core::BlockSheet sheet;
   bool starts = false;    ///< the posture is in the box, or the sheet leads from it to the box along the straight way
@@ -27,8 +34,7 @@ struct CoveredBox {
   bool out_of_effort = false;
   double finest = 0;     ///< the least width of a cell at its end, as a part of the box's
   bool differs = false;  ///< somewhere two layers of the sheet meet: cells there cover nothing
-  /// Over one coordinate: the ends of what is covered, each with the finest cell in which the sheet ends.
-  std::vector<std::array<double, 2>> ends;
+  std::vector<SheetEnd> ends;  ///< over one coordinate
 };
 
 /// `lower` and `upper`: of every coordinate. Requires blocks.
