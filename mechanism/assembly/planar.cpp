@@ -5,9 +5,11 @@
 //   link that slides on a known one      line along the guide              P of RRP, PRP
 //   two pins and a guide between them    both links turn with P -> Q       RPR
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "mechanism/assembly/planar_turning.hpp"
+#include "mechanism/assembly/smallest_group.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/reader.hpp"
 
@@ -249,6 +251,251 @@ class PlanarConstruction : public PlanarTurning {
              {"length", text(radius_of(circle))},
              {"side", text(along > 0 ? "ahead" : "behind")}}),
         comment);
+  }
+
+  // --- points that close together
+
+  /// A distance or a line that holds unknown points.
+  struct Held {
+    std::vector<PointIndex> points;
+    std::string first, second;     ///< of a distance, by names
+    std::string length;            ///< of a distance
+    const Locus* locus = nullptr;  ///< what a point is held by that is known; else a distance or a line between points
+    std::string along;             ///< of a line between points
+  };
+  struct Derived {
+    PointIndex point = 0;
+    std::vector<PointIndex> bases;
+    Node form;
+  };
+
+  const std::string& name_of(PointIndex point) const {
+    return is_known(point) ? known(handle(point)).name : d_.name(point);
+  }
+
+  /// Unknown points that more than one link has, or that something else holds.
+  bool is_shared(PointIndex point) {
+    if (is_known(point) || d_.at(point).built || !d_.at(point).has_place) return false;
+    std::size_t links = 0;
+    for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
+      links += has_point(static_cast<LinkIndex>(l), point) ? 1 : 0;
+    const auto& joints = d_.mechanism.joints;
+    const bool is_joint =
+        std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.at == point; });
+    return links > 1 || is_joint || place_coordinate(point, 0) != nullptr || place_coordinate(point, 1) != nullptr;
+  }
+
+  bool put_group() override {
+    enum class Use { free, base, derived };
+    std::map<PointIndex, Use> use;
+    std::vector<Derived> derived;
+    std::vector<Held> held;
+    std::vector<std::pair<std::size_t, LinkIndex>> links;  // those with most points first
+    for (PointIndex p = 0; p < static_cast<PointIndex>(d_.points.size()); ++p)
+      if (is_shared(p)) use[p] = Use::free;
+    const auto shared_of = [&](LinkIndex link) {
+      std::vector<PointIndex> points;
+      for (const PointIndex p : d_.link(link).points)
+        if (use.contains(p) && has_point(link, p)) points.push_back(p);
+      return points;
+    };
+    for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
+      if (const std::size_t own = shared_of(static_cast<LinkIndex>(l)).size(); own > 0)
+        links.emplace_back(own, static_cast<LinkIndex>(l));
+    std::stable_sort(links.begin(), links.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    const auto distance = [&](LinkIndex link, PointIndex a, PointIndex b) {
+      Held own;
+      for (const PointIndex p : {a, b})
+        if (!is_known(p)) own.points.push_back(p);
+      own.first = name_of(a);
+      own.second = name_of(b);
+      own.length = shape(link).distance(a, b).text();
+      held.push_back(std::move(own));
+    };
+    const auto to_base = [&](PointIndex p) {
+      if (auto own = use.find(p); own != use.end() && own->second == Use::free) own->second = Use::base;
+    };
+    for (const auto& [count, link] : links) {
+      std::vector<PointIndex> points = shared_of(link);
+      std::stable_sort(points.begin(), points.end(), [&](PointIndex a, PointIndex b) {
+        return (use[a] == Use::free ? 1 : 0) < (use[b] == Use::free ? 1 : 0);
+      });
+      const bool turned = orientation(link) != nullptr;
+      if (turned && !known_points(link).empty()) continue;
+      if (!turned)
+        if (const std::vector<PointIndex> bases = known_points(link); !bases.empty())
+          points.insert(points.begin(), bases.front());
+      const std::size_t fixed = turned ? 1 : 2;
+      for (std::size_t k = 0; k < std::min(fixed, points.size()); ++k) to_base(points[k]);
+      if (!turned && points.size() > 1) distance(link, points[0], points[1]);
+      for (std::size_t k = fixed; k < points.size(); ++k) {
+        const PointIndex p = points[k];
+        if (use[p] == Use::free) {
+          use[p] = Use::derived;
+          Derived own{p, {points[0]}, {}};
+          if (turned) {
+            own.form = map({{"from", text(name_of(points[0]))},
+                            {"by", vector_node(text_of(image_of_shape(link, shape(link).way(points[0], p)), 2))}});
+          } else {
+            own.bases.push_back(points[1]);
+            const auto [along, beside] =
+                parts(shape(link).way(points[0], p), shape(link).way(points[0], points[1]), false);
+            own.form = map({{"on", list({name_of(points[0]), name_of(points[1])})},
+                            {"offset", list({along.text(), beside.text()})}});
+          }
+          derived.push_back(std::move(own));
+          continue;
+        }
+        if (turned) return false;  // a link that does not turn on its own, with two points that others place
+        for (std::size_t i = 0; i < 2; ++i) distance(link, points[i], p);
+      }
+    }
+    std::vector<std::vector<Locus>> by_point(use.size());
+    std::size_t at = 0;
+    for (const auto& own : use) {
+      std::vector<Locus>& all = by_point[at++];
+      for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
+        if (const auto link = static_cast<LinkIndex>(l);
+            has_point(link, own.first) && orientation(link) != nullptr && known_points(link).empty())
+          add_lines(link, own.first, all);
+      for (const Stroke& stroke : strokes_at(own.first)) add_leg(stroke, own.first, all);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        if (const DrawnCoordinate* c = place_coordinate(own.first, axis)) add_coordinate_line(own.first, axis, *c, all);
+      for (const Locus& locus : all) {
+        Held line;
+        line.points = {own.first};
+        line.locus = &locus;
+        held.push_back(std::move(line));
+      }
+    }
+    add_moving_guides(held);
+    return put_smallest(
+        use.size(),
+        [&] {
+          std::vector<PointIndex> all;
+          for (const auto& own : use) all.push_back(own.first);
+          return all;
+        }(),
+        derived, held);
+  }
+
+  /// A point that slides along the way between two points of a link that closes with it.
+  void add_moving_guides(std::vector<Held>& held) {
+    const double close = 1e-12 * d_.size / core::to_double(d_.unit);
+    for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) {
+      const Joint& joint = d_.mechanism.joints[j];
+      const auto axis = drawn_axis(static_cast<JointIndex>(j));
+      if (!traits(joint).slides || !axis || joint.from == ground || joint.to == ground) continue;
+      if (orientation(joint.from) != nullptr || orientation(joint.to) != nullptr || !d_.at(joint.at).is_exact) continue;
+      for (const LinkIndex guide : {joint.from, joint.to}) {
+        std::vector<PointIndex> on_line;
+        for (const PointIndex p : d_.link(guide).points)
+          if (p != joint.at && d_.at(p).is_exact &&
+              size_of(cross(*axis, d_.at(p).at - d_.at(joint.at).at)) <= close * size_of(*axis))
+            on_line.push_back(p);
+        if (on_line.size() < 2) continue;
+        Held line;
+        for (const PointIndex p : {joint.at, on_line[0], on_line[1]})
+          if (!is_known(p)) line.points.push_back(p);
+        if (line.points.empty()) break;
+        line.first = name_of(joint.at);
+        line.second = name_of(on_line[0]);
+        line.along = "[" + name_of(on_line[0]) + ", " + name_of(on_line[1]) + "]";
+        held.push_back(std::move(line));
+        break;
+      }
+    }
+  }
+
+  bool put_smallest(std::size_t, const std::vector<PointIndex>& points, const std::vector<Derived>& derived,
+                    const std::vector<Held>& held) {
+    const auto place = [&](PointIndex p) {
+      return static_cast<std::size_t>(std::find(points.begin(), points.end(), p) - points.begin());
+    };
+    std::vector<bool> is_derived(points.size(), false);
+    for (const Derived& own : derived) is_derived[place(own.point)] = true;
+    // Derived points stand for those that they are built on.
+    std::function<void(PointIndex, std::vector<std::size_t>&)> expand = [&](PointIndex p,
+                                                                            std::vector<std::size_t>& into) {
+      if (is_known(p)) return;
+      const auto own =
+          std::find_if(derived.begin(), derived.end(), [&](const Derived& other) { return other.point == p; });
+      if (own == derived.end()) {
+        if (place(p) < points.size()) into.push_back(place(p));
+        return;
+      }
+      for (const PointIndex base : own->bases) expand(base, into);
+    };
+    std::vector<std::vector<std::size_t>> equations;
+    for (const Held& own : held) {
+      std::vector<std::size_t>& used = equations.emplace_back();
+      for (const PointIndex p : own.points) expand(p, used);
+      std::sort(used.begin(), used.end());
+      used.erase(std::unique(used.begin(), used.end()), used.end());
+    }
+    const SmallestGroup group = smallest_group(points.size(), 2, equations);
+    if (group.points.empty()) return false;
+    write_group(group, points, derived, held, expand);
+    return true;
+  }
+
+  template <class Expand>
+  void write_group(const SmallestGroup& group, const std::vector<PointIndex>& points,
+                   const std::vector<Derived>& derived, const std::vector<Held>& held, const Expand& expand) {
+    std::vector<std::string> names;
+    std::vector<PointIndex> placed;
+    std::vector<std::pair<std::string, Node>> near;
+    std::vector<std::pair<std::string, Node>> pose;
+    for (std::size_t c = 0; c < d_.coordinates.size(); ++c) {
+      const bool angle = d_.mechanism.coordinates[c].angle;
+      const double value = drawn_value(c) / (angle ? 1 : core::to_double(d_.unit));
+      pose.emplace_back(d_.coordinates[c].name, text(number_text(value) + (angle ? " rad" : "")));
+    }
+    near.emplace_back("at", map(pose));
+    for (const std::size_t own : group.points) {
+      const PointIndex p = points[own];
+      names.push_back(d_.name(p));
+      placed.push_back(p);
+      const double unit = core::to_double(d_.unit);
+      near.emplace_back(d_.name(p), list({number_text(d_.place(p)[0] / unit), number_text(d_.place(p)[1] / unit)}));
+    }
+    std::vector<std::pair<std::string, Node>> with, lengths, lines;
+    for (const Derived& own : derived) {
+      std::vector<std::size_t> used;
+      for (const PointIndex base : own.bases) expand(base, used);
+      if (!std::all_of(used.begin(), used.end(), [&](std::size_t p) {
+            return std::find(group.points.begin(), group.points.end(), p) != group.points.end();
+          }))
+        continue;
+      with.emplace_back(d_.name(own.point), own.form);
+      placed.push_back(own.point);
+    }
+    for (const std::size_t e : group.equations) {
+      const Held& own = held[e];
+      if (own.locus != nullptr && own.locus->is_circle)
+        lengths.emplace_back(known(own.locus->base()).name + "-" + d_.name(own.points.front()),
+                             text(radius_of(*own.locus)));
+      else if (own.locus != nullptr)
+        lines.emplace_back(d_.name(own.points.front()), line(own.locus->base(), *own.locus));
+      else if (own.along.empty())
+        lengths.emplace_back(own.first + "-" + own.second, text(own.length));
+      else
+        lines.emplace_back(own.first, Node::sequence({text(own.second), vector_node(own.along)}, {}));
+    }
+    std::vector<std::pair<std::string, Node>> form = {{"group", list(names)}};
+    if (!with.empty()) form.emplace_back("with", map(with));
+    if (!lengths.empty()) form.emplace_back("lengths", map(lengths));
+    if (!lines.empty()) form.emplace_back("lines", map(lines));
+    form.emplace_back("near", map(near));
+    std::string name = "group";
+    for (const std::string& own : names) name += "_" + own;
+    put_together(name.size() > 40 ? "group" : name, map(form), "close together", placed);
+  }
+
+  static std::string number_text(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return {text.data(), end};
   }
 
   // --- axes
