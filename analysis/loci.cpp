@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/loci_by_cells.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
 #include "core/angle_chart.hpp"
@@ -17,6 +18,7 @@
 #include "core/straight_line.hpp"
 #include "loci/curves/curves.hpp"
 #include "loci/surfaces/surfaces.hpp"
+#include "mechanism/group_closing.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
@@ -378,6 +380,9 @@ namespace {
 /// In the frame of the mechanism's own, with a family or without one.
 core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociRequest& request,
                               const TraceMeans& means) {
+  if (means.certificate != nullptr)
+    mechanism::require_closed_forms(mechanism, "certificates are written", "leave --certificate out");
+  if (!mechanism.groups.empty()) return loci_by_cells(mechanism, request);
   const std::optional<Framed> own = framed(mechanism);
   core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), means).map
                            : trace_member(mechanism, request, means).map;

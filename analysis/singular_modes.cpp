@@ -37,6 +37,7 @@ std::optional<std::string> complaint(const mechanism::Mechanism& loaded, const D
   if (bent && !reached)
     return "the working mode " + symbolic::mode_words(mechanism, sides) + " bends a link: the " + *bent +
            " is not held in any pose looked at";
+  if (!mechanism.groups.empty()) return std::nullopt;  // no closed forms say why: proofs tell where
   const std::optional<std::string> why = symbolic::why_singular(mechanism, sides);
   if (!why) return std::nullopt;
   const std::string words = symbolic::mode_words(mechanism, sides);

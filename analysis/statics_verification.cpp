@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/group_sheets.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/pose_fit.hpp"
 #include "analysis/side_names.hpp"
@@ -80,7 +81,44 @@ class Verifier {
     std::vector<const Mechanism*> list;
     for (const Mechanism& own : widened_.loads()) list.push_back(&own);
     statics_ = symbolic::pose_statics(list, sides_, demands);
+    cover_groups();
     cell_.emplace(statics_);
+  }
+
+  /// The sheet of the groups around the task and its margin, up to three coordinates over the whole box.
+  void cover_groups() {
+    if (mechanism_.groups.empty()) return;
+    PoseAt lower, upper;
+    const auto add = [&](std::size_t c, double low, double high) {
+      if (lower.size() <= c) {
+        lower.push_back(low);
+        upper.push_back(high);
+      }
+      lower[c] = std::min(lower[c], low);
+      upper[c] = std::max(upper[c], high);
+    };
+    const std::size_t coordinates = region_.coordinates();
+    for (const loci::pose::PosePiece& piece : region_.pieces(margin_))
+      for (std::size_t c = 0; c < coordinates; ++c) {
+        double low = piece.chart.base[c], high = low;
+        for (std::size_t p = 0; p < piece.box.size(); ++p) {
+          const double a = piece.chart.ways[p][c] * piece.box[p][0], b = piece.chart.ways[p][c] * piece.box[p][1];
+          low += std::min(a, b);
+          high += std::max(a, b);
+        }
+        add(c, low, high);
+      }
+    constexpr std::size_t whole = 3;
+    const auto& all = mechanism_.coordinates;
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      const double reach = coordinates <= whole ? core::to_double(all[c].upper - all[c].lower) : upper[c] - lower[c];
+      // A margin is looked for beyond the task.
+      if (coordinates <= whole)
+        add(c, core::to_double(all[c].lower) - 0.05 * reach, core::to_double(all[c].upper) + 0.05 * reach);
+      else
+        add(c, lower[c] - 0.25 * reach, upper[c] + 0.25 * reach);
+    }
+    clearloci::cover_groups(mechanism_, lower, upper, request_.deadline, statics_, notes_);
   }
 
   /// The task elsewhere, or larger or smaller.

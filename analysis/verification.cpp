@@ -10,6 +10,7 @@
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/group_closing.hpp"
 #include "mechanism/read_task.hpp"
 #include "mechanism/written_unit.hpp"
 
@@ -23,7 +24,7 @@ bool is_spatial(const Mechanism& mechanism) { return mechanism.space == mechanis
 
 /// The tower answers over two lengths, but for loads that vary in space and what it does not move or scale.
 bool is_asked_of_tower(const Mechanism& mechanism, const Task& task, TaskFit fit) {
-  if (!mechanism::is_plane(mechanism)) return false;
+  if (!mechanism::is_plane(mechanism) || !mechanism.groups.empty()) return false;
   if (is_spatial(mechanism) && (task.loads || !task.loads_within.empty())) return false;
   return fit != TaskFit::largest && (fit == TaskFit::none || !is_tolerant(task));
 }
@@ -37,6 +38,7 @@ void require_answerable(const Mechanism& mechanism, const Task& task, const Veri
     throw InputError({.file = "--working-mode"}, "a task is verified in one working mode",
                      "give one side for each dyad");
   if (!task.pose_error) return;
+  mechanism::require_closed_forms(mechanism, "pose_error is proven", "leave it out");
   if (!mechanism::is_plane(mechanism))
     refuse("pose_error is proven over two lengths, and " + mechanism.file + " has other free coordinates",
            "leave it out, or make the other coordinates parameters");

@@ -104,6 +104,7 @@ void WidenedTask::add_parts(const core::LoadWithin& within, const core::Task& ta
         *parts[c] = Expression::apply(Expression::Kind::add, {*parts[c], Expression::symbol(part)});
         loaded.coordinates.push_back(
             {part, false, Expression::number(-radius), Expression::number(radius), -radius, radius});
+        if (!loaded.groups.empty()) loaded.near.emplace_back(0);
         if (&loaded != &loads_.front()) continue;
         beside_.lower.push_back(-reach);
         beside_.upper.push_back(reach);

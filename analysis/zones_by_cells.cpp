@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/group_sheets.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/request_limits.hpp"
@@ -69,8 +70,8 @@ bool turns(PoseCell& cell, const std::vector<double>& before, const std::vector<
 class Ends {
  public:
   Ends(const mechanism::Mechanism& mechanism, const core::PoseStatics& statics, const numeric::NumericModel& model,
-       const DyadSides& sides, bool all_loaded)
-      : statics_(statics), model_(model), sides_(sides), cell_(statics) {
+       const DyadSides& sides, bool all_loaded, std::vector<loci::pose::SheetEnd> dead_centres)
+      : statics_(statics), model_(model), sides_(sides), dead_centres_(std::move(dead_centres)), cell_(statics) {
     const bool clearances = std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
                                         [](const mechanism::Joint& joint) { return joint.clearance.has_value(); });
     jumps_ = clearances && all_loaded;
@@ -100,6 +101,11 @@ class Ends {
       own.kind = core::LocusKind::workspace_boundary;
       for (const std::vector<double>& beside_it : {before, behind})  // the one beyond the end breaks the limit
         if (own.limit.empty()) own.limit = limit_at(model_.mechanism, model_, beside_it, sides_, 0);
+      for (const loci::pose::SheetEnd& sheet : dead_centres_)
+        if (sheet.lower <= at + 0.1 * apart && sheet.upper >= at - 0.1 * apart) {
+          own.cause = "dead centre of group " + statics_.program.blocks[sheet.block].name;
+          own.certified = sheet.proven;
+        }
       return own;
     }
     if (holds(Doubt::singularity)) {
@@ -112,6 +118,7 @@ class Ends {
       // Of those that only may vanish none is told where others do.
       for (const auto& [doubt, demand] : open) {
         if (turning && !turns(cell_, before, behind, demand)) continue;
+        own.turns = turning;
         const core::ZoneBorder border = border_of(statics_, doubt, demand);
         own.vanishing.push_back(border.vanishing.front());
         own.kind = first ? *border.kind : std::min(own.kind, *border.kind);
@@ -150,6 +157,7 @@ class Ends {
   const core::PoseStatics& statics_;
   const numeric::NumericModel& model_;
   const DyadSides& sides_;
+  std::vector<loci::pose::SheetEnd> dead_centres_;
   PoseCell cell_;
   bool jumps_ = false;
 };
@@ -228,9 +236,11 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   const numeric::NumericModel& model = ground.models.front();
   constexpr std::size_t poses = 24;
   const std::vector<core::TaskDemand> wanted = demands_of(ground.mechanism, request);
-  const core::PoseStatics statics = symbolic::pose_statics(
+  core::PoseStatics statics = symbolic::pose_statics(
       {&ground.mechanism}, sides,
       loaded_demands(ground.models, sides, wanted, mechanism::spread_poses(ground.mechanism, poses), map.loci.notes));
+  const auto covered =
+      cover_groups(ground.mechanism, ground.lower, ground.upper, request.deadline, statics, map.loci.notes);
   loci::pose::CellZoneEffort effort;
   effort.most_cells = ground.request.cells;
   effort.deadline = request.deadline;
@@ -249,7 +259,8 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   if (found.out_of_time) map.loci.complete = false, map.loci.out_of_time = true;
   const std::size_t before = map.zones.size();
   PoseCell cell(statics);
-  Ends ends(ground.mechanism, statics, model, sides, statics.demands.size() == wanted.size());
+  Ends ends(ground.mechanism, statics, model, sides, statics.demands.size() == wanted.size(),
+            covered ? covered->ends : std::vector<loci::pose::SheetEnd>{});
   for (std::size_t z = 0; z < found.zones.size(); ++z) {
     Zone zone = zone_of(found.zones[z], statics, before);
     zone.id = zone_name(before + z);

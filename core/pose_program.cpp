@@ -1,6 +1,7 @@
 #include "core/pose_program.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/errors.hpp"
 
@@ -14,6 +15,7 @@ int operands(Operation operation) {
     case Operation::constant:
     case Operation::pi:
     case Operation::coordinate:
+    case Operation::unknown:
       return 0;
     case Operation::add:
     case Operation::subtract:
@@ -47,7 +49,8 @@ int PoseProgramBuilder::make(Operation operation, int a, int b) {
   if (!fresh) return place->second;
   const auto varies = [&](int step) { return steps_[static_cast<std::size_t>(step)].varies; };
   const int count = operands(operation);
-  const bool own = operation == Operation::coordinate || (count > 0 && varies(a)) || (count > 1 && varies(b));
+  const bool own = operation == Operation::coordinate || operation == Operation::unknown || (count > 0 && varies(a)) ||
+                   (count > 1 && varies(b));
   steps_.push_back({operation, a, b, 0, own});
   return place->second;
 }
@@ -101,9 +104,76 @@ int PoseProgramBuilder::power(int base, int exponent) {
   return exponent % 2 == 0 ? even : multiply(even, base);
 }
 
+int PoseProgramBuilder::unknown(std::size_t block, std::size_t k) {
+  if (blocks_.size() <= block) blocks_.resize(block + 1);
+  std::vector<int>& unknowns = blocks_[block].unknowns;
+  if (k < unknowns.size()) return unknowns[k];
+  ensure(k == unknowns.size(), "unknowns of a block come in their order");
+  unknowns.push_back(make(Operation::unknown, static_cast<int>(block), static_cast<int>(k)));
+  return unknowns.back();
+}
+
+void PoseProgramBuilder::close(std::size_t block, const std::vector<int>& equations) {
+  PoseProgram::Block& own = blocks_.at(block);
+  ensure(equations.size() == own.unknowns.size(), "a block has as many equations as unknowns");
+  own.equations = equations;
+  for (const int equation : equations)
+    for (const int u : own.unknowns) own.jacobian.push_back(derivative(equation, u));
+}
+
+int PoseProgramBuilder::derivative(int step, int unknown) {
+  if (step == unknown) return one();
+  if (step < unknown) return zero();
+  if (const auto known = derivatives_.find({step, unknown}); known != derivatives_.end()) return known->second;
+  const PoseProgram::Step own = steps_[static_cast<std::size_t>(step)];
+  const auto of = [&](int operand) { return derivative(operand, unknown); };
+  int result = zero();
+  switch (own.operation) {
+    case Operation::constant:
+    case Operation::pi:
+    case Operation::coordinate:
+    case Operation::unknown:
+      break;
+    case Operation::add:
+      result = add(of(own.first), of(own.second));
+      break;
+    case Operation::subtract:
+      result = subtract(of(own.first), of(own.second));
+      break;
+    case Operation::multiply:
+      result = add(multiply(of(own.first), own.second), multiply(own.first, of(own.second)));
+      break;
+    case Operation::square:
+      result = multiply(multiply(constant(2), own.first), of(own.first));
+      break;
+    case Operation::inverse:
+      result = negate(multiply(square(step), of(own.first)));
+      break;
+    case Operation::square_root:
+      if (const int inner = of(own.first); inner != zero())
+        result = multiply(multiply(constant(Rational(1, 2)), inverse(step)), inner);
+      break;
+    case Operation::cosine:
+      result = negate(multiply(sine(own.first), of(own.first)));
+      break;
+    case Operation::sine:
+      result = multiply(cosine(own.first), of(own.first));
+      break;
+    case Operation::angle:
+      ensure(of(own.first) == zero() && of(own.second) == zero(),
+             "no equation of a block has an angle of its unknowns");
+      break;
+  }
+  derivatives_[{step, unknown}] = result;
+  return result;
+}
+
 PoseProgram PoseProgramBuilder::program(const std::vector<int*>& results) const {
   std::vector<bool> needed(steps_.size(), false);
   for (const int* result : results) needed[static_cast<std::size_t>(*result)] = true;
+  for (const PoseProgram::Block& block : blocks_)
+    for (const auto* own : {&block.unknowns, &block.equations, &block.jacobian})
+      for (const int step : *own) needed[static_cast<std::size_t>(step)] = true;
   for (std::size_t i = steps_.size(); i-- > 0;) {
     if (!needed[i]) continue;
     const int count = operands(steps_[i].operation);
@@ -122,6 +192,15 @@ PoseProgram PoseProgramBuilder::program(const std::vector<int*>& results) const 
     program.steps.push_back(std::move(step));
   }
   for (int* result : results) *result = place[static_cast<std::size_t>(*result)];
+  for (PoseProgram::Block block : blocks_) {
+    for (auto* own : {&block.unknowns, &block.equations, &block.jacobian})
+      for (int& step : *own) {
+        step = place[static_cast<std::size_t>(step)];
+        block.end = std::max(block.end, step + 1);
+      }
+    block.begin = block.unknowns.front();
+    program.blocks.push_back(std::move(block));
+  }
   return program;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/pose_program.hpp"
+#include "core/pose_values.hpp"
 #include "core/task_conditions.hpp"
 
 namespace clearloci::inline core {
@@ -29,6 +30,17 @@ struct PoseDemand {
   std::vector<LinearRow> components;
 };
 
+/// Which solutions of a program's blocks are meant, over a box of poses: those of one sheet, on which J is regular.
+struct BlockSheet {
+  /// Of the largest unknown: a solution is proven so near to what `start` tells.
+  static constexpr double accuracy = 1e-12;
+  enum class Cover { all, some, none };
+  /// At a pose that the sheet is proven to cover; nothing elsewhere.
+  BlockStart start = {};
+  /// Whether it is proven to cover a box of poses, or was not found to reach any of it.
+  std::function<Cover(std::span<const double> lower, std::span<const double> upper)> cover = {};
+};
+
 struct PoseStatics {
   std::vector<std::string> coordinates;
   std::size_t loads = 1;
@@ -37,6 +49,7 @@ struct PoseStatics {
   int unknowns = 0;
   std::vector<LinearRow> equations;  ///< as many
   std::vector<PoseDemand> demands;
+  BlockSheet sheet = {};  ///< of a program with blocks
 };
 
 }  // namespace clearloci::inline core

@@ -87,12 +87,31 @@ std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex poin
     const std::vector<Expression> more = numbers_of(crossing->along_second);
     own.insert(own.end(), more.begin(), more.end());
   }
+  std::vector<PointIndex> built_on = bases(form);
+  if (const auto* member = std::get_if<GroupPoint>(&form)) {
+    const Group& group = mechanism.groups[static_cast<std::size_t>(member->group)];
+    const auto add = [&](PointIndex base) {
+      if (base < group.first || base > group.last) built_on.push_back(base);
+    };
+    for (const Group::Distance& held : group.distances) {
+      own.push_back(held.length);
+      add(held.first);
+      add(held.second);
+    }
+    for (const Group::Line& line : group.lines) {
+      const std::vector<Expression> along = numbers_of(line.along);
+      own.insert(own.end(), along.begin(), along.end());
+      add(line.base);
+      add(line.point);
+      for (const PointIndex base : points_of(line.along)) add(base);
+    }
+  }
   for (const Expression& expression : own)
     for (const std::string& name : symbols(expression))
       if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
                       [&name](const Coordinate& coordinate) { return coordinate.name == name; }))
         found.insert(name);
-  for (const PointIndex base : bases(form)) found.merge(coordinates_of(mechanism, base));
+  for (const PointIndex base : built_on) found.merge(coordinates_of(mechanism, base));
   return found;
 }
 

@@ -205,6 +205,8 @@ class Choice {
       if (const auto* offset = std::get_if<OffsetPoint>(&point.form)) constant(offset->along), constant(offset->left);
       if (const auto* slider = std::get_if<SliderPoint>(&point.form)) constant(slider->length);
     }
+    for (const Group& group : mechanism_.groups)
+      for (const Group::Distance& own : group.distances) constant(own.length);
     if (largest == 0)
       for (const Coordinate& coordinate : mechanism_.coordinates)
         if (!coordinate.angle) grow((coordinate.upper - coordinate.lower) / 2);

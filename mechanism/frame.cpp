@@ -25,6 +25,9 @@ class Change {
       coordinate.upper_expression = Expression::number(coordinate.upper);
     }
     for (Point& point : result.points) change(point.form);
+    for (Group& group : result.groups) change(group);
+    for (std::size_t i = 0; i < result.near.size(); ++i)
+      if (!result.coordinates[i].angle) result.near[i] = (result.near[i] - frame_.from[i]) / frame_.scale;
     for (Link& link : result.links)
       if (link.inertia) link.inertia = scaled(*link.inertia, 2);
     for (Joint& joint : result.joints) {
@@ -98,6 +101,14 @@ class Change {
       change(crossing->along_first);
       change(crossing->along_second);
     }
+  }
+
+  void change(Group& group) const {
+    for (Group::Distance& own : group.distances) own.length = scaled(own.length, 1);
+    for (Group::Line& own : group.lines) change(own.along);
+    for (auto& place : group.near)
+      for (std::size_t i = 0; i < dimension(mechanism_); ++i)
+        place[i] = (place[i] - frame_.origin[i]) / frame_.scale;
   }
 
   /// The same vector: places in it are put back; of a difference of places their scale alone.

@@ -106,8 +106,12 @@ struct CrossingPoint {
   PointIndex first, second;
   VectorExpression along_first, along_second;
 };
-using PointForm =
-    std::variant<ExplicitPoint, DyadPoint, OffsetPoint, MeanPoint, SliderPoint, ShiftedPoint, CrossingPoint>;
+/// One of the points that close together: its place is unknown before theirs.
+struct GroupPoint {
+  int group = 0;
+};
+using PointForm = std::variant<ExplicitPoint, DyadPoint, OffsetPoint, MeanPoint, SliderPoint, ShiftedPoint,
+                               CrossingPoint, GroupPoint>;
 
 /// Points are in an order in which each uses only earlier ones. `auxiliary` points (centres of mass) were not named by
 /// the user; they stand last.
@@ -116,6 +120,31 @@ struct Point {
   PointForm form;
   bool auxiliary = false;
   core::SourcePosition where;
+};
+
+/// Points that close together, none before the others (docs/method.md section 14): as many equations as unknowns,
+///     |Q - P|^2 = length^2 of every distance,   (P - Q) x u = 0 of every line
+/// The points are `first` and the `count` - 1 behind it; the equations may name points up to `last`, which are built on
+/// these. Of all assemblies it is the one that holds the posture `near`.
+struct Group {
+  struct Distance {
+    PointIndex first = 0, second = 0;
+    Expression length;
+    core::SourcePosition where = {};
+  };
+  /// In the plane: `point` on the line through `base` along `along`.
+  struct Line {
+    PointIndex point = 0, base = 0;
+    VectorExpression along = {};
+    core::SourcePosition where = {};
+  };
+  std::string name;
+  PointIndex first = 0, last = 0;
+  std::size_t count = 0;
+  std::vector<Distance> distances = {};
+  std::vector<Line> lines = {};
+  std::vector<std::array<Rational, 3>> near = {};  ///< a place a point, at the pose Mechanism::near
+  core::SourcePosition where = {};
 };
 
 /// A mass at a point of a link.
@@ -275,6 +304,8 @@ struct Mechanism {
   std::vector<Coordinate> coordinates;
   std::vector<BodyFrame> body_frames;
   std::vector<Point> points;
+  std::vector<Group> groups = {};   ///< in the order of their points
+  std::vector<Rational> near = {};  ///< the pose of their postures; none without groups
   std::vector<Link> links;
   std::vector<Joint> joints;
   LinkIndex end_effector_link = 0;

@@ -139,6 +139,10 @@ void change(PointForm& form, const Change& by) {
 /// Every expression that the statics are made of.
 void change(Mechanism& m, const Change& by) {
   for (Point& point : m.points) change(point.form, by);
+  for (Group& group : m.groups) {
+    for (Group::Distance& own : group.distances) own.length = by(own.length);
+    for (Group::Line& own : group.lines) change(own.along, by);
+  }
   for (Link& link : m.links) {
     link.mass = by(link.mass);
     for (PointMass& own : link.masses) own.mass = by(own.mass);
@@ -242,6 +246,8 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
     const auto [low, high] = rough_range(variable.meaning, mechanism, ranges);
     result.mechanism.coordinates.push_back(
         {variable.name, false, Expression::number(low), Expression::number(high), low, high});
+    // The postures of groups are those of the file's own values.
+    if (!mechanism.groups.empty()) result.mechanism.near.push_back(value_of(variable.meaning, mechanism));
   }
   result.mechanism.parameters.clear();
   return result;

@@ -8,8 +8,10 @@
 //   foot B of A on the way to P, |AB| = a:   k = 2 a^2, for a^2 + b^2 = D
 //   crossing X of the line through Q along u and that through R along v:   X = Q + ((R - Q) x v) / (u x v) u
 //   slider S on Q along u, |SC| = l:   r = C - Q,  S = Q + (u . r +- sqrt(l^2 - |u x r|^2)) u,  u of length one
+//   points of a group:   unknowns of the algebra, with   |Q - P|^2 - l^2 = 0,  (P - Q) x u = 0
 //
-// An algebra is one of core/interpret.hpp with subtract(a, b), square(a), inverse(a) and square_root(a) besides. The
+// An algebra is one of core/interpret.hpp with subtract(a, b), square(a), inverse(a) and square_root(a) besides, and of
+// a mechanism with groups unknown(group, k), which is asked for in order, and close(group, equations). The
 // witness (numeric/geometry.hpp) and the second opinion (check/statics.cpp) place points by means of their own.
 #pragma once
 
@@ -36,7 +38,11 @@ class Placement {
     const std::vector<PointIndex> dyads = dyad_points(m_);
     core::ensure(dyads.size() == sides.size(), "a side for every dyad");
     for (std::size_t i = 0; i < dyads.size(); ++i) sides_[dyads[i]] = sides[i];
-    for (std::size_t i = 0; i < m_.points.size(); ++i) points_.push_back(place(static_cast<PointIndex>(i)));
+    for (std::size_t i = 0; i < m_.points.size(); ++i) {
+      points_.push_back(place(static_cast<PointIndex>(i)));
+      for (std::size_t g = 0; g < m_.groups.size(); ++g)
+        if (m_.groups[g].last == static_cast<PointIndex>(i)) close(g);
+    }
   }
 
   Algebra& algebra() { return algebra_; }
@@ -114,6 +120,7 @@ class Placement {
     if (const auto* own = std::get_if<OffsetPoint>(&form)) return beside(*own);
     if (const auto* own = std::get_if<ShiftedPoint>(&form)) return plus(point(own->from), vector(own->by));
     if (const auto* own = std::get_if<CrossingPoint>(&form)) return cross_lines(*own);
+    if (const auto* own = std::get_if<GroupPoint>(&form)) return unknown(*own, index);
     const auto& mean = std::get<MeanPoint>(form);
     return times(constant(Rational(1, 2)), plus(point(mean.first), point(mean.second)));
   }
@@ -154,6 +161,25 @@ class Placement {
     const Vector u = vector(form.along_first), v = vector(form.along_second);
     const Number way = cross(minus(point(form.second), point(form.first)), v)[2], turn = cross(u, v)[2];
     return plus(point(form.first), times(algebra_.multiply(way, algebra_.inverse(turn)), u));
+  }
+
+  Vector unknown(const GroupPoint& form, PointIndex index) {
+    const auto group = static_cast<std::size_t>(form.group);
+    const auto before = static_cast<std::size_t>(index - m_.groups[group].first) * dimension(m_);
+    Vector own = {constant(0), constant(0), constant(0)};
+    for (std::size_t i = 0; i < dimension(m_); ++i) own[i] = algebra_.unknown(group, before + i);
+    return own;
+  }
+
+  void close(std::size_t group) {
+    std::vector<Number> equations;
+    for (const Group::Distance& own : m_.groups[group].distances) {
+      const Vector way = minus(point(own.second), point(own.first));
+      equations.push_back(algebra_.subtract(dot(way, way), algebra_.square(expression(own.length))));
+    }
+    for (const Group::Line& own : m_.groups[group].lines)
+      equations.push_back(cross(minus(point(own.point), point(own.base)), vector(own.along))[2]);
+    algebra_.close(group, equations);
   }
 
   Vector beside(const OffsetPoint& form) {

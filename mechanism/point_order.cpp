@@ -24,6 +24,20 @@ std::vector<Value> mentioned_points(const Value& value) {
   return mentioned;
 }
 
+/// The points that an entry places: itself, or those of a group, which may use each other.
+std::vector<std::string> placed_points(const Entry& entry) {
+  if (!entry.value.is_map() || !entry.value.node.has("group")) return {entry.key};
+  std::vector<std::string> placed;
+  for (const Entry& part : entries(entry.value)) {
+    if (part.key == "group" && part.value.is_sequence())
+      for (const Value& point : elements(part.value))
+        if (point.is_scalar()) placed.push_back(point.node.Scalar());
+    if (part.key == "with" && part.value.is_map())
+      for (const Entry& further : entries(part.value)) placed.push_back(further.key);
+  }
+  return placed;
+}
+
 /// A link as it is written, as far as it is written well enough to tell.
 struct WrittenLink {
   std::string name;
@@ -52,7 +66,8 @@ class OrderCheck {
  public:
   OrderCheck(const std::vector<Entry>& points, const std::optional<Value>& links)
       : points_(points), links_(links), state_(points.size(), State::unseen) {
-    for (std::size_t i = 0; i < points.size(); ++i) index_[points[i].key] = i;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (const std::string& name : placed_points(points[i])) index_[name] = i;
     for (std::size_t i = 0; i < points.size(); ++i) visit(i);
     for (std::size_t i = 0; i < points.size(); ++i) {
       for (const Value& used : mentioned_points(points[i].value)) {

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "mechanism/group_closing.hpp"
 #include "mechanism/placement.hpp"
 
 namespace clearloci::mechanism {
@@ -18,7 +19,11 @@ using MaybePoints = std::vector<std::optional<Vector>>;
 struct Doubles {
   using Value = double;
   const Values& values;
+  const std::vector<double>& of_groups;  ///< the unknowns of the groups; empty where they do not close
+  std::size_t asked = 0;
 
+  double unknown(std::size_t, std::size_t) { return of_groups.empty() ? NAN : of_groups.at(asked++); }
+  void close(std::size_t, const std::vector<double>&) {}
   double number(const Rational& value) const { return core::to_double(value); }
   double symbol(const std::string& name) const { return values.at(name); }
   double pi() const { return std::numbers::pi; }
@@ -79,8 +84,9 @@ Values values_of(const Mechanism& mechanism, const std::vector<double>& pose) {
   return values;
 }
 
-MaybePoints points_at(const Mechanism& mechanism, const Values& values, const std::vector<int>& sides) {
-  const Placement<Doubles> placed(mechanism, sides, {values});
+MaybePoints points_at(const Mechanism& mechanism, const Values& values, const std::vector<double>& of_groups,
+                      const std::vector<int>& sides) {
+  const Placement<Doubles> placed(mechanism, sides, {values, of_groups});
   MaybePoints points;
   for (const Vector& point : placed.points()) points.push_back(if_finite(point));
   return points;
@@ -91,23 +97,31 @@ MaybePoints points_at(const Mechanism& mechanism, const Values& values, const st
 std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, const VectorExpression& vector,
                                                    const std::vector<double>& pose) {
   const Values values = values_of(mechanism, pose);
-  return if_finite(Placement<Doubles>(mechanism, working_mode(mechanism), {values}).vector(vector));
+  const std::vector<int> sides = working_mode(mechanism);
+  const std::vector<double> of_groups = GroupClosing(mechanism, sides).at(pose).value_or(std::vector<double>{});
+  return if_finite(Placement<Doubles>(mechanism, sides, {values, of_groups}).vector(vector));
 }
 
 MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
-  return points_at(mechanism, values_of(mechanism, pose), working_mode(mechanism));
+  const std::vector<int> sides = working_mode(mechanism);
+  const std::vector<double> of_groups = GroupClosing(mechanism, sides).at(pose).value_or(std::vector<double>{});
+  return points_at(mechanism, values_of(mechanism, pose), of_groups, sides);
 }
 
 std::vector<SampledPosture> sample_poses(const Mechanism& mechanism, const std::vector<int>& sides, std::size_t count) {
-  constexpr std::size_t tries = 4096, at_once = 64;
+  // Groups take a thousand times as long as what has closed forms.
+  const std::size_t tries = mechanism.groups.empty() ? 4096 : 256, at_once = 64;
+  GroupClosing closing(mechanism, sides);
   std::vector<SampledPosture> postures;
   Values values = values_of(mechanism, {});
   for (std::size_t first = 0; first < tries; first += at_once) {
     for (std::vector<double>& pose : spread_poses(mechanism, at_once, first)) {
       if (postures.size() == count) return postures;
       put_pose(values, mechanism, pose);
+      const std::optional<std::vector<double>> of_groups = closing.at(pose);
+      if (!of_groups) continue;
       PosturePoints posture;
-      for (const std::optional<Vector>& point : points_at(mechanism, values, sides))
+      for (const std::optional<Vector>& point : points_at(mechanism, values, *of_groups, sides))
         if (point) posture.push_back(*point);
       if (posture.size() == mechanism.points.size()) postures.push_back({std::move(pose), std::move(posture)});
     }

@@ -155,14 +155,6 @@ std::pair<PointIndex, PointIndex> read_pair(const Mechanism& mechanism, const Va
   return {first, second};
 }
 
-/// The length of a rod, or a polynomial in the coordinates: that of a leg which a motor makes longer.
-Expression read_length(const Mechanism& mechanism, const Value& value) {
-  Expression length = read_expression(mechanism, value, Scope::parameters_and_coordinates);
-  if (!mentions_coordinates(mechanism, length)) return read_number(mechanism, value, Sign::positive).expression;
-  check_polynomial(mechanism, value, length, "the length of a leg is a number or a polynomial in the coordinates");
-  return length;
-}
-
 DyadPoint read_dyad(const Mechanism& mechanism, const Value& value) {
   const bool spatial = mechanism.space == Space::spatial;
   std::vector<std::string> keys = {"dyad", "lengths", "side"};
@@ -292,6 +284,13 @@ void check_load(const Mechanism& mechanism, const Value& value, const Expression
                   true)(expression);
 }
 
+Expression read_length(const Mechanism& mechanism, const Value& value) {
+  Expression length = read_expression(mechanism, value, Scope::parameters_and_coordinates);
+  if (!mentions_coordinates(mechanism, length)) return read_number(mechanism, value, Sign::positive).expression;
+  check_polynomial(mechanism, value, length, "the length of a leg is a number or a polynomial in the coordinates");
+  return length;
+}
+
 PointIndex read_point_name(const Mechanism& mechanism, const Value& value) {
   const std::string name = text_of(value);
   std::vector<std::string> known;
@@ -340,6 +339,11 @@ void read_points(Mechanism& mechanism, const Value& value, const std::optional<V
   if (points.empty()) throw InputError(value.where, "there are no points", "write such as A: [0, 0]");
   check_order(points, links);
   for (const Entry& entry : points) {
+    if (is_group(entry.value)) {
+      read_group(mechanism, entry);
+      read_known_frames(mechanism, frames);
+      continue;
+    }
     check_label(entry.key, entry.where, "a point");
     Value form = entry.value;
     form.what = "point " + entry.key;

@@ -62,9 +62,17 @@ void check_polynomial(const Mechanism& mechanism, const Value& value, const Expr
                       const std::string& mend);
 /// The same of what a load may be: with arc tangents of such polynomials besides.
 void check_load(const Mechanism& mechanism, const Value& value, const Expression& expression);
+/// The length of a rod, or a polynomial in the coordinates: that of a leg which a motor makes longer.
+Expression read_length(const Mechanism& mechanism, const Value& value);
 /// `frames`: those of the file, each read as soon as its origin is known. `links`: as they are written, for messages.
 void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames,
                  const std::optional<Value>& links);
+
+// --- read_group.cpp
+/// {group: [C, E], lengths: ...}, in the place of a point.
+bool is_group(const Value& value);
+/// Adds its points. Throws where it does not close from its posture.
+void read_group(Mechanism& mechanism, const Entry& entry);
 
 // --- read_frames.cpp
 /// A point {in: frame, place: [u, v, w]} as its coordinates.

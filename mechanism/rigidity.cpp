@@ -75,6 +75,8 @@ class Construction {
         if (is_constant(m_, shifted->by)) held_.insert(pair_of(own, shifted->from));
       }
     }
+    for (const Group& group : m_.groups)
+      for (const Group::Distance& own : group.distances) held_.insert(pair_of(own.first, own.second));
   }
 
   /// A distance between a point on the way between two points and another one follows from those of the two.

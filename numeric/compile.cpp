@@ -7,6 +7,7 @@
 #include "mechanism/rigidity.hpp"
 #include "numeric/equations.hpp"
 #include "numeric/evaluator.hpp"
+#include "numeric/group_solution.hpp"
 
 namespace clearloci::numeric {
 
@@ -25,6 +26,8 @@ class ModelBuilder {
     model.dyads = mechanism::dyad_points(m_);
     for (const auto& c : m_.coordinates) model.box.push_back({core::to_double(c.lower), core::to_double(c.upper)});
     model.points = geometry_.points();
+    model.groups = geometry_.groups();
+    if (!model.groups.empty()) model.group_starts = std::make_shared<GroupStarts>(m_);
     model.axes = geometry_.axes();
     model.couple_axes = geometry_.couple_axes();
     for (const Triple& p : model.points) add_placed(p, model);

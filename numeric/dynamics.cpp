@@ -13,6 +13,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "numeric/group_solution.hpp"
 #include "numeric/wrench_rows.hpp"
 
 namespace clearloci::numeric {
@@ -373,6 +374,8 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
   const NumericModel& model = motion.model;
   std::vector<Series> inputs = result.coordinates;
   for (const int sign : motion.mode) inputs.emplace_back(sign);
+  inputs.resize(static_cast<std::size_t>(model.inputs()));
+  place_groups(model, motion.mode, inputs);
   std::vector<Series> registers(static_cast<std::size_t>(model.equations_size));
   run<Series, 1>(model.tape, 0, model.equations_size, inputs.data(), registers.data());
   const auto vector = [&](const Triple& v) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "numeric/group_solution.hpp"
 #include "numeric/model.hpp"
 
 namespace clearloci::numeric {
@@ -28,7 +29,10 @@ class Evaluator {
 
   T& input(std::size_t coordinate, int lane) { return inputs_[coordinate * Lanes + static_cast<std::size_t>(lane)]; }
 
-  void run_tape() { run<T, Lanes>(model_.tape, 0, instructions_, inputs_.data(), registers_.data()); }
+  void run_tape() {
+    if (!model_.groups.empty()) place_unknowns();
+    run<T, Lanes>(model_.tape, 0, instructions_, inputs_.data(), registers_.data());
+  }
 
   /// All points finite. Only after run_tape().
   bool reachable(int lane) const {
@@ -46,6 +50,20 @@ class Evaluator {
   }
 
  private:
+  /// Lane after lane; lanes that stand for the same pose often follow each other.
+  void place_unknowns() {
+    const auto inputs = static_cast<std::size_t>(model_.inputs()), known = model_.box.size() + model_.dyads.size();
+    std::vector<int> sides;
+    for (std::size_t i = model_.box.size(); i < known; ++i)
+      sides.push_back(static_cast<int>(value_of(inputs_[i * Lanes])));
+    std::vector<T> own(inputs);
+    for (std::size_t l = 0; l < Lanes; ++l) {
+      for (std::size_t i = 0; i < known; ++i) own[i] = inputs_[i * Lanes + l];
+      place_groups(model_, sides, own);
+      for (std::size_t i = known; i < inputs; ++i) inputs_[i * Lanes + l] = own[i];
+    }
+  }
+
   const T* at(Register r, int lane = 0) const {
     return registers_.data() + static_cast<std::ptrdiff_t>(r) * Lanes + lane;
   }

@@ -10,7 +10,12 @@ using mechanism::Space;
 
 Geometry::Geometry(const mechanism::Mechanism& mechanism)
     : m_(mechanism), named_(mechanism), tape_(named_.builder()), zero_(tape_.constant(0.0)), one_(tape_.constant(1.0)) {
-  for (std::size_t i = 0; i < m_.points.size(); ++i) points_.push_back(place(static_cast<mechanism::PointIndex>(i)));
+  groups_.resize(m_.groups.size());
+  for (std::size_t i = 0; i < m_.points.size(); ++i) {
+    points_.push_back(place(static_cast<mechanism::PointIndex>(i)));
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (m_.groups[g].last == static_cast<mechanism::PointIndex>(i)) close(m_.groups[g], groups_[g]);
+  }
   for (const mechanism::Joint& joint : m_.joints) add_axes(joint);
 }
 
@@ -74,6 +79,7 @@ Triple Geometry::place(mechanism::PointIndex index) {
   if (const auto* o = std::get_if<mechanism::OffsetPoint>(&form)) return offset(*o);
   if (const auto* s = std::get_if<mechanism::ShiftedPoint>(&form)) return plus(point(s->from), vector(s->by));
   if (const auto* c = std::get_if<mechanism::CrossingPoint>(&form)) return crossing(*c);
+  if (const auto* g = std::get_if<mechanism::GroupPoint>(&form)) return unknown(*g);
   const auto& mean = std::get<mechanism::MeanPoint>(form);
   return times(tape_.constant(0.5), plus(point(mean.first), point(mean.second)));
 }
@@ -129,6 +135,34 @@ Triple Geometry::crossing(const mechanism::CrossingPoint& form) {
   const Triple u = vector(form.along_first), v = vector(form.along_second);
   const Triple way = minus(point(form.second), point(form.first));
   return plus(point(form.first), times(tape_.divide(cross(way, v)[2], cross(u, v)[2]), u));
+}
+
+Triple Geometry::unknown(const mechanism::GroupPoint& form) {
+  int input = named_.first_unknown();
+  for (const GroupBlock& block : groups_) input += static_cast<int>(block.unknowns.size());
+  GroupBlock& own = groups_[static_cast<std::size_t>(form.group)];
+  if (own.unknowns.empty()) {
+    own.first_input = input;
+    own.begin = tape_.size();
+  }
+  Triple place = {zero_, zero_, zero_};
+  for (std::size_t c = 0; c < mechanism::dimension(m_); ++c)
+    own.unknowns.push_back(place[c] = tape_.input(input++));
+  return place;
+}
+
+/// |Q - P|² - l² of every distance, in the plane the moment of u about P from the line through Q along u; in the order
+/// of the unknowns' equations of mechanism.hpp.
+void Geometry::close(const mechanism::Group& group, GroupBlock& block) {
+  for (const mechanism::Group::Distance& own : group.distances) {
+    const Triple way = minus(point(own.second), point(own.first));
+    block.equations.push_back(tape_.subtract(dot(way, way), tape_.square(compile(own.length))));
+  }
+  for (const mechanism::Group::Line& own : group.lines)
+    block.equations.push_back(cross(minus(point(own.point), point(own.base)), vector(own.along))[2]);
+  for (const Register g : block.equations)
+    for (const Register u : block.unknowns) block.jacobian.push_back(tape_.derivative(g, u));
+  block.end = tape_.size();
 }
 
 Triple Geometry::vector(const mechanism::VectorExpression& v) {

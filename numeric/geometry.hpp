@@ -23,6 +23,7 @@ class Geometry {
 
   const std::vector<Triple>& points() const { return points_; }
   const Triple& point(mechanism::PointIndex index) const { return points_[static_cast<std::size_t>(index)]; }
+  const std::vector<GroupBlock>& groups() const { return groups_; }
   /// As NumericModel::axes and NumericModel::couple_axes.
   const std::vector<std::optional<Triple>>& axes() const { return axes_; }
   const std::vector<std::optional<Triple>>& couple_axes() const { return couple_axes_; }
@@ -54,12 +55,15 @@ class Geometry {
   Triple dyad(const mechanism::DyadPoint& form, Register sign);
   Triple slider(const mechanism::SliderPoint& form, Register sign);
   Triple crossing(const mechanism::CrossingPoint& form);
+  Triple unknown(const mechanism::GroupPoint& form);
+  void close(const mechanism::Group& group, GroupBlock& block);
   void add_axes(const mechanism::Joint& joint);
 
   const mechanism::Mechanism& m_;
   NamedTape named_;
   TapeBuilder& tape_;
   Register zero_, one_;
+  std::vector<GroupBlock> groups_;
   std::vector<Triple> points_, ways_;
   std::vector<std::optional<Triple>> axes_, couple_axes_;
 };

@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "numeric/evaluator.hpp"
+#include "numeric/group_solution.hpp"
 
 namespace clearloci::numeric {
 
@@ -14,6 +15,8 @@ Posture posture(const NumericModel& model, std::span<const double> pose, std::sp
   core::ensure(mode.size() == model.dyads.size(), "a working mode has one sign for each dyad");
   std::vector<double> inputs(pose.begin(), pose.end());
   inputs.insert(inputs.end(), mode.begin(), mode.end());
+  inputs.resize(static_cast<std::size_t>(model.inputs()));
+  place_groups(model, mode, inputs);
   std::vector<double> registers(static_cast<std::size_t>(model.posture_size));
   run<double, 1>(model.tape, 0, model.posture_size, inputs.data(), registers.data());
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,15 +34,27 @@ struct LoadRegisters {
   int spring = -1;  ///< of an inner one: which
 };
 
+/// Points that close together: their coordinates are inputs of the tape, of which equations are zero.
+struct GroupBlock {
+  int first_input = 0;
+  int begin = 0, end = 0;           ///< instructions from its first unknown to its last derivative
+  std::vector<Register> unknowns;   ///< inputs
+  std::vector<Register> equations;  ///< as many
+  std::vector<Register> jacobian;   ///< row after row
+};
+class GroupStarts;
+
 /// A mechanism of the plane or of space: a link has three rows, fx, fy, mz, or six.
 struct NumericModel {
   mechanism::Mechanism mechanism;
   std::vector<mechanism::Unknown> unknowns;  ///< columns of A; in space: of equations.hpp
   std::vector<mechanism::PointIndex> dyads;  ///< dyads and sliders: the working mode has a sign for each
   std::vector<std::array<double, 2>> box;    ///< lower, upper of each free coordinate: rad of an angle, else m
-  Tape tape;                                 ///< inputs: free coordinates, then the signs of the working mode
-  int posture_size = 0;                      ///< instructions that compute points and loads
-  int reaction_size = 0;                     ///< and with them the reactions; the rest serves the unit wrenches
+  Tape tape;  ///< inputs: free coordinates, then the signs of the working mode, then the unknowns of the groups
+  std::vector<GroupBlock> groups;
+  std::shared_ptr<GroupStarts> group_starts;  ///< of their unknowns (group_solution.hpp)
+  int posture_size = 0;                       ///< instructions that compute points and loads
+  int reaction_size = 0;                      ///< and with them the reactions; the rest serves the unit wrenches
   /// Finite where every point can be placed, every axis has a direction and no limit is broken.
   std::vector<Register> placed;
   /// Of every limit what is left to its lower and upper end, negative beyond it; none where no pose is beyond.
@@ -68,7 +81,11 @@ struct NumericModel {
   /// Of every joint in space: the Cartesian directions, 0 to 2, of its components 1 and 2 across the axis.
   std::vector<std::array<int, 2>> across;
 
-  int inputs() const { return static_cast<int>(box.size() + dyads.size()); }
+  int inputs() const {
+    std::size_t unknowns = 0;
+    for (const GroupBlock& group : groups) unknowns += group.unknowns.size();
+    return static_cast<int>(box.size() + dyads.size() + unknowns);
+  }
 };
 
 /// Requires as many unknowns as equations. Throws core::InputError otherwise.

@@ -10,6 +10,7 @@ NamedTape::NamedTape(const mechanism::Mechanism& mechanism) {
   int input = 0;
   for (const auto& coordinate : mechanism.coordinates) names_[coordinate.name] = builder_.input(input++);
   for (const int dyad : mechanism::dyad_points(mechanism)) sign_of_[dyad] = builder_.input(input++);
+  first_unknown_ = input;
 }
 
 Register NamedTape::compile(const core::Expression& expression) {

@@ -30,6 +30,10 @@ std::vector<BoundedNumerators> PoseWitness::numerators(std::span<const double> a
 std::optional<TaskFailure> PoseWitness::failure(std::span<const double> at, int demand) const {
   using Kind = TaskFailure::Kind;
   if (!reachable(*loads_.front(), at, mode_)) {
+    // Where continuation of a group ends nothing is certain.
+    const auto& groups = loads_.front()->mechanism.groups;
+    const Posture here = posture(*loads_.front(), at, mode_);
+    if (!groups.empty() && here.unreachable && *here.unreachable >= groups.front().first) return std::nullopt;
     // Not by a rounding: nor is any neighbour along a coordinate.
     std::vector<double> near(at.begin(), at.end());
     for (std::size_t c = 0; c < near.size(); ++c)

@@ -103,6 +103,45 @@ Register TapeBuilder::power(Register base, int exponent) {
   return exponent % 2 == 0 ? even : multiply(even, base);
 }
 
+Register TapeBuilder::derivative(Register of, Register by) {
+  if (of == by) return constant(1.0);
+  if (const auto known = derivatives_.find({of, by}); known != derivatives_.end()) return known->second;
+  const Instruction step = tape_.code[static_cast<std::size_t>(of)];
+  const auto inner = [&](Register operand) { return derivative(operand, by); };
+  Register result = constant(0.0);
+  switch (step.op) {
+    case Op::constant:
+    case Op::input:
+      break;
+    case Op::add:
+      result = add(inner(step.a), inner(step.b));
+      break;
+    case Op::subtract:
+      result = subtract(inner(step.a), inner(step.b));
+      break;
+    case Op::multiply:
+      result = add(multiply(inner(step.a), step.b), multiply(step.a, inner(step.b)));
+      break;
+    case Op::divide:
+      result = divide(subtract(inner(step.a), multiply(of, inner(step.b))), step.b);
+      break;
+    case Op::sqrt:
+      result = divide(inner(step.a), add(of, of));
+      break;
+    case Op::cos:
+      result = negate(multiply(sin(step.a), inner(step.a)));
+      break;
+    case Op::sin:
+      result = multiply(cos(step.a), inner(step.a));
+      break;
+    case Op::atan2:
+      core::ensure(is_exactly(inner(step.a), 0) && is_exactly(inner(step.b), 0), "no angle is differentiated");
+      break;
+  }
+  derivatives_[{of, by}] = result;
+  return result;
+}
+
 namespace {
 
 /// Expressions as instructions (core/interpret.hpp).

@@ -47,6 +47,8 @@ class TapeBuilder {
   Register square(Register a) { return multiply(a, a); }
   Register negate(Register a) { return subtract(constant(0.0), a); }
   Register power(Register base, int exponent);
+  /// Of a register by an input, also a register; of no atan2.
+  Register derivative(Register of, Register by);
 
   /// `symbol`: the register of a name. Throws core::InputError for a power whose exponent is no integer or half of one.
   Register compile(const core::Expression& expression, const std::function<Register(const std::string&)>& symbol);
@@ -65,6 +67,7 @@ class TapeBuilder {
   Tape tape_;
   std::map<std::tuple<Op, int, int>, Register> known_;
   std::map<std::pair<double, double>, Register> constants_;
+  std::map<std::pair<Register, Register>, Register> derivatives_;
 };
 
 /// Runs instructions [first, last). registers: Lanes values an instruction. inputs[i]: Lanes values of input i.

@@ -6,6 +6,7 @@
 #include "core/interpret.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/group_closing.hpp"
 #include "mechanism/posture_sample.hpp"
 
 namespace clearloci::symbolic {
@@ -89,6 +90,9 @@ struct NotPolynomial {
 
 Geometry::Geometry(const Mechanism& mechanism, bool keep_parameters, Charts charts, SheetChoice sheet)
     : mechanism_(&mechanism), keep_parameters_(keep_parameters), charts_(std::move(charts)), sheet_(std::move(sheet)) {
+  mechanism::require_closed_forms(mechanism, "the equations are written",
+                                  "over groups ask for zones, verify, pose, error and trajectory, or loci over one "
+                                  "coordinate");
   if (sheet_.sides.empty()) sheet_.sides = mechanism::working_mode(mechanism);
   charts_.resize(mechanism.coordinates.size());
   for (std::size_t i = 0; i < charts_.size(); ++i) {

@@ -9,8 +9,8 @@
 #include "mechanism/idle.hpp"
 #include "mechanism/idle_limits.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/pose_steps.hpp"
 #include "symbolic/linear_elimination.hpp"
-#include "symbolic/pose_program.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -19,6 +19,8 @@ using core::Quantity;
 using core::Rational;
 using mechanism::LinkIndex;
 using mechanism::Mechanism;
+using mechanism::PosePoints;
+using mechanism::PoseSteps;
 using Vector = PosePoints::Vector;
 /// Force, then moment about the end-effector point.
 using Wrench = std::array<int, 6>;
@@ -75,7 +77,7 @@ class StaticsBuilder {
     for (std::size_t i = 0; i < m_.points.size(); ++i)
       for (const int step : points_.point(static_cast<int>(i))) places_of_points.push_back(step);
     for (int& step : places_of_points) steps.push_back(&step);
-    result.program = b_.program(steps);
+    result.program = mechanism::program_of(m_, b_, steps);
     return result;
   }
 

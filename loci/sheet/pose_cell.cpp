@@ -10,32 +10,26 @@
 namespace clearloci::loci::pose {
 namespace {
 
-using Operation = core::PoseProgram::Operation;
-
-/// pi to half a unit in the last place.
-template <class Form>
-Form enclosed_pi() {
-  Form own(3.14159265358979312);
-  own.r = 0x1p-52;
-  return own;
-}
-
 template <class Form>
 bool is_finite(const Form& x) {
   return std::isfinite(x.c) && std::isfinite(x.radius());
 }
 
-/// Of the numbers of x that are not negative.
-template <class Form>
-Form any_root_up_to(const Form& x) {
-  const double half = 0.5 * std::sqrt(std::max(0.0, x.upper())) * (1 + 0x1p-50);
-  Form own(half);
-  own.r = half * (1 + 0x1p-50) + Form::slack(half);
-  return own;
-}
-
 /// A row's entries and what it adds up to are sums of so many roundings at most.
 double rounded_up(double sum, std::size_t terms) { return sum * (1 + static_cast<double>(terms + 8) * 0x1p-51); }
+
+/// The poses of a cell.
+std::pair<Pose, Pose> around(const PoseChart& chart, const PoseBox& box) {
+  Pose lower = chart.base, upper = chart.base;
+  for (std::size_t p = 0; p < box.size(); ++p)
+    for (std::size_t q = 0; q < lower.size(); ++q) {
+      if (chart.ways[p][q] == 0) continue;
+      const double a = chart.ways[p][q] * box[p][0], b = chart.ways[p][q] * box[p][1];
+      lower[q] += std::min(a, b);
+      upper[q] += std::max(a, b);
+    }
+  return {std::move(lower), std::move(upper)};
+}
 
 /// The point of the way from a to b that is nearest to the origin.
 std::vector<double> nearest_to_origin(const std::vector<double>& a, const std::vector<double>& b) {
@@ -60,20 +54,18 @@ double length_of(const std::vector<double>& v) {
 
 template <class Form>
 PoseCellOf<Form>::PoseCellOf(const core::PoseStatics& statics)
-    : statics_(&statics), point_(statics), n_(static_cast<std::size_t>(statics.unknowns)), columns_(n_) {
+    : statics_(&statics),
+      point_(statics),
+      forms_(statics.program),
+      n_(static_cast<std::size_t>(statics.unknowns)),
+      columns_(n_) {
   for (std::size_t row = 0; row < n_; ++row)
     for (const core::LinearRow::Term& term : statics.equations[row].terms)
       columns_[static_cast<std::size_t>(term.unknown)].push_back({static_cast<int>(row), term.step});
   for (const core::PoseDemand& demand : statics.demands)
     leasts_.push_back(std::nextafter(core::to_double(demand.demand.least), demand.demand.least > 0 ? 1e300 : 0.0));
-  registers_.resize(statics.program.steps.size());
-  for (std::size_t i = 0; i < registers_.size(); ++i) {
-    const core::PoseProgram::Step& own = statics.program.steps[i];
-    if (own.operation == Operation::constant) registers_[i] = nearest<Form>(own.value);
-    if (own.operation == Operation::pi) registers_[i] = enclosed_pi<Form>();
-    varies_.push_back(own.varies ? 1 : 0);
-    if (own.operation == Operation::square_root && own.varies) closures_.push_back(own.first);
-  }
+  for (const core::PoseProgram::Step& own : statics.program.steps)
+    if (own.operation == core::PoseProgram::Operation::square_root && own.varies) closures_.push_back(own.first);
   closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
   inverse_.resize(n_ * n_);
   error_.resize(n_ * n_);
@@ -94,70 +86,38 @@ CellAnswers::State PoseCellOf<Form>::in_doubt(Doubt doubt, const Form& form, int
 
 template <class Form>
 CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& box, std::vector<Form>* boundaries) {
-  for (std::size_t i = 0; i < registers_.size(); ++i) {
-    const core::PoseProgram::Step& own = statics_->program.steps[i];
-    const Form& x = registers_[static_cast<std::size_t>(own.first)];
-    const Form& y = registers_[static_cast<std::size_t>(own.second)];
-    switch (own.operation) {
-      case Operation::constant:
-      case Operation::pi:
-        break;
-      case Operation::coordinate: {
-        const auto q = static_cast<std::size_t>(own.first);
-        Sum sum;
-        sum.add(1, Form(chart.base[q]));
-        for (std::size_t p = 0; p < box.size(); ++p) {
-          if (chart.ways[p][q] == 0) continue;
-          const auto& [low, high] = box[p];
-          Form parameter(low + 0.5 * (high - low));
-          parameter.a[p] = std::max(high - parameter.c, parameter.c - low);
-          if (parameter.a[p] > 0) parameter.r = Form::slack(std::abs(high) + std::abs(low));
-          sum.add(chart.ways[p][q], parameter);
-        }
-        registers_[i] = sum.result();
-        break;
-      }
-      case Operation::add:
-        registers_[i] = x + y;
-        break;
-      case Operation::subtract:
-        registers_[i] = x - y;
-        break;
-      case Operation::multiply:
-        registers_[i] = x * y;
-        break;
-      case Operation::square:
-        registers_[i] = squared(x);
-        break;
-      case Operation::inverse:
-        if (x.contains_zero()) return in_doubt(Doubt::workspace, x);
-        registers_[i] = inverse(x);
-        break;
-      case Operation::square_root:
-        if (x.upper() < 0) return State::outside;
-        if (x.lower() > 0) {
-          registers_[i] = square_root(x);
-          break;
-        }
-        if (boundaries == nullptr || !is_finite(x)) return in_doubt(Doubt::workspace, x);
-        boundaries->push_back(x);
-        registers_[i] = any_root_up_to(x);
-        break;
-      case Operation::cosine:
-        registers_[i] = cosine(x);
-        break;
-      case Operation::sine:
-        registers_[i] = sine(x);
-        break;
-      case Operation::angle: {
-        constexpr double half_turn = 3.14159265358979312;  // just below: there the angle is cut
-        const std::optional<Form> angle = angle_of(x, y);
-        if (!angle || !(angle->lower() > -half_turn && angle->upper() < half_turn))
-          return in_doubt(Doubt::workspace, angle ? *angle : y);
-        registers_[i] = *angle;
-        break;
-      }
+  using Outcome = typename PoseForms<Form>::Outcome;
+  core::BlockUnknowns starts;
+  if (!statics_->program.blocks.empty()) {
+    // What the sheet covers is told by its own cells, which are finer the nearer to its end.
+    const auto [lower, upper] = around(chart, box);
+    std::optional<core::BlockUnknowns> found;
+    using Cover = core::BlockSheet::Cover;
+    const Cover cover = statics_->sheet.cover ? statics_->sheet.cover(lower, upper) : Cover::some;
+    if (cover == Cover::none) return State::outside;
+    if (cover == Cover::all) found = statics_->sheet.start(chart.at(middle_of(box)));
+    if (!found) {
+      Form all;
+      for (std::size_t p = 0; p < box.size(); ++p) all.a[p] = 1;
+      return in_doubt(Doubt::workspace, all);
     }
+    starts = std::move(*found);
+  }
+  switch (forms_.run(chart, box, starts, boundaries)) {
+    case Outcome::outside:
+      return State::outside;
+    case Outcome::in_doubt:
+      return in_doubt(Doubt::workspace, forms_.doubt());
+    case Outcome::complete:
+      break;
+  }
+  // The sheet's solution is the one that the cell has.
+  double size = 0;
+  for (const double own : starts) size = std::max(size, std::abs(own));
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const auto& [middle, radius] = forms_.unique()[k];
+    if (!(std::abs(middle.c - starts[k]) + core::BlockSheet::accuracy * size < radius))
+      return in_doubt(Doubt::workspace, middle);
   }
   for (const int own : statics_->positive) {
     if (step(own).upper() < 0) return State::outside;
@@ -258,10 +218,9 @@ template <class Form>
 std::vector<double> PoseCellOf<Form>::component_values(const core::PoseDemand& demand, std::size_t load) const {
   std::vector<double> values;
   for (const core::LinearRow& row : demand.components) {
-    double value = registers_[static_cast<std::size_t>(row.free[load])].c;
+    double value = forms_[row.free[load]].c;
     for (const core::LinearRow::Term& term : row.terms)
-      value +=
-          registers_[static_cast<std::size_t>(term.step)].c * solution_[load][static_cast<std::size_t>(term.unknown)];
+      value += forms_[term.step].c * solution_[load][static_cast<std::size_t>(term.unknown)];
     values.push_back(value);
   }
   return values;

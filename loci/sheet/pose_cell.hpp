@@ -27,6 +27,7 @@
 #include "loci/numbers/numbers.hpp"
 #include "loci/sheet/half_space.hpp"
 #include "loci/sheet/pose_chart.hpp"
+#include "loci/sheet/pose_forms.hpp"
 #include "loci/sheet/pose_point.hpp"
 
 namespace clearloci::loci::pose {
@@ -97,13 +98,12 @@ class PoseCellOf : public CellAnswers {
   bool keeps(int demand);
   /// Most entries of A are numbers, which move with no coordinate.
   void add_step(Sum& sum, double factor, int index) const {
-    const auto i = static_cast<std::size_t>(index);
-    if (varies_[i] != 0)
-      sum.add(factor, registers_[i]);
+    if (forms_.varies(index))
+      sum.add(factor, forms_[index]);
     else
-      sum.add_number(factor, registers_[i]);
+      sum.add_number(factor, forms_[index]);
   }
-  Form& step(int index) { return registers_[static_cast<std::size_t>(index)]; }
+  Form& step(int index) { return forms_[index]; }
   std::vector<double> component_values(const core::PoseDemand& demand, std::size_t load) const;
   /// Something that may vanish in the cell, as it is kept: where |form| > least. `demand` < 0: |A|, by s.
   struct Open {
@@ -119,13 +119,12 @@ class PoseCellOf : public CellAnswers {
 
   const core::PoseStatics* statics_;
   PosePoint point_;
+  PoseForms<Form> forms_;
   const PoseChart* chart_ = nullptr;  ///< of the cell entered last, and its box
   const PoseBox* box_ = nullptr;
   std::size_t n_;
   std::vector<std::vector<Entry>> columns_;  ///< of A
   std::vector<double> leasts_;               ///< asked of every demand, rounded up
-  std::vector<Form> registers_;
-  std::vector<char> varies_;                   ///< registers that do with the pose; the others are numbers
   std::vector<double> inverse_;                ///< C
   std::vector<double> error_;                  ///< |E|
   std::vector<double> weights_;                ///< s

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace clearloci::loci::pose {
@@ -10,64 +9,17 @@ namespace clearloci::loci::pose {
 PosePoint::PosePoint(const core::PoseStatics& statics)
     : statics_(&statics),
       n_(static_cast<std::size_t>(statics.unknowns)),
-      registers_(statics.program.steps.size(), 0.0),
+      values_(statics.program),
       matrix_(n_ * n_),
       solution_(statics.loads, std::vector<double>(n_)) {
   using Operation = core::PoseProgram::Operation;
-  for (std::size_t i = 0; i < registers_.size(); ++i) {
-    const core::PoseProgram::Step& own = statics.program.steps[i];
-    if (own.operation == Operation::constant) registers_[i] = core::to_double(own.value);
-    if (own.operation == Operation::pi) registers_[i] = std::numbers::pi;
+  for (const core::PoseProgram::Step& own : statics.program.steps)
     if (own.operation == Operation::square_root && own.varies) closures_.push_back(own.first);
-  }
   closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
 }
 
 bool PosePoint::run(const std::vector<double>& pose) {
-  using Operation = core::PoseProgram::Operation;
-  for (std::size_t i = 0; i < registers_.size(); ++i) {
-    const core::PoseProgram::Step& own = statics_->program.steps[i];
-    const double x = step(own.first), y = step(own.second);
-    double& result = registers_[i];
-    switch (own.operation) {
-      case Operation::constant:
-      case Operation::pi:
-        break;
-      case Operation::coordinate:
-        result = pose[static_cast<std::size_t>(own.first)];
-        break;
-      case Operation::add:
-        result = x + y;
-        break;
-      case Operation::subtract:
-        result = x - y;
-        break;
-      case Operation::multiply:
-        result = x * y;
-        break;
-      case Operation::square:
-        result = x * x;
-        break;
-      case Operation::inverse:
-        if (x == 0) return false;
-        result = 1 / x;
-        break;
-      case Operation::square_root:
-        if (!(x > 0)) return false;
-        result = std::sqrt(x);
-        break;
-      case Operation::cosine:
-        result = std::cos(x);
-        break;
-      case Operation::sine:
-        result = std::sin(x);
-        break;
-      case Operation::angle:
-        result = std::atan2(x, y);
-        if (!(std::abs(result) < std::numbers::pi)) return false;
-        break;
-    }
-  }
+  if (!values_.run(pose, statics_->sheet.start)) return false;
   return std::all_of(statics_->positive.begin(), statics_->positive.end(), [&](int own) { return step(own) > 0; });
 }
 

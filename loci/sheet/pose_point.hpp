@@ -27,11 +27,11 @@ class PosePoint {
  private:
   bool run(const std::vector<double>& pose);
   bool solve(At& result);
-  double step(int index) const { return registers_[static_cast<std::size_t>(index)]; }
+  double step(int index) const { return values_[index]; }
 
   const core::PoseStatics* statics_;
   std::size_t n_;
-  std::vector<double> registers_;
+  core::PoseValues values_;
   std::vector<int> closures_;  ///< steps whose roots vary with the pose, and limits
   std::vector<double> matrix_;
   std::vector<std::vector<double>> solution_;  ///< load by load

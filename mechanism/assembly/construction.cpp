@@ -89,6 +89,46 @@ Construction::Handle Construction::put_extra(const std::string& name, const Node
   return static_cast<Handle>(known_.size()) - 1;
 }
 
+void Construction::put_together(const std::string& name, const Node& form, const std::string& comment,
+                                const std::vector<PointIndex>& points) {
+  found_.points.push_back({new_name(name), form, comment});
+  for (const PointIndex point : points) {
+    known_.push_back({d_.name(point), std::nullopt, d_.place(point), d_.at(point).has_place});
+    handles_.emplace(point, static_cast<Handle>(known_.size()) - 1);
+  }
+}
+
+double Construction::drawn_value(std::size_t coordinate) const {
+  using Kind = DrawnCoordinate::Kind;
+  const DrawnCoordinate& own = d_.coordinates[coordinate];
+  const auto way = [&](LinkIndex link) -> std::array<double, 3> {
+    if (link == ground) return {1, 0, 0};
+    const auto &p = d_.place(d_.link(link).points.at(0)), &q = d_.place(d_.link(link).points.at(1));
+    return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  };
+  if (own.kind == Kind::place) return d_.place(own.point)[own.axis];
+  if (own.kind == Kind::direction) {
+    const auto a = way(own.other), b = way(own.link);
+    return std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+  }
+  if (own.kind == Kind::stroke) {
+    const Joint& joint = d_.joint(own.joint);
+    const bool to_holds = joint.to != ground && is_on_link(d_.mechanism, joint.at, joint.to);
+    const LinkIndex base = to_holds ? joint.from : joint.to;
+    const auto axis = drawn_axis(own.joint);
+    const auto& at = d_.place(joint.at);
+    const std::array<double, 3> from =
+        base == ground ? std::array<double, 3>{} : d_.place(d_.link(base).points.front());
+    double along = 0, square = 0;
+    for (std::size_t i = 0; axis && i < 3; ++i) {
+      along += (at[i] - from[i]) * (*axis)[i].value();
+      square += (*axis)[i].value() * (*axis)[i].value();
+    }
+    return square > 0 ? along / std::sqrt(square) : 0;
+  }
+  return d_.pose.at(coordinate);
+}
+
 Node Construction::list(const std::vector<std::string>& texts) const {
   std::vector<Node> items;
   for (const std::string& own : texts) items.push_back(text(own));

@@ -51,6 +51,11 @@ class Construction {
   /// A point that the drawing has not: the foot of a way, a direction. `name` is changed where it is taken.
   Handle put_extra(const std::string& name, const Node& form, const std::array<double, 3>& posture,
                    const std::string& comment, std::optional<WrittenVector> place = {});
+  /// Points that close together: they have one form.
+  void put_together(const std::string& name, const Node& form, const std::string& comment,
+                    const std::vector<PointIndex>& points);
+  /// Of a coordinate in the drawn posture, m or rad.
+  double drawn_value(std::size_t coordinate) const;
   /// The form of a point at a way from another one.
   Node form_at(Handle base, const WrittenVector& by, std::optional<WrittenVector>& place) const;
 

@@ -12,7 +12,7 @@ FoundConstruction PartByPart::run() {
   while (!is_complete()) {
     while (turn_one()) {
     }
-    if (!place_one()) refuse_rest(d_, open_links());
+    if (!place_one() && !put_group()) refuse_rest(d_, open_links());
   }
   while (turn_one()) {
   }

@@ -7,28 +7,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism/assembly/planar_turning.hpp"
+#include "mechanism/assembly/planar_groups.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
-/// Where a link lets a point be.
-struct Locus {
-  bool is_circle = false;
-  std::function<int()> base;  ///< the centre, or a point of the line
-  Amount radius;
-  std::string radius_text;  ///< of a motor's stroke; else empty
-  std::string along;        ///< direction of a line
-  std::array<double, 2> way{};
-  LinkIndex link = ground;  ///< that it is of, if any
-  std::string source;       ///< the link, guide or coordinate that it is of, for words and to tell two of them apart
-};
-
-class PlanarConstruction : public PlanarTurning {
+class PlanarConstruction : public PlanarGroups {
  public:
-  using PlanarTurning::PlanarTurning;
+  using PlanarGroups::PlanarGroups;
 
  private:
   bool put_on_link(PointIndex point) override {
@@ -53,130 +41,6 @@ class PlanarConstruction : public PlanarTurning {
       return true;
     }
     return false;
-  }
-
-  // --- circles and lines
-
-  std::vector<Locus> loci(PointIndex point, int depth = 0) {
-    std::vector<Locus> all;
-    for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l) {
-      const auto link = static_cast<LinkIndex>(l);
-      if (!has_point(link, point)) continue;
-      add_circle(link, point, all);
-      if (orientation(link) != nullptr && known_points(link).empty()) {
-        add_lines(link, point, all);
-        if (depth == 0) add_translated(link, point, all);
-      }
-    }
-    for (const Stroke& own : strokes_at(point)) add_leg(own, point, all);
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      if (const DrawnCoordinate* own = place_coordinate(point, axis)) add_coordinate_line(point, axis, *own, all);
-    return all;
-  }
-
-  void add_circle(LinkIndex link, PointIndex point, std::vector<Locus>& all) {
-    if (orientation(link) != nullptr) return;
-    const std::vector<PointIndex> bases = known_points(link);
-    if (bases.size() != 1 || !is_apart(bases[0], point)) return;
-    Locus own;
-    own.is_circle = true;
-    own.base = [this, base = bases[0]] { return handle(base); };
-    own.radius = shape(link).distance(bases[0], point);
-    own.link = link;
-    own.source = d_.link(link).name;
-    all.push_back(std::move(own));
-  }
-
-  /// A leg whose motor says how long it is.
-  void add_leg(const Stroke& own, PointIndex point, std::vector<Locus>& all) {
-    if (!own.origin || is_turned(own.base)) return;
-    const Amounts way = d_.at(point).at - d_.at(*own.origin).at;
-    if (std::abs(cross(own.axis, way)[2].value()) > 1e-12 * size_of(own.axis) * size_of(way)) return;
-    Locus locus;
-    locus.is_circle = true;
-    locus.base = [this, origin = *own.origin] { return handle(origin); };
-    locus.radius_text = own.coordinate->name;
-    locus.source = d_.joint(own.joint).name;
-    all.push_back(std::move(locus));
-  }
-
-  void add_coordinate_line(PointIndex point, std::size_t axis, const DrawnCoordinate& own, std::vector<Locus>& all) {
-    Locus line;
-    line.along = axis == 0 ? "[0, 1]" : "[1, 0]";
-    line.way = axis == 0 ? std::array<double, 2>{0, 1} : std::array<double, 2>{1, 0};
-    line.source = own.name;
-    line.base = [this, point, axis, name = own.name] {
-      WrittenVector place;
-      place.components[axis].push_back({one_, name});
-      std::array<double, 3> posture{};
-      posture[axis] = d_.place(point)[axis];
-      return put_extra(d_.name(point) + "_" + name, explicit_form(place), posture, "", place);
-    };
-    all.push_back(std::move(line));
-  }
-
-  /// Lines along the guides of a link that turns as a known one does.
-  void add_lines(LinkIndex link, PointIndex point, std::vector<Locus>& all) {
-    for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) {
-      const Joint& joint = d_.mechanism.joints[j];
-      if (!slides(joint, link)) continue;
-      const LinkIndex guide = other_of(joint, link);
-      const auto axis = drawn_axis(static_cast<JointIndex>(j));
-      // The joint's own point stays on the guide where lengths are given that beat the drawing.
-      const PointIndex on_guide = !shape(link).is_drawn() && shape(link).has(joint.at) ? joint.at : point;
-      if (!is_placed(guide) || !axis || !d_.at(on_guide).is_exact) continue;
-      Locus line;
-      line.way = turned_in_posture(guide, *axis);
-      line.link = link;
-      line.source = "guide " + joint.name;
-      line.along = axis_text(static_cast<JointIndex>(j), guide, *axis);
-      line.base = [this, link, guide, point, on_guide, axis = *axis, name = joint.name] {
-        const Handle base = base_of_line(guide, on_guide, axis, name);
-        return on_guide == point ? base : carried_along(link, base, on_guide, point);
-      };
-      all.push_back(std::move(line));
-    }
-  }
-
-  std::array<double, 2> turned_in_posture(LinkIndex guide, const Amounts& axis) const {
-    const std::array<double, 2> drawn = {axis[0].value(), axis[1].value()};
-    const std::vector<PointIndex> points = guide == ground ? std::vector<PointIndex>{} : known_points(guide);
-    if (points.size() < 2 || !d_.at(points[0]).is_exact || !d_.at(points[1]).is_exact) return drawn;
-    // Lengths that are given may have turned it from where it is drawn.
-    const Amounts was = d_.at(points[1]).at - d_.at(points[0]).at;
-    const auto &p = d_.place(points[0]), &q = d_.place(points[1]);
-    const double x = was[0].value(), y = was[1].value(), u = q[0] - p[0], v = q[1] - p[1];
-    const double size = std::hypot(x, y) * std::hypot(u, v);
-    const double c = (x * u + y * v) / size, s = (x * v - y * u) / size;
-    return {c * drawn[0] - s * drawn[1], s * drawn[0] + c * drawn[1]};
-  }
-
-  std::string axis_text(JointIndex joint, LinkIndex guide, const Amounts& axis) {
-    if (guide == ground && !d_.axes[static_cast<std::size_t>(joint)].empty()) return written_axis(joint);
-    return text_of(image(guide, axis), 2);
-  }
-
-  /// What keeps a point of a link that does not turn on its own, for another one.
-  Handle carried_along(LinkIndex link, Handle from, PointIndex other, PointIndex point) {
-    const WrittenVector by = image_of_shape(link, shape(link).way(other, point));
-    std::optional<WrittenVector> place;
-    const Node form = form_at(from, by, place);
-    std::array<double, 3> posture = known(from).posture;
-    for (std::size_t i = 0; i < 2; ++i) posture[i] += d_.place(point)[i] - d_.place(other)[i];
-    return put_extra(known(from).name + "_" + d_.name(point), form, posture, "carried along by " + d_.link(link).name,
-                     std::move(place));
-  }
-
-  /// A link that does not turn on its own carries what keeps its other points over to this one.
-  void add_translated(LinkIndex link, PointIndex point, std::vector<Locus>& all) {
-    for (const PointIndex other : d_.link(link).points) {
-      if (other == point || is_known(other) || !shape(link).has(other) || d_.at(other).built) continue;
-      for (Locus& own : loci(other, 1)) {
-        if (own.link == link) continue;
-        own.base = [this, link, base = own.base, point, other] { return carried_along(link, base(), other, point); };
-        all.push_back(std::move(own));
-      }
-    }
   }
 
   /// A joint at the point goes from one of its links to the other, and so does the dyad; else they go as in the file.
@@ -226,14 +90,6 @@ class PlanarConstruction : public PlanarTurning {
              {"side", text(turn > 0 ? "left" : "right")}}),
         comment);
     return true;
-  }
-
-  static std::string radius_of(const Locus& circle) {
-    return circle.radius_text.empty() ? circle.radius.text() : circle.radius_text;
-  }
-
-  Node line(Handle base, const Locus& own) const {
-    return Node::sequence({text(known(base).name), vector_node(own.along)}, {});
   }
 
   void put_slider(PointIndex point, const Locus& guide, const Locus& circle, const std::string& comment) {

@@ -199,7 +199,7 @@ class DrawingReader {
   /// Where constructions put their points, the others being drawn.
   void place_built() {
     const Mechanism& m = result_.mechanism;
-    const std::vector<double> pose = pose_of_drawing(result_, *coordinates_);
+    const std::vector<double> pose = result_.pose = pose_of_drawing(result_, *coordinates_);
     const auto placed = sample_points(m, pose);
     for (std::size_t p = 0; p < result_.points.size(); ++p) {
       if (!placed[p] && result_.points[p].has_place)

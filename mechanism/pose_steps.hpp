@@ -1,14 +1,15 @@
 // A mechanism's points and vectors as steps of a program over the pose (core/pose_program.hpp), in one working mode.
-// Private to symbolic/.
+// Groups are blocks of it.
 #pragma once
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/pose_program.hpp"
 #include "mechanism/placement.hpp"
 
-namespace clearloci::symbolic {
+namespace clearloci::mechanism {
 
 /// Expressions of a mechanism file as steps: an algebra of core/interpret.hpp and of mechanism/placement.hpp.
 class PoseSteps {
@@ -16,7 +17,7 @@ class PoseSteps {
   using Value = int;
 
   /// The mechanism must outlive this.
-  explicit PoseSteps(const mechanism::Mechanism& mechanism);
+  explicit PoseSteps(const Mechanism& mechanism);
 
   core::PoseProgramBuilder& builder() { return builder_; }
 
@@ -36,15 +37,21 @@ class PoseSteps {
   int cos(int a, const core::Expression& whole) { return exact(whole, builder_.cosine(a)); }
   int sin(int a, const core::Expression& whole) { return exact(whole, builder_.sine(a)); }
   int atan(int a, const core::Expression&) { return builder_.angle(a, builder_.one()); }
+  int unknown(std::size_t group, std::size_t k) { return builder_.unknown(group, k); }
+  void close(std::size_t group, const std::vector<int>& equations);
 
  private:
   int exact(const core::Expression& expression, int step);
 
-  const mechanism::Mechanism& m_;
+  const Mechanism& m_;
   core::PoseProgramBuilder builder_;
   std::map<std::string, int> symbols_;
 };
 
-using PosePoints = mechanism::Placement<PoseSteps>;
+/// The steps of a program that results need, with the pose of the groups' postures.
+core::PoseProgram program_of(const Mechanism& mechanism, const core::PoseProgramBuilder& builder,
+                             const std::vector<int*>& results);
 
-}  // namespace clearloci::symbolic
+using PosePoints = Placement<PoseSteps>;
+
+}  // namespace clearloci::mechanism

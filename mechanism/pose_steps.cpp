@@ -1,16 +1,16 @@
-#include "symbolic/pose_program.hpp"
+#include "mechanism/pose_steps.hpp"
 
 #include <algorithm>
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 
-namespace clearloci::symbolic {
+namespace clearloci::mechanism {
 
 using core::Expression;
 using core::Rational;
 
-PoseSteps::PoseSteps(const mechanism::Mechanism& mechanism) : m_(mechanism) {
+PoseSteps::PoseSteps(const Mechanism& mechanism) : m_(mechanism) {
   for (std::size_t c = 0; c < m_.coordinates.size(); ++c)
     symbols_[m_.coordinates[c].name] = builder_.coordinate(static_cast<int>(c));
 }
@@ -18,7 +18,7 @@ PoseSteps::PoseSteps(const mechanism::Mechanism& mechanism) : m_(mechanism) {
 int PoseSteps::symbol(const std::string& name) {
   if (const auto known = symbols_.find(name); known != symbols_.end()) return known->second;
   const auto own = std::find_if(m_.parameters.begin(), m_.parameters.end(),
-                                [&](const mechanism::Parameter& p) { return p.name == name; });
+                                [&](const Parameter& p) { return p.name == name; });
   core::ensure(own != m_.parameters.end(), "a symbol is a coordinate or a parameter");
   // A parameter whose value is rational is that number, whatever roots it was written with.
   const int step = own->exact ? builder_.constant(own->value) : core::interpret(own->expression, *this);
@@ -29,12 +29,12 @@ int PoseSteps::symbol(const std::string& name) {
 /// The step, or the rational number that it is: cos(90 deg) is 0.
 int PoseSteps::exact(const Expression& e, int step) {
   if (builder_.is_number(step) || builder_.varies(step)) return step;
-  const mechanism::ExactValue own = mechanism::evaluate(e, m_.parameters);
+  const ExactValue own = evaluate(e, m_.parameters);
   return own.exact ? builder_.constant(own.value) : step;
 }
 
 int PoseSteps::power(int base, const Expression& whole_power) {
-  const Rational own = mechanism::value_of(whole_power.arguments()[1], m_), twice = 2 * own;
+  const Rational own = value_of(whole_power.arguments()[1], m_), twice = 2 * own;
   core::ensure(twice.get_den() == 1, "exponents are whole or half of one");
   const bool whole = own.get_den() == 1;
   const Rational counted = abs(whole ? own : twice);
@@ -43,4 +43,19 @@ int PoseSteps::power(int base, const Expression& whole_power) {
   return own < 0 ? builder_.inverse(raised) : raised;
 }
 
-}  // namespace clearloci::symbolic
+void PoseSteps::close(std::size_t group, const std::vector<int>& equations) {
+  builder_.close(group, equations);
+  core::PoseProgram::Block& block = builder_.block(group);
+  block.name = m_.groups[group].name;
+  for (const std::array<Rational, 3>& place : m_.groups[group].near)
+    for (std::size_t i = 0; i < dimension(m_); ++i) block.near.push_back(core::to_double(place[i]));
+}
+
+core::PoseProgram program_of(const Mechanism& mechanism, const core::PoseProgramBuilder& builder,
+                             const std::vector<int*>& results) {
+  core::PoseProgram program = builder.program(results);
+  for (const Rational& own : mechanism.near) program.near.push_back(core::to_double(own));
+  return program;
+}
+
+}  // namespace clearloci::mechanism

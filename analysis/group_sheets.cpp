@@ -1,0 +1,44 @@
+#include "analysis/group_sheets.hpp"
+
+#include <cstdio>
+
+#include "core/errors.hpp"
+
+namespace clearloci {
+namespace {
+
+std::string names_of(const mechanism::Mechanism& mechanism) {
+  std::string names;
+  for (const mechanism::Group& own : mechanism.groups) names += (names.empty() ? "" : ", ") + own.name;
+  return (mechanism.groups.size() > 1 ? "groups " : "group ") + names;
+}
+
+}  // namespace
+
+std::optional<loci::pose::CoveredBox> cover_groups(
+    const mechanism::Mechanism& mechanism, const std::vector<double>& lower, const std::vector<double>& upper,
+    const std::optional<std::chrono::steady_clock::time_point>& deadline, core::PoseStatics& statics,
+    std::vector<std::string>& notes) {
+  if (mechanism.groups.empty()) return std::nullopt;
+  loci::pose::CoveredBox found = loci::pose::cover_box(statics.program, lower, upper, {.deadline = deadline});
+  const std::string names = names_of(mechanism);
+  if (!found.starts)
+    throw core::InputError({mechanism.file, mechanism.groups.front().where.line, mechanism.groups.front().where.column},
+                           "no straight way leads from the posture of " + names +
+                               " into the box without a dead centre, in this working mode",
+                           "give a posture at a pose of the box, with the sides of the working mode");
+  statics.sheet = found.sheet;
+  if (found.differs)
+    notes.push_back("two layers of " + names + " meet in the box: nothing is proven where they do");
+  if (found.out_of_effort)
+    notes.push_back("the sheet of " + names + " is not followed to its end: what lies beyond is in doubt");
+  if (!found.complete && !found.out_of_effort && lower.size() > 1) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1g", found.finest);
+    notes.push_back("the sheet of " + names + " ends in the box, at dead centres; what it reaches through passages " +
+                    "narrower than " + text + " of the box is not told");
+  }
+  return found;
+}
+
+}  // namespace clearloci

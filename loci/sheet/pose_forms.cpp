@@ -1,0 +1,234 @@
+#include "loci/sheet/pose_forms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "loci/numbers/numbers.hpp"
+
+namespace clearloci::loci::pose {
+namespace {
+
+using Operation = core::PoseProgram::Operation;
+
+/// pi to half a unit in the last place.
+template <class Form>
+Form enclosed_pi() {
+  Form own(3.14159265358979312);
+  own.r = 0x1p-52;
+  return own;
+}
+
+template <class Form>
+bool is_finite(const Form& x) {
+  return std::isfinite(x.c) && std::isfinite(x.radius());
+}
+
+/// Of the numbers of x that are not negative.
+template <class Form>
+Form any_root_up_to(const Form& x) {
+  const double half = 0.5 * std::sqrt(std::max(0.0, x.upper())) * (1 + 0x1p-50);
+  Form own(half);
+  own.r = half * (1 + 0x1p-50) + Form::slack(half);
+  return own;
+}
+
+}  // namespace
+
+template <class Form>
+PoseForms<Form>::PoseForms(const core::PoseProgram& program)
+    : program_(&program), registers_(program.steps.size()), varies_(program.steps.size()) {
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    const core::PoseProgram::Step& own = program.steps[i];
+    if (own.operation == Operation::constant) registers_[i] = nearest<Form>(own.value);
+    if (own.operation == Operation::pi) registers_[i] = enclosed_pi<Form>();
+    varies_[i] = own.varies ? 1 : 0;
+  }
+}
+
+template <class Form>
+typename PoseForms<Form>::Outcome PoseForms<Form>::run(const PoseChart& chart, const PoseBox& box,
+                                                       std::span<const double> starts, std::vector<Form>* boundaries) {
+  int done = 0;
+  std::size_t first = 0;
+  unique_.clear();
+  for (const core::PoseProgram::Block& block : program_->blocks) {
+    // Of a root that may be zero no block closes with a proof.
+    if (const Outcome own = run_steps(done, block.begin, chart, box, nullptr); own != Outcome::complete) return own;
+    if (const Outcome own = close(block, chart, box, starts.subspan(first, block.unknowns.size()));
+        own != Outcome::complete)
+      return own;
+    done = block.begin;
+    first += block.unknowns.size();
+  }
+  return run_steps(done, static_cast<int>(registers_.size()), chart, box, boundaries);
+}
+
+template <class Form>
+typename PoseForms<Form>::Outcome PoseForms<Form>::run_steps(int from, int to, const PoseChart& chart,
+                                                             const PoseBox& box, std::vector<Form>* boundaries) {
+  const auto in_doubt = [&](const Form& form) {
+    doubt_ = form;
+    return Outcome::in_doubt;
+  };
+  for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+    const core::PoseProgram::Step& own = program_->steps[i];
+    const Form& x = registers_[static_cast<std::size_t>(own.first)];
+    const Form& y = registers_[static_cast<std::size_t>(own.second)];
+    switch (own.operation) {
+      case Operation::constant:
+      case Operation::pi:
+      case Operation::unknown:
+        break;
+      case Operation::coordinate: {
+        const auto q = static_cast<std::size_t>(own.first);
+        SumOf<Form> sum;
+        sum.add(1, Form(chart.base[q]));
+        for (std::size_t p = 0; p < box.size(); ++p) {
+          if (chart.ways[p][q] == 0) continue;
+          const auto& [low, high] = box[p];
+          Form parameter(low + 0.5 * (high - low));
+          parameter.a[p] = std::max(high - parameter.c, parameter.c - low);
+          if (parameter.a[p] > 0) parameter.r = Form::slack(std::abs(high) + std::abs(low));
+          sum.add(chart.ways[p][q], parameter);
+        }
+        registers_[i] = sum.result();
+        break;
+      }
+      case Operation::add:
+        registers_[i] = x + y;
+        break;
+      case Operation::subtract:
+        registers_[i] = x - y;
+        break;
+      case Operation::multiply:
+        registers_[i] = x * y;
+        break;
+      case Operation::square:
+        registers_[i] = squared(x);
+        break;
+      case Operation::inverse:
+        if (x.contains_zero()) return in_doubt(x);
+        registers_[i] = inverse(x);
+        break;
+      case Operation::square_root:
+        if (x.upper() < 0) return Outcome::outside;
+        if (x.lower() > 0) {
+          registers_[i] = square_root(x);
+          break;
+        }
+        if (boundaries == nullptr || !is_finite(x)) return in_doubt(x);
+        boundaries->push_back(x);
+        registers_[i] = any_root_up_to(x);
+        break;
+      case Operation::cosine:
+        registers_[i] = cosine(x);
+        break;
+      case Operation::sine:
+        registers_[i] = sine(x);
+        break;
+      case Operation::angle: {
+        constexpr double half_turn = 3.14159265358979312;  // just below: there the angle is cut
+        const std::optional<Form> angle = angle_of(x, y);
+        if (!angle || !(angle->lower() > -half_turn && angle->upper() < half_turn)) return in_doubt(angle ? *angle : y);
+        registers_[i] = *angle;
+        break;
+      }
+    }
+  }
+  return Outcome::complete;
+}
+
+/// With the unknowns enclosed by u_0 + D in the registers: whether the operator stays inside D. `rest`: what of it is
+/// beside -Y g.
+template <class Form>
+bool PoseForms<Form>::contracts(const core::PoseProgram::Block& block, const std::vector<double>& inverse,
+                                const std::vector<Form>& moved, const std::vector<double>& radius,
+                                std::vector<double>& rest) {
+  const std::size_t n = radius.size();
+  std::array<double, Form::noises> spreads{};
+  bool inside = true;
+  for (std::size_t i = 0; i < n; ++i) {
+    double beside = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      SumOf<Form> sum;
+      if (i == k) sum.add(1, Form(1.0));
+      for (std::size_t j = 0; j < n; ++j)
+        if (const Form& entry = (*this)[block.jacobian[j * n + k]]; entry.c != 0 || entry.radius() > 0)
+          sum.add(-inverse[i * n + j], entry);
+      const Form e = sum.result();
+      beside += e.magnitude() * radius[k];
+      for (std::size_t p = 0; p < Form::noises; ++p) spreads[p] += std::abs(e.a[p]);
+    }
+    rest[i] = beside * (1 + static_cast<double>(n + 8) * 0x1p-51);
+    inside = inside && (moved[i].magnitude() + rest[i]) * (1 + 0x1p-50) < radius[i];
+  }
+  doubt_ = Form();
+  doubt_.a = spreads;
+  return inside;
+}
+
+template <class Form>
+typename PoseForms<Form>::Outcome PoseForms<Form>::close(const core::PoseProgram::Block& block, const PoseChart& chart,
+                                                         const PoseBox& box, std::span<const double> start) {
+  constexpr int iterations = 3;     // orders of the cell that u_0 holds
+  constexpr double finest = 1e-11;  // of the unknowns' size: far above what rounding leaves of a solution
+  constexpr std::array<double, 4> widths = {64, 8, 2, 1.25};
+  const std::size_t n = block.unknowns.size();
+  std::vector<Form> middle, moved(n);
+  double size = 0;
+  for (const double own : start) {
+    middle.emplace_back(own);
+    size = std::max(size, std::abs(own));
+  }
+  const auto put = [&](const std::vector<double>* radius) {
+    for (std::size_t k = 0; k < n; ++k) {
+      Form own = middle[k];
+      if (radius != nullptr) own.r += (*radius)[k] + Form::slack(std::abs(own.c));
+      (*this)[block.unknowns[k]] = own;
+    }
+    return run_steps(block.begin, block.end, chart, box, nullptr);
+  };
+  std::vector<double> inverse(n * n);
+  const auto newton = [&](std::size_t i) {
+    SumOf<Form> sum;
+    for (std::size_t j = 0; j < n; ++j) sum.add(inverse[i * n + j], (*this)[block.equations[j]]);
+    return sum.result();
+  };
+  for (int step = 0; step <= iterations; ++step) {
+    if (const Outcome own = put(nullptr); own != Outcome::complete) return Outcome::in_doubt;
+    if (step == 0) {
+      std::vector<double> jacobian;
+      for (const int own : block.jacobian) jacobian.push_back((*this)[own].c);
+      if (!loci::invert(jacobian, inverse, n)) {
+        doubt_ = Form();
+        doubt_.a.fill(1);
+        return Outcome::in_doubt;
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) moved[i] = newton(i);
+    if (step == iterations) break;
+    for (std::size_t i = 0; i < n; ++i) {
+      middle[i] = middle[i] - moved[i];
+      middle[i].r = 0;
+    }
+  }
+  std::vector<double> radius(n), rest(n);
+  for (const double width : widths) {
+    for (std::size_t i = 0; i < n; ++i)
+      radius[i] = std::max(width * moved[i].magnitude(), std::max(width, 4.0) * finest * size);
+    if (put(&radius) != Outcome::complete || !contracts(block, inverse, moved, radius, rest)) continue;
+    for (std::size_t i = 0; i < n; ++i) {
+      unique_.push_back({middle[i], radius[i]});
+      Form own = middle[i] - moved[i];
+      own.r = own.r * (1 + 0x1p-50) + rest[i] * (1 + 0x1p-50);
+      (*this)[block.unknowns[i]] = own;
+    }
+    return Outcome::complete;
+  }
+  return Outcome::in_doubt;
+}
+
+template class PoseForms<Affine>;
+template class PoseForms<FlatAffine>;
+
+}  // namespace clearloci::loci::pose

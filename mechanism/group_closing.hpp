@@ -1,0 +1,47 @@
+// Where the points of groups are at a pose, in floating point: the assembly that is reached from the file's posture
+// (core/pose_values.hpp). No result rests on it: others prove, or improve by means of their own, what it finds.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+class GroupClosing {
+ public:
+  /// `sides`: one a point of dyad_points. The mechanism must outlive this.
+  GroupClosing(const Mechanism& mechanism, const std::vector<int>& sides);
+  GroupClosing(GroupClosing&&) noexcept;
+  GroupClosing& operator=(GroupClosing&&) noexcept;
+  ~GroupClosing();
+
+  /// The coordinates of the groups' points, m, one after another; nothing where the assembly does not reach the pose.
+  std::optional<std::vector<double>> at(std::span<const double> pose);
+
+  /// How the last group's equations are met by its posture, and where Newton's iteration leads from there.
+  struct Posture {
+    std::optional<std::vector<double>> closed;  ///< as at(); nothing where it leads nowhere
+    double moved = 0;                           ///< by how much a coordinate changes at most, m
+    std::vector<double> lengths, wanted;        ///< of its distances, m; empty where it could not be looked at
+    std::vector<std::size_t> dependent;         ///< equations that do not hold its points, at a dead centre
+  };
+  Posture posture();
+
+ private:
+  struct Program;
+  std::unique_ptr<Program> program_;
+};
+
+/// How many unknowns the groups have together.
+std::size_t group_unknowns(const Mechanism& mechanism);
+
+/// Throws core::InputError for a mechanism with groups: what is asked for needs closed forms. `what`: "loci over two
+/// coordinates are traced".
+void require_closed_forms(const Mechanism& mechanism, const std::string& what, const std::string& mend);
+
+}  // namespace clearloci::mechanism

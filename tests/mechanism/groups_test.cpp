@@ -1,0 +1,312 @@
+// Points that close together: what a file may say of them, what is refused, and that they close.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mechanism/group_closing.hpp"
+#include "mechanism/posture_sample.hpp"
+#include "mechanism/read.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+/// Stephenson's third six-bar, driven at the far end of its dyad.
+const std::string six_bar = R"(format: 1
+workspace:
+  phi: {angle: [118 deg, 130 deg]}
+points:
+  A: [0, 0]
+  D: [1, 0]
+  G: [1.6, 0.4]
+  H: [1.6 + 0.7*cos(phi), 0.4 + 0.7*sin(phi)]
+  hip:
+    group: [B, C, E]
+    lengths: {A-B: 0.3, B-C: 0.9, C-D: 0.7, B-E: sqrt(0.52), C-E: 0.5, E-H: 0.8}
+    near: {at: {phi: 123.289 deg}, B: [0.052, 0.295], C: [0.863, 0.686], E: [0.419, 0.916]}
+links:
+  AB:  {points: [A, B]}
+  BCE: {points: [B, C, E]}
+  CD:  {points: [C, D]}
+  EH:  {points: [E, H]}
+  GH:  {points: [G, H]}
+joints:
+  A: {revolute: [ground, AB], at: A, actuated: true, clearance: {radial: 10e-6, angular: 0.5e-3}}
+  B: {revolute: [AB, BCE], at: B}
+  C: {revolute: [BCE, CD], at: C}
+  D: {revolute: [ground, CD], at: D}
+  E: {revolute: [BCE, EH], at: E}
+  H: {revolute: [EH, GH], at: H}
+  G: {revolute: [ground, GH], at: G}
+end_effector: {link: GH, at: H}
+loads:
+  - {link: GH, at: H, force: [0, -100]}
+)";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+double distance(const std::array<double, 3>& p, const std::array<double, 3>& q) {
+  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+PointIndex point(const Mechanism& mechanism, const std::string& name) {
+  for (std::size_t i = 0; i < mechanism.points.size(); ++i)
+    if (mechanism.points[i].name == name) return static_cast<PointIndex>(i);
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+TEST(Groups, CloseAtEveryPoseWithTheLengthsOfTheFile) {
+  const Mechanism mechanism = parse_mechanism(six_bar, "m.yaml");
+  ASSERT_EQ(mechanism.groups.size(), 1U);
+  const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), 32);
+  ASSERT_GE(postures.size(), 30U);
+  for (const SampledPosture& own : postures) {
+    const auto at = [&](const char* name) { return own.points[static_cast<std::size_t>(point(mechanism, name))]; };
+    EXPECT_NEAR(distance(at("A"), at("B")), 0.3, 1e-12);
+    EXPECT_NEAR(distance(at("B"), at("C")), 0.9, 1e-12);
+    EXPECT_NEAR(distance(at("C"), at("D")), 0.7, 1e-12);
+    EXPECT_NEAR(distance(at("B"), at("E")), std::sqrt(0.52), 1e-12);
+    EXPECT_NEAR(distance(at("C"), at("E")), 0.5, 1e-12);
+    EXPECT_NEAR(distance(at("E"), at("H")), 0.8, 1e-12);
+    // It is the assembly of the posture, and not the one that is mirrored.
+    const auto b = at("B"), c = at("C"), e = at("E");
+    EXPECT_GT((c[0] - b[0]) * (e[1] - b[1]) - (c[1] - b[1]) * (e[0] - b[0]), 0);
+  }
+}
+
+TEST(Groups, FollowTheCrankThatDyadsAreBuiltOn) {
+  // The same posture from the other end: B on its crank, C and E on B.
+  const Mechanism mechanism = parse_mechanism(six_bar, "m.yaml");
+  for (const SampledPosture& own : sample_poses(mechanism, working_mode(mechanism), 8)) {
+    const auto at = [&](const char* name) { return own.points[static_cast<std::size_t>(point(mechanism, name))]; };
+    const auto b = at("B"), c = at("C"), e = at("E");
+    const double u = (c[0] - b[0]) / 0.9, v = (c[1] - b[1]) / 0.9;
+    EXPECT_NEAR(e[0], b[0] + 0.6 * u - 0.4 * v, 1e-12);
+    EXPECT_NEAR(e[1], b[1] + 0.6 * v + 0.4 * u, 1e-12);
+  }
+}
+
+TEST(Groups, AreNotReachedBeyondADeadCentre) {
+  const Mechanism mechanism = parse_mechanism(six_bar, "m.yaml");
+  GroupClosing closing(mechanism, working_mode(mechanism));
+  const auto reached = [&](double degrees) {
+    return closing.at(std::vector{degrees * std::acos(-1.0) / 180}).has_value();
+  };
+  EXPECT_TRUE(reached(117));
+  EXPECT_FALSE(reached(116));  // the crank's way turns back between the two
+}
+
+TEST(Groups, PutFurtherPointsOfALinkWithThem) {
+  const std::string text =
+      with(with(six_bar, "group: [B, C, E]", "group: [B, C]\n    with: {E: {on: [B, C], offset: [0.6, 0.4]}}"),
+           "B-E: sqrt(0.52), C-E: 0.5, ", "");
+  const Mechanism one = parse_mechanism(six_bar, "m.yaml"),
+                  other = parse_mechanism(with(text, ", E: [0.419, 0.916]}", "}"), "m.yaml");
+  const auto a = sample_poses(one, {}, 8), b = sample_poses(other, {}, 8);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (const char* name : {"B", "C", "E"})
+      EXPECT_NEAR(distance(a[i].points[static_cast<std::size_t>(point(one, name))],
+                           b[i].points[static_cast<std::size_t>(point(other, name))]),
+                  0, 1e-12);
+}
+
+TEST(Groups, HoldPointsOnLines) {
+  // A slider crank from its slider: the crank's end B and the rod close together.
+  const std::string text = R"(format: 1
+workspace: {x: [0.8, 1.2]}
+points:
+  A: [0, 0]
+  S: [x, 0]
+  crank:
+    group: [B]
+    lengths: {B-S: 1}
+    lines: {B: [A, [1, 2]]}
+    near: {at: {x: 1}, B: [0.4, 0.8]}
+links:
+  AB: {points: [B]}
+  BS: {points: [B, S]}
+  block: {points: [S]}
+joints:
+  G: {prismatic: [ground, AB], at: B, axis: [1, 2], actuated: true}
+  B: {revolute: [AB, BS], at: B}
+  S: {revolute: [BS, block], at: S}
+  H: {prismatic: [ground, block], at: S, axis: [1, 0]}
+end_effector: {link: block, at: S}
+loads: [{link: block, at: S, force: [-10, 0]}]
+)";
+  const Mechanism mechanism = parse_mechanism(text, "m.yaml");
+  for (const SampledPosture& own : sample_poses(mechanism, {}, 8)) {
+    const auto& b = own.points[static_cast<std::size_t>(point(mechanism, "B"))];
+    EXPECT_NEAR(b[1], 2 * b[0], 1e-12);
+    EXPECT_NEAR(distance(b, {own.pose[0], 0, 0}), 1, 1e-12);
+  }
+}
+
+struct Mistake {
+  const char *from, *to;
+  int line;
+  const char* says;
+};
+
+class GroupMistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(GroupMistakes, AreToldInOneLine) {
+  const Mistake& mistake = GetParam();
+  try {
+    parse_mechanism(with(six_bar, mistake.from, mistake.to), "m.yaml");
+    FAIL() << "accepted";
+  } catch (const core::InputError& error) {
+    const std::string text = error.what();
+    EXPECT_EQ(error.position().line, mistake.line) << text;
+    EXPECT_NE(text.find(mistake.says), std::string::npos) << text;
+    EXPECT_FALSE(error.mend().empty());
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, GroupMistakes,
+    testing::Values(Mistake{"A-B: 0.3, ", "", 9, "has 5 lengths for its points B, C, E, and 6 hold them, two for each"},
+                    Mistake{"A-B: 0.3,", "A-B: 0.3, A-E: 0.9,", 9, "has 7 lengths"},
+                    Mistake{"A-B: 0.3", "Q-B: 0.3", 11, "there is no point 'Q'"},
+                    Mistake{"A-B: 0.3", "A-D: 0.3", 11, "the length A-D holds no point of group hip"},
+                    Mistake{"A-B: 0.3", "B-C: 0.3", 11, "B-C"},
+                    Mistake{"A-B: 0.3", "AB: 0.3", 11, "names no two points"},
+                    Mistake{"A-B: 0.3", "A-B: -0.3", 11, "negative"},
+                    Mistake{"group: [B, C, E]", "group: [B, C, D]", 10, "already placed"},
+                    Mistake{"group: [B, C, E]", "group: []", 10, "has no points"},
+                    Mistake{"B: [0.052, 0.295], ", "", 12, "'B' is missing"},
+                    Mistake{"at: {phi: 123.289 deg}, ", "", 12, "'at' is missing"},
+                    Mistake{"E-H: 0.8", "E-H: 8", 12, "does not close: E-H is 0.80"},
+                    Mistake{"B: [0.052, 0.295]", "B: [0.5, -0.7]", 12, "does not close"},
+                    Mistake{"E-H: 0.8", "A-E: 0.9", 12, "group hip"}));
+
+TEST(Groups, NameTheLengthThatIsWorstAndByHowMuch) {
+  try {
+    parse_mechanism(with(six_bar, "E-H: 0.8", "E-H: 8"), "m.yaml");
+    FAIL() << "accepted";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("has to be 8 m, off by 7.2"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Groups, SayHowFarAPostureIsOff) {
+  const Mechanism mechanism = parse_mechanism(with(six_bar, "B: [0.052, 0.295]", "B: [0.06, 0.29]"), "m.yaml");
+  ASSERT_FALSE(mechanism.notes.empty());
+  EXPECT_NE(mechanism.notes.front().find("the posture of group hip is off by up to 0.0"), std::string::npos)
+      << mechanism.notes.front();
+}
+
+/// The same six-bar as it is drawn, with the coordinate at its far end.
+const std::string drawn = R"(format: 1
+drawn:
+  A: [0, 0]
+  D: [1, 0]
+  G: [1.6, 0.4]
+  H: [1.2158, 0.9851]
+  B: [0.0521, 0.2954]
+  C: [0.8627, 0.6864]
+  E: [0.4188, 0.9164]
+workspace:
+  phi: {angle: [118 deg, 130 deg], of: GH}
+links:
+  AB:  {points: [A, B], length: 0.3}
+  BCE: {points: [B, C, E], lengths: {B-C: 0.9, B-E: sqrt(0.52), C-E: 0.5}}
+  CD:  {points: [C, D], length: 0.7}
+  EH:  {points: [E, H], length: 0.8}
+  GH:  {points: [G, H], length: 0.7}
+joints:
+  A: {revolute: [ground, AB], at: A, actuated: true}
+  B: {revolute: [AB, BCE], at: B}
+  C: {revolute: [BCE, CD], at: C}
+  D: {revolute: [ground, CD], at: D}
+  E: {revolute: [BCE, EH], at: E}
+  H: {revolute: [EH, GH], at: H}
+  G: {revolute: [ground, GH], at: G}
+end_effector: {link: GH, at: H}
+loads:
+  - {link: GH, at: H, force: [0, -100]}
+)";
+
+TEST(Groups, AreFoundInADrawing) {
+  const Mechanism written = parse_mechanism(six_bar, "m.yaml"), found = parse_mechanism(drawn, "m.yaml");
+  ASSERT_EQ(found.groups.size(), 1U);
+  for (const std::vector<double>& pose : spread_poses(written, 8)) {
+    const auto a = sample_points(written, pose), b = sample_points(found, pose);
+    for (const char* name : {"B", "C", "E", "H"}) {
+      const auto &p = a[static_cast<std::size_t>(point(written, name))],
+                 &q = b[static_cast<std::size_t>(point(found, name))];
+      ASSERT_TRUE(p && q);
+      EXPECT_NEAR(distance(*p, *q), 0, 1e-11) << name;
+    }
+  }
+}
+
+TEST(Groups, OfADrawingAreWrittenAsAFileThatReadsTheSame) {
+  const WrittenMechanism text = constructed_text(drawn, "m.yaml");
+  const Mechanism found = parse_mechanism(drawn, "m.yaml"), again = parse_mechanism(text.text, "m.yaml");
+  ASSERT_EQ(again.groups.size(), 1U) << text.text;
+  for (const std::vector<double>& pose : spread_poses(found, 4))
+    EXPECT_EQ(sample_points(found, pose), sample_points(again, pose));
+}
+
+TEST(Groups, OfADrawnDoubleButterflyAreAllItsMovingPoints) {
+  // Four ternary links, the ground and the crank among them: nothing can be placed before anything else.
+  const std::string text = R"(format: 1
+drawn:
+  O1: [0, 0]
+  O2: [-2.5, 0]
+  O3: [4, 0]
+  A: [-0.5, 1]
+  B: [1.2, 0.8]
+  C: [-0.5, 2.5]
+  D: [-2.5, 2]
+  E: [0.5, 3.5]
+  F: [2, 2.2]
+  H: [3.5, 2.5]
+workspace:
+  t: {angle: [110 deg, 120 deg], of: crank}
+links:
+  crank: {points: [O1, A, B]}
+  left:  {points: [C, D, E]}
+  right: {points: [E, F, H]}
+  up:    {points: [A, C]}
+  across: {points: [B, F]}
+  one:   {points: [O2, D]}
+  other: {points: [O3, H]}
+joints:
+  J1: {revolute: [ground, crank], at: O1, actuated: true}
+  J2: {revolute: [crank, up], at: A}
+  J3: {revolute: [crank, across], at: B}
+  J4: {revolute: [up, left], at: C}
+  J5: {revolute: [across, right], at: F}
+  J6: {revolute: [left, right], at: E}
+  J7: {revolute: [left, one], at: D}
+  J8: {revolute: [ground, one], at: O2}
+  J9: {revolute: [right, other], at: H}
+  J10: {revolute: [ground, other], at: O3}
+end_effector: {link: left, at: E}
+loads: [{link: left, at: E, force: [0, -10]}]
+)";
+  const Mechanism mechanism = parse_mechanism(text, "m.yaml");
+  ASSERT_EQ(mechanism.groups.size(), 1U);
+  EXPECT_EQ(mechanism.groups.front().last - mechanism.groups.front().first, 4);  // C, D, E, F, H
+  const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), 4);
+  ASSERT_FALSE(postures.empty());
+  for (const SampledPosture& own : postures) {
+    const auto at = [&](const char* name) { return own.points[static_cast<std::size_t>(point(mechanism, name))]; };
+    EXPECT_NEAR(distance(at("A"), at("C")), 1.5, 1e-9);
+    EXPECT_NEAR(distance(at("D"), at("E")), std::hypot(3, 1.5), 1e-9);
+    EXPECT_NEAR(distance(at("E"), at("H")), std::hypot(3, 1), 1e-9);
+    EXPECT_NEAR(distance(at("B"), at("F")), std::hypot(0.8, 1.4), 1e-9);
+    EXPECT_NEAR(distance(at("O3"), at("H")), std::hypot(0.5, 2.5), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism
