@@ -1,10 +1,10 @@
 // The mechanism file as text whose values change in place: comments, order and spelling of all else stay as they are.
-import { isMap, isScalar, isSeq, parseDocument, type Document, type Node } from "yaml";
+import { isMap, isScalar, isSeq, type Document, type Node } from "yaml";
 import { parseExact, toNumber } from "./exact";
+import { isPlain, parseFile, type ValuePath } from "./file_text";
 import { unitsOf, type Units } from "./units";
 
-/** Where a value stands in the file. */
-export type ValuePath = (string | number)[];
+export type { ValuePath } from "./file_text";
 
 export interface Adjustable {
   /** "parameters/L", "points/A1/0": the path as a name. */
@@ -23,8 +23,7 @@ export class ModelText {
   private readonly document: Document.Parsed;
 
   constructor(readonly text: string) {
-    // "failsafe": every scalar is a text, as the program reads it; `y` is no truth value.
-    this.document = parseDocument(text, { schema: "failsafe", keepSourceTokens: false });
+    this.document = parseFile(text);
   }
 
   private node(path: ValuePath): Node | undefined {
@@ -49,8 +48,7 @@ export class ModelText {
     if (!isScalar(node) || !node.range || node.value === value) return this;
     const [from, to] = node.range;
     // What is no expression is quoted, so that it stays one value: the program then says what is wrong with it.
-    const plain = /^[\w.+\-*/^() ]+$/.test(value) && node.type !== "QUOTE_SINGLE";
-    const written = plain ? value : node.type === "QUOTE_SINGLE" ? `'${value.replace(/'/g, "''")}'` : JSON.stringify(value);
+    const written = isPlain(value) && node.type !== "QUOTE_SINGLE" ? value : node.type === "QUOTE_SINGLE" ? `'${value.replace(/'/g, "''")}'` : JSON.stringify(value);
     return new ModelText(this.text.slice(0, from) + written + this.text.slice(to));
   }
 
