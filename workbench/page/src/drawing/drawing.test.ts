@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 import type { Point } from "../data/answers";
 import { ModelText } from "../data/model_text";
 import { setRangeEnd } from "./coordinates";
-import { drawingOf, drawnPose, placeOf, type Drawing } from "./drawing";
+import { drawingOf, drawnPose, placeOf, type Drawing, type DrawnCoordinate } from "./drawing";
 import { movePoint, newFile } from "./edit";
 import { elementOf, isThere, pathOf, type Element } from "./element";
 import { fieldsOf, switchesOf } from "./fields";
@@ -67,13 +67,13 @@ links:
   AC: {points: [A, C]}
   CD: {points: [C, D]}
   DE: {points: [D, E]}
-  EB: {points: [E, B]}
+  BE: {points: [B, E]}
 joints:
   A: {revolute: [ground, AC], at: A, actuated: true}
   C: {revolute: [AC, CD], at: C}
   D: {revolute: [CD, DE], at: D}
-  E: {revolute: [DE, EB], at: E}
-  B: {revolute: [ground, EB], at: B, actuated: true}
+  E: {revolute: [DE, BE], at: E}
+  B: {revolute: [ground, BE], at: B, actuated: true}
 end_effector: {link: DE, at: D}
 loads:
   - {link: DE, at: D, force: [0, -100]}
@@ -108,9 +108,9 @@ loads:
   it("has plates, pins on links, springs, masses and free coordinates", () => {
     const sheet = fiveBar().use("plate", [25, 450], [100, 650]).use("pin", [600, 150]).use("spring", [-200, 300], [700, 300]).use("mass", [25, 450]).use("free", [25, 450]);
     expect(sheet.lines).toEqual(expect.arrayContaining(["  CD: {points: [C, D, F], mass: 1}", "gravity: [0, -9.81]", "  - {links: [AC, DE], at: [C, E], stiffness: 1000}", "  theta: {angle: [0 deg, 360 deg], of: CD}"]));
-    expect(sheet.drawing.links.find((one) => one.name === "EB")?.points).toEqual(["E", "B", "G"]);
+    expect(sheet.drawing.links.find((one) => one.name === "BE")?.points).toEqual(["B", "E", "G"]);
     sheet.use("link", [600, 150], [600, 400]);
-    expect(sheet.lines).toContain("  G: {revolute: [EB, GH], at: G}");
+    expect(sheet.lines).toContain("  G: {revolute: [BE, GH], at: G}");
     sheet.use("free", [25, 450]).use("free", [250, 600]);
     expect(sheet.drawing.coordinates.map((one) => [one.name, one.kind, one.of])).toEqual([["x", "place", "D"], ["y", "place", "D"]]);
   });
@@ -139,7 +139,7 @@ describe("what is drawn", () => {
   });
   it("keeps a range's ends in their order, and within a turn", () => {
     const { drawing } = fiveBar().use("motor", [0, 0]);
-    const own = { ...drawing.coordinates[0]!, low: 0, high: Math.PI };
+    const own: DrawnCoordinate = { name: "A", kind: "angle", of: "AC", from: undefined, axis: 0, low: 0, high: Math.PI, range: undefined };
     expect(angleText(drawing, own, 1, [0, -1])).toBe("270 deg");
     expect(angleText(drawing, own, 0, [0, -1])).toBe("-90 deg");
     expect(angleText(drawing, own, 0, [-1, -0.001])).toBe("-180 deg");
@@ -165,7 +165,7 @@ describe("what is drawn", () => {
     const sheet = fiveBar().use("motor", [0, 0]).use("force", [250, 600], [250, 500]).use("spring", [-200, 300], [700, 300]).use("workspace", [100, 400], [400, 700]);
     const gone = (element: Element): Drawing => drawingOf(removeElement(sheet.drawing, element) ?? "");
     const noPoint = gone({ kind: "point", name: "D" });
-    expect(noPoint.links.map((one) => one.name)).toEqual(["AC", "EB"]);
+    expect(noPoint.links.map((one) => one.name)).toEqual(["AC", "BE"]);
     expect([noPoint.loads, noPoint.springs, noPoint.coordinates.filter((one) => one.kind === "place"), noPoint.endEffector].map((one) => one?.valueOf())).toEqual([[], [], [], undefined]);
     expect(noPoint.text).not.toMatch(/\bD\b/);
     const noLink = gone({ kind: "link", name: "AC" });

@@ -81,16 +81,17 @@ function addLinkOf(drawing: Drawing, points: string[], wanted: string, length?: 
 export function addLink(drawing: Drawing, from: Spot, to: Spot): Edit {
   if (from.point !== undefined && from.point === to.point) return undefined;
   if (from.point === undefined && to.point === undefined && from.texts.join() === to.texts.join()) return undefined;
-  if ([from, to].every((spot) => spot.point !== undefined && isGround(drawing, spot.point))) return undefined;
+  const still = [from, to].map((spot) => spot.point !== undefined && isGround(drawing, spot.point));
+  if (still[0] && still[1]) return undefined;
   const known = from.point !== undefined && to.point !== undefined;
   if (known && drawing.links.some((link) => [from.point, to.point].every((point) => point !== undefined && link.points.includes(point)))) return undefined;
   const free = [from, to].map((spot) => spot.point === undefined && spot.link === undefined);
   const [one, a] = withPoint(drawing, from);
   const [two, b] = withPoint(one, to);
-  let [made, name] = addLinkOf(two, [a, b], `${a}${b}`, to.point === undefined ? to.length : undefined);
-  if (!free[0]) made = pinned(made, a, name);
-  if (!free[1]) made = pinned(made, b, name);
-  return made.text;
+  const ends = still[1] ? [b, a] : [a, b]; // its direction counts from the ground
+  const [linked, name] = addLinkOf(two, ends, ends.join(""), to.point === undefined ? to.length : undefined);
+  const first = free[0] ? linked : pinned(linked, a, name);
+  return (free[1] ? first : pinned(first, b, name)).text;
 }
 
 /** One more point of a link, which makes it a plate. */
@@ -159,9 +160,9 @@ export function addCylinder(drawing: Drawing, from: Spot, to: Spot): Edit {
   const free = [from, to].map((spot) => spot.point === undefined && spot.link === undefined);
   const [one, a] = withPoint(drawing, from);
   const [two, b] = withPoint(one, to);
-  let [made, cylinder] = addLinkOf(two, [a], "cylinder");
-  const [both, rod] = addLinkOf(made, [b], "rod");
-  made = both;
+  const [halfway, cylinder] = addLinkOf(two, [a], "cylinder");
+  const [both, rod] = addLinkOf(halfway, [b], "rod");
+  let made = both;
   for (const [k, point, link] of [[0, a, cylinder], [1, b, rod]] as const)
     if (!free[k]) made = pinned(made, point, link);
   const name = nextJoint(made, `S${a}${b}`);
