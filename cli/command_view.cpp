@@ -26,13 +26,17 @@ struct ViewCommand {
 #ifdef CLEARLOCI_HAS_WORKBENCH
 int run(const ViewCommand& arguments) {
   constexpr double usual_time_limit = 20;
-  read_model(arguments.common);  // complains in the words of every command
+  const bool has_model = !arguments.common.model.empty();
+  if (has_model)
+    read_model(arguments.common);  // complains in the words of every command
+  else if (!arguments.common.overrides.empty())
+    throw core::InputError({}, "--set changes a parameter of a mechanism file, and there is none", "name the file");
   const double time_limit =
       arguments.common.time_limit.empty()
           ? usual_time_limit
           : core::to_double(parse_positive(arguments.common.time_limit, "--time-limit", mechanism::Mechanism{}));
   workbench::Server server({.file = arguments.common.model,
-                            .text = mechanism::read_text(arguments.common.model, "the mechanism file"),
+                            .text = has_model ? mechanism::read_text(arguments.common.model, "the mechanism file") : "",
                             .values = parse_overrides(arguments.common.overrides),
                             .port = arguments.port,
                             .time_limit = time_limit});
@@ -51,9 +55,11 @@ int run(const ViewCommand&) {
 
 Command add_view_command(CLI::App& program) {
   CLI::App* app =
-      program.add_subcommand("view", "Open the workbench in a browser: loci and zones follow while you drag");
+      program.add_subcommand("view", "Open the workbench in a browser: draw, drag, and loci and zones follow");
   const auto arguments = std::make_shared<ViewCommand>();
-  app->add_option("MODEL", arguments->common.model, "The mechanism file (YAML)")->required()->type_name("FILE");
+  app->add_option("MODEL", arguments->common.model,
+                  "The mechanism file (YAML); without it, a gallery and an empty sheet")
+      ->type_name("FILE");
   app->add_option("--set", arguments->common.overrides, "Override a parameter of the file: name=value (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
@@ -64,7 +70,8 @@ Command add_view_command(CLI::App& program) {
   app->add_option("--time-limit", arguments->common.time_limit, "Seconds an answer may take (default: 20)")
       ->type_name("SECONDS");
   app->footer(
-      "Example: clearloci view examples/five_bar.yaml\n"
+      "Examples: clearloci view\n"
+      "          clearloci view examples/five_bar.yaml\n"
       "Prints an address of this machine (127.0.0.1) for the browser; other machines cannot reach it. It writes no "
       "files:\n"
       "the browser downloads them. Ctrl-C ends it.");

@@ -17,7 +17,7 @@
 namespace clearloci::workbench {
 
 struct ServerOptions {
-  std::string file, text;                                   ///< the model to begin with
+  std::string file, text;                                   ///< the model to begin with; both empty: none
   std::vector<std::pair<std::string, std::string>> values;  ///< of its parameters, put in by the page
   int port = 0;                                             ///< 0: any that is free
   double time_limit = 20;                                   ///< s an answer may take

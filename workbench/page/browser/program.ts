@@ -25,8 +25,9 @@ export async function launch(): Promise<Browser> {
 export class Served {
   private constructor(private readonly child: ChildProcess, readonly address: string) {}
 
+  /** `model`: an example; "": none, and the page shows its gallery. */
   static async start(model: string, ...options: string[]): Promise<Served> {
-    const child = spawn(program, ["view", join(source, "examples", model), ...options]);
+    const child = spawn(program, ["view", ...(model === "" ? [] : [join(source, "examples", model)]), ...options]);
     const address = await new Promise<string>((resolve, reject) => {
       let said = "";
       child.stdout.on("data", (bytes: Buffer) => {
@@ -62,6 +63,7 @@ export async function open(browser: Browser, address: string, options: { width?:
   });
   await context.grantPermissions(["clipboard-read", "clipboard-write"]);
   if (!options.first) await context.addInitScript(() => localStorage.setItem("clearloci-welcomed", "1"));
+  await useBundle(context);
   const page = await context.newPage();
   const faults: string[] = [];
   page.on("pageerror", (error) => faults.push(error.message));
@@ -77,6 +79,14 @@ export async function open(browser: Browser, address: string, options: { width?:
   page.setDefaultTimeout(90_000);
   await page.goto(address, { timeout: 90_000 });
   return { page, context, faults };
+}
+
+/** While the page is worked on: a bundle of tools/bundle.mjs in the folder CLEARLOCI_PAGE takes the place of the one in the program. */
+async function useBundle(context: BrowserContext): Promise<void> {
+  const folder = process.env["CLEARLOCI_PAGE"];
+  if (folder === undefined) return;
+  for (const [name, contentType] of [["app.js", "text/javascript"], ["app.css", "text/css"]] as const)
+    await context.route(`**/${name}`, (route) => route.fulfill({ path: join(folder, name), contentType }));
 }
 
 /** Until nothing has been asked or painted for a while. */

@@ -1,18 +1,36 @@
 // The head of the page: which mechanism, undo and redo, comparing, the link, light and dark.
 import { h, replace } from "./dom";
-import { freshState } from "./state";
+import { openButton, save } from "./files";
+import { newFile } from "../drawing/edit";
 import { openWelcome } from "./welcome";
 import type { Workbench } from "./workbench";
 
 export function buildHead(bench: Workbench): HTMLElement {
   const title = h("h1", {}, "clearloci");
   const picker = h("select", { id: "examples", "aria-label": "Open an example" });
-  picker.append(h("option", { value: "" }, "Examples …"), h("option", { value: "*" }, `${bench.start.file.split("/").pop()} (as it was opened)`));
+  picker.append(h("option", { value: "" }, "Examples …"), h("option", { value: "gallery" }, "Gallery"));
+  if (bench.start.text !== "") picker.append(h("option", { value: "*" }, `${bench.start.file.split("/").pop()} (as it was opened)`));
   for (const example of bench.start.examples) picker.append(h("option", { value: example.name }, nameOf(example.text, example.name)));
   picker.addEventListener("change", () => {
     const chosen = picker.value === "*" ? { name: bench.start.file, text: bench.start.text } : bench.start.examples.find((one) => one.name === picker.value);
+    if (picker.value === "gallery") bench.open("", "");
     picker.value = "";
-    if (chosen) bench.change({ ...freshState(chosen.name.split("/").pop() ?? "model.yaml", chosen.text), zones: bench.state.zones });
+    if (chosen) bench.open(chosen.name.split("/").pop() ?? "model.yaml", chosen.text);
+  });
+  const said = h("div", { class: "said", role: "status" });
+  const say = (words: string[]): void => {
+    replace(said, ...words.map((one) => h("div", {}, one)), ...(words.length > 0 ? [h("button", { type: "button", click: () => replace(said) }, "Close")] : []));
+  };
+  const fresh = h("button", { type: "button", title: "An empty sheet", click: () => bench.open("mechanism.yaml", newFile(bench.nothing ? "mm" : bench.units.length.name), true) }, "New");
+  const store = h("button", { type: "button", id: "save", title: "Download the mechanism file (Ctrl+S)", click: () => save(bench) }, "Save");
+  const draw = h("button", { type: "button", id: "draw", title: "Change the mechanism itself, with tools", click: () => bench.look(!bench.state.drawing) }, "Draw");
+  document.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.shiftKey) return;
+    const key = event.key.toLowerCase();
+    if (key !== "s" && key !== "o") return;
+    event.preventDefault();
+    if (key === "s") save(bench);
+    else document.getElementById("open-file")?.click();
   });
   const undo = h("button", { type: "button", title: "Undo (Ctrl+Z)", click: () => bench.undo() }, "Undo");
   const redo = h("button", { type: "button", title: "Redo (Ctrl+Shift+Z)", click: () => bench.redo() }, "Redo");
@@ -24,14 +42,19 @@ export function buildHead(bench: Workbench): HTMLElement {
   } });
   const help = h("button", { type: "button", click: () => openWelcome() }, "What is this?");
   bench.watch(() => {
-    replace(title, bench.facts?.name ?? "clearloci");
+    replace(title, bench.facts?.name ?? (bench.drawing.name || "clearloci"));
+    const planar = bench.facts?.spatial !== true;
+    draw.disabled = bench.nothing || !planar;
+    draw.title = planar ? "Change the mechanism itself, with tools" : "Mechanisms in space are not drawn here: change their file";
+    draw.setAttribute("aria-pressed", String(bench.state.drawing));
+    store.disabled = keep.disabled = link.disabled = bench.nothing;
     undo.disabled = !bench.history.canUndo;
     redo.disabled = !bench.history.canRedo;
     keep.textContent = bench.state.kept ? "Drop the kept design" : "Keep to compare";
     keep.setAttribute("aria-pressed", String(bench.state.kept !== undefined));
     theme.textContent = bench.dark ? "Light" : "Dark";
   });
-  return h("header", { class: "head" }, title, h("nav", { "aria-label": "Workbench" }, picker, undo, redo, keep, link, theme, help));
+  return h("header", { class: "head" }, title, h("nav", { "aria-label": "Workbench" }, fresh, openButton(bench, say), store, picker, draw, undo, redo, keep, link, theme, help), said);
 }
 
 async function copyLink(button: HTMLButtonElement): Promise<void> {

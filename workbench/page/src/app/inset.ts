@@ -1,6 +1,5 @@
 // The mechanism in its pose where the plane of the loci is not its own: a small picture in a corner.
-import type { Point } from "../data/answers";
-import { drawSketch, placesOf } from "../draw/mechanism";
+import { drawSketch, placesOf, projected } from "../draw/mechanism";
 import { Layer } from "../draw/surface";
 import { fit } from "../draw/view";
 import { h } from "./dom";
@@ -30,31 +29,11 @@ export class Inset {
     this.element.style.height = `${size.height}px`;
     this.layer.resize(size);
     const context = this.layer.begin();
-    const sketch = bench.pose.sketch ?? this.projected();
+    const sketch = bench.pose.sketch ?? projected(bench.pose, bench.facts);
     const places = placesOf(sketch);
     if (places.length === 0) return;
     const xs = places.map((at) => at[0]);
     const ys = places.map((at) => at[1]);
     drawSketch(context, fit({ low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] }, size, true, 14), sketch, bench.theme, 5);
-  }
-
-  /** Seen from the front right and a little above. */
-  private projected(): NonNullable<NonNullable<Workbench["pose"]>["sketch"]> {
-    const { pose, facts } = this.bench;
-    const place = (name: string): Point => {
-      const [x = 0, y = 0, z = 0] = pose?.posture[name] ?? [];
-      return [0.87 * x + 0.5 * y, 0.94 * z + 0.17 * (0.87 * y - 0.5 * x)];
-    };
-    const first = (link: string): string | undefined => facts?.links.find((one) => one.name === link)?.points[0];
-    return {
-      links: (facts?.links ?? []).map((link) => ({ name: link.name, points: link.points.map(place) })),
-      slides: (facts?.joints ?? []).filter((joint) => joint.type === "prismatic").flatMap((joint) => {
-        const [from, to] = [first(joint.from), first(joint.to)];
-        return from && to ? [{ from: place(from), to: place(to), rail: false }] : [];
-      }),
-      joints: (facts?.joints ?? []).map((joint) => ({ name: joint.name, at: place(joint.at), on_ground: joint.from === "ground", actuated: joint.actuated })),
-      loads: [],
-      gravity: [0, 0],
-    };
   }
 }

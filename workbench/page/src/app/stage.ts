@@ -13,6 +13,7 @@ import { h } from "./dom";
 import { crossingWords, drawFlash, drawPath, drawPoseCross, drawTask, drawWitness } from "./stage_drawing";
 import { noDemands } from "./state";
 import { drawnShape, handles, movedShape, withHandle, type DrawnKind } from "./task_text";
+import { nearestOnWay } from "./way";
 import type { Workbench } from "./workbench";
 
 type Grip =
@@ -331,15 +332,7 @@ export class Stage {
   }
 
   private dragAlongCycle(to: Point): void {
-    const { sweep } = this.bench;
-    if (!sweep) return;
-    let best = -1;
-    let nearest = Infinity;
-    sweep.answer.places.forEach((place, k) => {
-      const away = place ? Math.hypot((place[0] ?? 0) - to[0], (place[1] ?? 0) - to[1]) : Infinity;
-      if (away < nearest) [nearest, best] = [away, k];
-    });
-    const value = sweep.coordinate[best];
+    const value = nearestOnWay(this.bench.sweep?.coordinate ?? [], this.bench.sweep?.answer.places ?? [], to);
     if (value !== undefined) this.bench.change({ at: [value] }, "drag-pose");
   }
 

@@ -41,6 +41,8 @@ export interface State {
   kept: { text: string; mode: number[] | undefined } | undefined;
   trajectory: string | undefined;
   slice: { axis: number; at: number; on: boolean } | undefined;
+  /** Whether the mechanism itself is drawn, with tools. */
+  drawing: boolean;
 }
 
 export function freshState(file: string, text: string): State {
@@ -59,6 +61,7 @@ export function freshState(file: string, text: string): State {
     kept: undefined,
     trajectory: undefined,
     slice: undefined,
+    drawing: false,
   };
 }
 

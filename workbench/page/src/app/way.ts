@@ -41,3 +41,14 @@ export function signChanges(x: readonly number[], values: readonly (number | nul
   }
   return found;
 }
+
+/** Of values along a way the one whose place is nearest. */
+export function nearestOnWay(values: readonly number[], places: readonly (readonly number[] | null)[], to: readonly [number, number]): number | undefined {
+  let best = -1;
+  let nearest = Infinity;
+  places.forEach((place, k) => {
+    const away = place ? Math.hypot((place[0] ?? 0) - to[0], (place[1] ?? 0) - to[1]) : Infinity;
+    if (away < nearest) [nearest, best] = [away, k];
+  });
+  return values[best];
+}

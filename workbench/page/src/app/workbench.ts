@@ -1,9 +1,13 @@
 // The one place where a change of the state becomes questions, and answers become what is drawn.
 import type { ModelFacts, Modes, Picture, Pose, Rules, Start, Sweep, Theme, Trajectory, Verdict, Zones } from "../data/answers";
+import { pathAt, type ValuePath } from "../data/file_text";
 import { ModelText, type Adjustable } from "../data/model_text";
+import { drawingOf, drawnPose, type Drawing } from "../drawing/drawing";
+import { missingIn, type Missing } from "../drawing/missing";
 import { toHash } from "./address";
 import { ask, AskingError, Following, type Fault } from "./asking";
-import { History, type State, type TaskState } from "./state";
+import { freshState, History, type State, type TaskState } from "./state";
+import { nearestOnWay } from "./way";
 import { taskText } from "./task_text";
 import type { Units } from "../data/units";
 
@@ -11,6 +15,8 @@ import type { Units } from "../data/units";
 export interface ShownFault {
   message: string;
   field: string | undefined;
+  /** What stands there in the file; empty where it is about the whole. */
+  path: ValuePath;
 }
 
 export type Answer = "model" | "loci" | "zones" | "pose" | "verify" | "modes" | "kept" | "sweep" | "trajectory";
@@ -31,6 +37,8 @@ export class Workbench {
   sweep: { coordinate: number[]; answer: Sweep } | undefined;
   trajectory: Trajectory | undefined;
   fault: ShownFault | undefined;
+  /** Of a mechanism that is being drawn: why there is nothing to ask yet. */
+  missing: Missing | undefined;
   poseFault: string | undefined;
   taskFault: string | undefined;
   zonesFault: string | undefined;
@@ -100,6 +108,23 @@ export class Workbench {
   get overTwoLengths(): boolean {
     return this.coordinates.length === 2 && this.coordinates.every((one) => !one.angle);
   }
+  /** The mechanism as it is drawn; points with constructions are where the pose puts them. */
+  get drawing(): Drawing {
+    const posture = this.pose?.posture;
+    if (this.drawn?.text !== this.state.text || this.drawn.posture !== posture) this.drawn = { text: this.state.text, posture, drawing: drawingOf(this.state.text, posture) };
+    return this.drawn.drawing;
+  }
+  private drawn: { text: string; posture: Pose["posture"] | undefined; drawing: Drawing } | undefined;
+  /** Whether a coordinate plays: then the pose is shown, not the posture that is drawn. */
+  playing = false;
+  setPlaying(playing: boolean): void {
+    this.playing = playing;
+    this.tell("playing");
+  }
+  /** Whether there is no mechanism at all: the gallery offers some. */
+  get nothing(): boolean {
+    return this.state.text.trim() === "";
+  }
   adjustable(id: string): Adjustable | undefined {
     return this.model.adjustables.find((one) => one.id === id);
   }
@@ -139,21 +164,53 @@ export class Workbench {
   }
 
   undo(): void {
+    this.walk(() => this.history.undo());
+  }
+  redo(): void {
+    this.walk(() => this.history.redo());
+  }
+  private walk(step: () => void): void {
     const before = this.state;
-    this.history.undo();
+    step();
+    if (!this.nothing) this.history.amend({ ...this.state, drawing: before.drawing }); // what is done is undone, not how it is looked at
     this.touched = undefined;
     this.follow(before);
   }
-  redo(): void {
+
+  /** Another text of what is drawn: shown in the posture that is drawn, if it says one. */
+  edit(text: string, gesture?: string): void {
+    if (text === this.state.text) return;
+    const drawing = drawingOf(text, this.pose?.posture);
+    const at = drawnPose(drawing) ?? this.state.at;
+    const joints = this.state.joints?.filter((name) => drawing.joints.some((one) => one.name === name));
+    this.change({ text, at, mode: this.state.mode && drawing.coordinates.length === this.coordinates.length ? this.state.mode : undefined, joints: joints?.length ? joints : undefined }, gesture);
+  }
+
+  /** At the drawing, or at what follows from it; no step of undo. */
+  look(drawing: boolean): void {
     const before = this.state;
-    this.history.redo();
+    this.history.amend({ ...before, drawing });
     this.touched = undefined;
     this.follow(before);
+  }
+
+  /** A mechanism of its own, in the place of the one before. */
+  open(file: string, text: string, drawing = false): void {
+    this.change({ ...freshState(file, text), zones: this.state.zones, drawing });
   }
 
   setValue(id: string, value: string, gesture?: string): void {
     const one = this.adjustable(id);
     if (one && value.trim() !== "") this.change({ text: this.model.writeNumber(one.path, value.trim()).text }, gesture, id);
+  }
+
+  /** A moving point of a mechanism with constructions is dragged: the pose follows, where the end effector's place says it. */
+  movePoint(name: string, to: readonly [number, number]): void {
+    if (name !== this.facts?.end_effector.at) return;
+    if (this.coordinates.length === 1) {
+      const nearest = nearestOnWay(this.sweep?.coordinate ?? [], this.sweep?.answer.places ?? [], to);
+      if (nearest !== undefined) this.change({ at: [nearest] }, "drag-pose");
+    } else if (this.inPlace) this.change({ at: [...to] }, "drag-pose");
   }
 
   /** Asks for everything anew. */
@@ -177,13 +234,19 @@ export class Workbench {
     const changed = (...keys: (keyof State)[]): boolean => !before || keys.some((key) => before[key] !== now[key]);
     if (changed("text")) this.model = new ModelText(now.text);
     if (changed("file")) this.forget();
-    if (changed("text", "mode", "joints", "quantities")) {
+    this.missing = this.nothing ? { words: "" } : now.drawing || !this.facts ? missingIn(drawingOf(now.text)) : undefined;
+    if (this.missing) {
+      this.forget();
+      this.atRest();
+      return this.tell("state", "kind", "loci", "pose", "zones", "model", "modes", "verify", ...Object.keys(now).map((key) => `state.${key}`));
+    }
+    if (changed("text", "mode", "joints", "quantities") || (now.drawing && !this.picture && !this.fault)) {
       if (this.traceable) this.lanes.loci.want(this.lociQuestion(), made);
       this.zonesStale = true;
       if (!now.zones) this.zones = undefined;
     }
     // Other values make no other mechanism: what kind it is can wait until the hand rests.
-    if (changed("file", "mode") || !this.facts) this.lanes.model.want(this.question(), made);
+    if (changed("file", "mode") || !this.facts || (now.drawing && changed("text"))) this.lanes.model.want(this.question(), made);
     else if (changed("text")) this.factsStale = true;
     if (changed("text", "mode", "at")) this.askPose(made);
     if (changed("text", "mode", "task")) this.askVerdict();
@@ -273,6 +336,7 @@ export class Workbench {
     }, 250);
     this.quietTimer = setTimeout(() => {
       this.quietTimer = undefined;
+      if (this.missing) return;
       this.lanes.modes.want(this.question());
       if (this.factsStale) this.lanes.model.want(this.question());
       this.factsStale = false;
@@ -360,7 +424,7 @@ export class Workbench {
     this.progress = undefined;
     this.zonesStale = false; // they are those of the picture that stays
     const placed = fault.line > 0 ? this.model.at(fault.line, fault.column, this.model.adjustables)?.id : undefined;
-    this.fault = { message: fault.message, field: this.touched ?? placed };
+    this.fault = { message: fault.message, field: this.touched ?? placed, path: fault.line > 0 ? pathAt(this.state.text, fault.line, fault.column) : [] };
     this.tell("fault", "zones");
   }
 }

@@ -1,10 +1,10 @@
 // The mechanism file as text whose values change in place: comments, order and spelling of all else stay as they are.
-import { isMap, isScalar, isSeq, parseDocument, type Document, type Node } from "yaml";
+import { isMap, isScalar, isSeq, type Document, type Node } from "yaml";
 import { parseExact, toNumber } from "./exact";
+import { isPlain, parseFile, type ValuePath } from "./file_text";
 import { unitsOf, type Units } from "./units";
 
-/** Where a value stands in the file. */
-export type ValuePath = (string | number)[];
+export type { ValuePath } from "./file_text";
 
 export interface Adjustable {
   /** "parameters/L", "points/A1/0": the path as a name. */
@@ -23,8 +23,7 @@ export class ModelText {
   private readonly document: Document.Parsed;
 
   constructor(readonly text: string) {
-    // "failsafe": every scalar is a text, as the program reads it; `y` is no truth value.
-    this.document = parseDocument(text, { schema: "failsafe", keepSourceTokens: false });
+    this.document = parseFile(text);
   }
 
   private node(path: ValuePath): Node | undefined {
@@ -49,8 +48,7 @@ export class ModelText {
     if (!isScalar(node) || !node.range || node.value === value) return this;
     const [from, to] = node.range;
     // What is no expression is quoted, so that it stays one value: the program then says what is wrong with it.
-    const plain = /^[\w.+\-*/^() ]+$/.test(value) && node.type !== "QUOTE_SINGLE";
-    const written = plain ? value : node.type === "QUOTE_SINGLE" ? `'${value.replace(/'/g, "''")}'` : JSON.stringify(value);
+    const written = isPlain(value) && node.type !== "QUOTE_SINGLE" ? value : node.type === "QUOTE_SINGLE" ? `'${value.replace(/'/g, "''")}'` : JSON.stringify(value);
     return new ModelText(this.text.slice(0, from) + written + this.text.slice(to));
   }
 
@@ -80,8 +78,23 @@ export class ModelText {
     return this.basePointsOf([]);
   }
 
+  /** Of a drawing: what is pinned to the ground, or of no link. */
+  private drawnOnGround(root: ValuePath): { name: string; path: ValuePath }[] {
+    const scalars = (path: ValuePath): string[] => {
+      const node = this.node(path);
+      return isSeq(node) ? node.items.map((item) => (isScalar(item) ? String(item.value) : "")) : [];
+    };
+    const carried = new Set(this.names([...root, "links"]).flatMap((name) => scalars([...root, "links", name, "points"])));
+    const pinned = new Set(this.names([...root, "joints"]).flatMap((name) => (scalars([...root, "joints", name, "revolute"]).includes("ground") ? [this.read([...root, "joints", name, "at"]) ?? ""] : [])));
+    return this.names([...root, "drawn"]).flatMap((name) => (!carried.has(name) || pinned.has(name) ? [{ name, path: [...root, "drawn", name] }] : []));
+  }
+
   private basePointsOf(root: ValuePath): { name: string; path: ValuePath }[] {
     const free = new Set(this.coordinateNames);
+    return [...this.drawnOnGround(root), ...this.builtOnGround(root, free)];
+  }
+
+  private builtOnGround(root: ValuePath, free: Set<string>): { name: string; path: ValuePath }[] {
     return this.names([...root, "points"]).flatMap((name) => {
       const path = [...root, "points", name];
       const node = this.node(path);
@@ -113,8 +126,11 @@ export class ModelText {
     return this.read(["units", "length"]) === undefined ? "" : "m";
   }
 
+  /** Of a drawing without any the motors', which turn. */
   get coordinateNames(): string[] {
-    return this.names(["workspace"]);
+    const names = this.names(["workspace"]);
+    if (names.length > 0 || this.names(["drawn"]).length === 0) return names;
+    return this.names(["joints"]).filter((name) => this.read(["joints", name, "actuated"]) === "true" && this.node(["joints", name, "revolute"]) !== undefined);
   }
 
   get adjustables(): Adjustable[] {
@@ -170,6 +186,7 @@ export class ModelText {
     const addNumber = (path: ValuePath, label: string): void => {
       if (parseExact(this.read(path) ?? "")) add(path, label, "m", "lengths");
     };
+    for (const name of this.names([...root, "links"])) addNumber([...root, "links", name, "length"], name);
     for (const name of this.names([...root, "points"])) {
       const path = [...root, "points", name];
       for (const end of [0, 1]) addNumber([...path, "lengths", end], `${this.read([...path, "dyad", end]) ?? ""}–${name}`);

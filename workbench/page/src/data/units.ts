@@ -19,11 +19,12 @@ const degree: Unit = { name: "deg", size: Math.PI / 180 };
 
 export const siUnits: Units = { declared: false, length: { name: "m", size: 1 }, angle: degree, force: { name: "N", size: 1 } };
 
-const known: Record<string, number> = { m: 1, dm: 0.1, cm: 0.01, mm: 1e-3, um: 1e-6, km: 1e3, in: 0.0254, rad: 1, mrad: 1e-3, deg: Math.PI / 180, N: 1, mN: 1e-3, kN: 1e3, MN: 1e6 };
+/** SI of one of each; what is no unit here is absent. */
+export const unitSizes: Record<string, number> = { m: 1, dm: 0.1, cm: 0.01, mm: 1e-3, um: 1e-6, km: 1e3, in: 0.0254, rad: 1, mrad: 1e-3, deg: Math.PI / 180, N: 1, mN: 1e-3, kN: 1e3, MN: 1e6 };
 
 /** By what a file says under `units`; what it does not say is m, deg and N. */
 export function unitsOf(said: { length?: string | undefined; angle?: string | undefined; force?: string | undefined } | undefined): Units {
-  const unit = (name: string | undefined, usual: Unit): Unit => (name !== undefined && known[name] ? { name, size: known[name] } : usual);
+  const unit = (name: string | undefined, usual: Unit): Unit => (name !== undefined && unitSizes[name] ? { name, size: unitSizes[name] } : usual);
   if (!said) return siUnits;
   return { declared: true, length: unit(said.length, siUnits.length), angle: unit(said.angle, degree), force: unit(said.force, siUnits.force) };
 }

@@ -1,6 +1,6 @@
 // The mechanism on a canvas, as the pictures draw it, and what its joints bear.
-import type { Point, Pose, Sketch, Theme } from "../data/answers";
-import { page, type View } from "./view";
+import type { ModelFacts, Point, Pose, Sketch, Theme } from "../data/answers";
+import { page, type Box, type View } from "./view";
 
 const bar = 9;
 
@@ -62,6 +62,33 @@ export function placesOf(sketch: Sketch): Point[] {
     ...sketch.slides.flatMap((slide) => [slide.from, slide.to]),
     ...(sketch.springs ?? []).flatMap((spring) => [spring.from, spring.to]),
   ];
+}
+
+/** A mechanism in space, seen from the front right and a little above. */
+export function projected(pose: Pose, facts: ModelFacts | undefined): Sketch {
+  const place = (name: string): Point => {
+    const [x = 0, y = 0, z = 0] = pose.posture[name] ?? [];
+    return [0.87 * x + 0.5 * y, 0.94 * z + 0.17 * (0.87 * y - 0.5 * x)];
+  };
+  const first = (link: string): string | undefined => facts?.links.find((one) => one.name === link)?.points[0];
+  return {
+    links: (facts?.links ?? []).map((link) => ({ name: link.name, points: link.points.map(place) })),
+    slides: (facts?.joints ?? []).filter((joint) => joint.type === "prismatic").flatMap((joint) => {
+      const [from, to] = [first(joint.from), first(joint.to)];
+      return from && to ? [{ from: place(from), to: place(to), rail: false }] : [];
+    }),
+    joints: (facts?.joints ?? []).map((joint) => ({ name: joint.name, at: place(joint.at), on_ground: joint.from === "ground", actuated: joint.actuated })),
+    loads: [],
+    gravity: [0, 0],
+  };
+}
+
+/** The least box around all that a sketch holds; nothing where it holds nothing. */
+export function boxAround(places: readonly Point[]): Box | undefined {
+  if (places.length === 0) return undefined;
+  const xs = places.map((at) => at[0]);
+  const ys = places.map((at) => at[1]);
+  return { low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] };
 }
 
 export function drawSketch(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme, width = bar): void {

@@ -1,0 +1,68 @@
+// Beside the thing that is selected: its numbers to type, what it is or is not, and a way to take it away.
+import { fieldsOf, switchesOf, titleOf } from "../drawing/fields";
+import { placeOfElement, type Element } from "../drawing/element";
+import { page } from "../draw/view";
+import type { DrawingStage } from "./drawing_stage";
+import { h, replace } from "./dom";
+import type { Workbench } from "./workbench";
+
+export class OnElement {
+  readonly element = h("form", { class: "on-element", hidden: true, "aria-label": "What is selected" });
+  private built = "";
+
+  constructor(private readonly bench: Workbench, private readonly stage: DrawingStage) {
+    stage.followers.push(() => this.show());
+    this.element.addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  private show(): void {
+    const { selected, canvas } = this.stage;
+    const held = canvas.dataset["grip"] !== undefined && canvas.dataset["grip"] !== "view";
+    this.element.hidden = selected === undefined;
+    if (!selected) {
+      this.built = "";
+      return;
+    }
+    this.put(selected);
+    const { drawing } = this.bench;
+    const fields = fieldsOf(drawing, selected);
+    const switches = switchesOf(drawing, selected);
+    const now = JSON.stringify([selected, fields, switches, titleOf(drawing, selected)]);
+    if (now === this.built || (held && this.built !== "" && this.element.contains(document.activeElement))) return;
+    const typing = document.activeElement instanceof HTMLInputElement && this.element.contains(document.activeElement) ? document.activeElement.name : undefined;
+    this.built = now;
+    replace(
+      this.element,
+      h("strong", {}, titleOf(drawing, selected)),
+      ...fields.map((field, k) => {
+        const input = h("input", { type: "text", class: "exact", name: field.label, value: field.text, placeholder: field.hint, "aria-label": field.label, spellcheck: "false", autocomplete: "off" });
+        input.addEventListener("change", () => {
+          const text = fieldsOf(this.bench.drawing, selected)[k]?.write(input.value);
+          if (text !== undefined) this.bench.edit(text);
+        });
+        return h("label", { class: "on-field" }, h("span", {}, field.label), input, h("span", { class: "unit" }, field.unit));
+      }),
+      ...switches.map((one, k) => {
+        const box = h("input", { type: "checkbox" });
+        box.checked = one.on;
+        box.addEventListener("change", () => {
+          const text = switchesOf(this.bench.drawing, selected)[k]?.flip();
+          if (text !== undefined) this.bench.edit(text);
+        });
+        return h("label", { class: "tick" }, box, one.label);
+      }),
+      h("button", { type: "button", click: () => this.stage.removeSelected() }, "Delete"),
+    );
+    if (typing !== undefined) this.element.querySelector<HTMLInputElement>(`[name="${CSS.escape(typing)}"]`)?.focus();
+  }
+
+  /** Below and to the right of the thing, within the sheet. */
+  private put(selected: Element): void {
+    const place = placeOfElement(this.bench.drawing, selected);
+    const { clientWidth: width, clientHeight: height } = this.stage.canvas;
+    const [x, y] = place ? page(this.stage.view, place) : [20, 20];
+    const own = { width: this.element.offsetWidth || 220, height: this.element.offsetHeight || 110 };
+    this.element.style.left = `${Math.max(6, Math.min(x + 26, width - own.width - 6))}px`;
+    this.element.style.top = `${Math.max(6, Math.min(y + 22, height - own.height - 6))}px`;
+  }
+}

@@ -1,0 +1,17 @@
+import { togglePlace, toggleAngle, toggleStroke } from "../coordinates";
+import type { Tool } from "./tool";
+
+export const freeTool: Tool = {
+  id: "free",
+  label: "Free coordinate",
+  key: "q",
+  hint: "The angle of a link, the stroke of a slider or the place of a point is free, or no more; drag its handles for the range",
+  icon: "M4 20 H20 M4 20 L16 6 M13 20 a9 9 0 0 0 -3.2 -6.8",
+  takes: "place",
+  act: ({ drawing, element, to, over }) => {
+    if (element?.kind === "joint") return toggleStroke(drawing, element.name);
+    if (to.point !== undefined) return togglePlace(drawing, to.point);
+    const link = over.at(-1);
+    return link === undefined ? undefined : toggleAngle(drawing, link);
+  },
+};
