@@ -74,7 +74,7 @@ class Loci(InOwnFolder):
 
     def test_every_command_prints_the_parameters(self):
         spring = self.model(lambda text: text.replace("  d: L ", "  d: L\n  k: 2 N/mm "))
-        line = "\nL = 0.4, d = 0.4, k = 3 N/mm\n"
+        line = "\nL = 0.4, d = 0.4, k = 3000 N/m\n"
         override = ("--set", "L=0.4", "--set", "k=3")
         task = SOURCE / "examples" / "tasks" / "pick_and_place.yaml"
         for words in (
@@ -91,7 +91,7 @@ class Loci(InOwnFolder):
             told = json.loads(
                 self.run_program(*words, *override, "--json", status=process.returncode).stdout
             )["parameters"]
-            self.assertEqual(told, {"L": "2/5", "d": "2/5", "k": "3 N/mm"}, words)
+            self.assertEqual(told, {"L": "2/5", "d": "2/5", "k": "3000 N/m"}, words)
         motion = self.run_program("trajectory", *PICK_AND_PLACE).stdout
         self.assertRegex(motion.splitlines()[1], r"^\w+ = [^,]+(, \w+ = .+)*$")
 
@@ -112,6 +112,29 @@ class Loci(InOwnFolder):
         self.assertRegex(process.stderr, r"\Aclearloci: [^\n]*time limit[^\n]*\n\Z")
         result = json.loads((self.folder / "here" / "loci.json").read_text(encoding="utf-8"))
         self.assertFalse(result["complete"])
+
+
+class LimitsOfZones(InOwnFolder):
+    def test_where_the_ends_of_a_spring_meet_is_named(self):
+        model = self.folder / "pull.yaml"
+        model.write_text("""\
+format: 1
+workspace: {s: [-0.5, 0.5]}
+points: {O: [0, 0], R: [s, 0]}
+links: {block: {points: [R]}}
+joints: {Z: {prismatic: [ground, block], at: R, axis: [1, 0], actuated: true, clearance: {axial: 1e-4}}}
+springs: [{name: Pull, links: [ground, block], at: [O, R], stiffness: 100, free_length: 0.1}]
+end_effector: {link: block, at: R}
+loads: [{link: block, at: R, force: [-5, 0]}]
+""", encoding="utf-8")
+        words = "spring Pull, whose ends O and R meet"
+        process = self.run_program("zones", model)
+        self.assertEqual(process.stdout.count("workspace boundary, limit of the " + words), 2)
+        ends = [end for zone in json.loads(self.run_program("zones", model, "--json").stdout)["zones"] for end in zone["ends"]]
+        self.assertEqual({end["kind"] for end in ends if "limit" in end}, {"workspace-boundary"})
+        self.assertEqual([end["limit"] for end in ends if "limit" in end], [words, words])
+        # 100 N/m (0.1 m - s) = 5 N at s = 0.05 m, and on the other side at -0.15 m.
+        self.assertEqual({round(end["at"], 6) for end in ends if "limit" not in end}, {0.05, -0.15})
 
 
 class Equations(InOwnFolder):
