@@ -21,26 +21,42 @@ void add(Vector& to, double part, const Vector& what) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += part * what[i];
 }
 
+/// (a x b).(c x d), in any dimension: (a.c)(b.d) - (a.d)(b.c), without its cancellation where vectors are parallel.
+double cross_dot(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = i + 1; j < a.size(); ++j) sum += (a[i] * b[j] - a[j] * b[i]) * (c[i] * d[j] - c[j] * d[i]);
+  return sum;
+}
+
 /// The (x, y) with x^2 + y^2 <= r^2 for which |rest + x a + y b| is least.
 std::array<double, 2> least_in_disc(const Vector& rest, const Vector& a, const Vector& b, double r) {
-  const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), ar = dot(a, rest), br = dot(b, rest);
-  // (GtG + lambda) u = -Gt rest, |u| falling with lambda.
-  const auto at = [&](double lambda) {
-    const double p = aa + lambda, q = bb + lambda, det = p * q - ab * ab;
-    return std::array{-(q * ar - ab * br) / det, -(p * br - ab * ar) / det};
-  };
-  const double scale = aa + bb;
+  const double scale = dot(a, a) + dot(b, b), across = cross_dot(a, b, a, b);
   if (!(scale > 0)) return {0, 0};
+  // (GtG + lambda) u = -Gt of, |u| falling with lambda.
+  const auto solved = [&](const Vector& of, double lambda) {
+    const double det = across + lambda * (scale + lambda);
+    return std::array{-(cross_dot(a, b, of, b) + lambda * dot(a, of)) / det,
+                      -(cross_dot(b, a, of, a) + lambda * dot(b, of)) / det};
+  };
+  const auto size = [](const std::array<double, 2>& u) { return std::hypot(u[0], u[1]); };
   const double hair = 1e-14 * scale;  // so that it can be solved where one direction says nothing
-  if (const auto free = at(hair); std::hypot(free[0], free[1]) <= r) return free;
-  double low = hair, high = std::hypot(ar, br) / r + scale;
+  if (std::array<double, 2> free = solved(rest, hair); size(free) <= r) {
+    // The hair leaves that part of the rest, which is more than rounding: once more for what is left.
+    Vector left = rest;
+    add(left, free[0], a);
+    add(left, free[1], b);
+    const auto more = solved(left, hair);
+    const std::array<double, 2> better = {free[0] + more[0], free[1] + more[1]};
+    return size(better) <= r ? better : free;
+  }
+  double low = hair, high = std::hypot(dot(a, rest), dot(b, rest)) / r + scale;
   for (int i = 0; i < 200; ++i) {
     const double middle = std::sqrt(low * high);
-    const auto u = at(middle);
-    (std::hypot(u[0], u[1]) > r ? low : high) = middle;
+    (size(solved(rest, middle)) > r ? low : high) = middle;
   }
-  const auto u = at(high);
-  const double shrink = std::min(1.0, r / std::hypot(u[0], u[1])) * (1 - 4 * unit_roundoff);
+  const auto u = solved(rest, high);
+  const double shrink = std::min(1.0, r / size(u)) * (1 - 4 * unit_roundoff);
   return {shrink * u[0], shrink * u[1]};
 }
 
