@@ -6,6 +6,7 @@
 
 #include "analysis/framed.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/pose_displacement.hpp"
 #include "analysis/pose_fit.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
@@ -143,6 +144,10 @@ class Verifier {
     result.cells = proof.cells;
     if (result.verdict == core::Verdict::undecided) {
       result.open = open_part(proof, widened_.pose_of(proof.lower), widened_.pose_of(proof.upper));
+    }
+    if (result.verified() && task_.pose_error) {
+      progress("pose error");
+      judge_displacement(mechanism_, task_, widened_, sides_, region_, request_.deadline, result);
     }
     // Where a witness is in the task, one that is farther off is not the nearest.
     if (result.verdict != core::Verdict::refuted) tell_nearest(near, result);

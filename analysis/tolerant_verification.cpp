@@ -3,6 +3,7 @@
 
 #include "analysis/design_task.hpp"
 #include "analysis/framed.hpp"
+#include "analysis/take_ups.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/verification.hpp"
 #include "core/enclosure.hpp"
@@ -163,7 +164,10 @@ class Tolerant {
 
   /// A design whose end effector is displaced too far at a pose, under a load.
   std::optional<core::TaskWitness> displaced_at(const DesignFailure& failure) const {
-    mechanism::Mechanism open = with_clearances(task_.loads().front(), failure.parameters);
+    Ranges values_of_design;
+    for (std::size_t p = 0; p < failure.parameters.size(); ++p)
+      values_of_design[task_.design().varied[p]] = core::Interval(failure.parameters[p]);
+    mechanism::Mechanism open = with_clearances(task_.design(), task_.loads().front(), values_of_design);
     const auto number = [](double value) { return core::Expression::number(core::Rational(value)); };
     core::TaskWitness told;
     if (const auto& range = task_.task().loads) {
@@ -208,26 +212,6 @@ class Tolerant {
       if (own.couple >= 0) add(load.couple, factors[static_cast<std::size_t>(own.couple)]);
     }
     return true;
-  }
-
-  /// The open mechanism with the clearances of one design.
-  mechanism::Mechanism with_clearances(mechanism::Mechanism open, const std::vector<double>& parameters) const {
-    Ranges ranges;
-    for (std::size_t p = 0; p < parameters.size(); ++p)
-      ranges[task_.design().varied[p]] = core::Interval(parameters[p]);
-    const auto number = [&](const core::Expression& e) {
-      return core::Expression::number(core::Rational(enclosure(e, ranges).middle()));
-    };
-    std::size_t k = 0;
-    for (mechanism::Joint& joint : open.joints) {
-      if (!joint.clearance) continue;
-      const mechanism::Clearance& own = task_.design().clearances[k++];
-      joint.clearance->radial = number(own.radial);
-      joint.clearance->angular = number(own.angular);
-      joint.clearance->gap = number(own.gap);
-      joint.clearance->axial = number(own.axial);
-    }
-    return open;
   }
 
   core::TaskWitness described(const Point2& pose, const std::vector<double>& parameters,
