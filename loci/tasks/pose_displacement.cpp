@@ -91,7 +91,7 @@ template <class Cell, class Form>
 class DisplacementSearch {
  public:
   DisplacementSearch(const core::PoseStatics& statics, std::size_t loads, const std::vector<PoseTakeUp>& take_ups,
-         const PoseRegion& region, double margin, double allowed, double accuracy, const PoseEffort& effort)
+                     const PoseRegion& region, double margin, double allowed, double accuracy, const PoseEffort& effort)
       : displacement_(statics, loads, take_ups),
         ranged_(loads > 1),
         region_(region),
@@ -250,9 +250,10 @@ PoseDisplacement most_displaced(const core::PoseStatics& statics, std::size_t lo
   core::ensure(statics.demands.empty() && loads >= 1 && loads <= 2 && loads < statics.loads,
                "loads, and unit forces behind them");
   return with_products(region)
-             ? DisplacementSearch<PoseCell, Affine>(statics, loads, take_ups, region, margin, allowed, accuracy, effort).run()
-               : DisplacementSearch<PoseCellOf<FlatAffine>, FlatAffine>(statics, loads, take_ups, region, margin, allowed, accuracy,
-                                                          effort)
+             ? DisplacementSearch<PoseCell, Affine>(statics, loads, take_ups, region, margin, allowed, accuracy, effort)
+                   .run()
+             : DisplacementSearch<PoseCellOf<FlatAffine>, FlatAffine>(statics, loads, take_ups, region, margin, allowed,
+                                                                      accuracy, effort)
                    .run();
 }
 

@@ -118,8 +118,7 @@ TEST(PoseErrorOverPosesOfDesigns, HoldsWithinTolerances) {
 TEST(PoseErrorOverPosesOfLoads, HoldsUnderARangeOfLoads) {
   const std::string box = "box: {x: [-0.01, 0.01], y: 0, z: [0.49, 0.51], alpha: 0, beta: 0, gamma: 0}\n";
   const Mechanism m = example("gough_stewart_poses");
-  const Verification answer =
-      decided(m, box + "loads_from: [[0, 0, -1000], [60, 0, -1000]]\npose_error: 1e-3\n");
+  const Verification answer = decided(m, box + "loads_from: [[0, 0, -1000], [60, 0, -1000]]\npose_error: 1e-3\n");
   ASSERT_TRUE(answer.verified());
   double most = 0;
   for (const int along : {0, 20, 40, 60}) {
