@@ -175,8 +175,7 @@ ModeErrors coordinate_errors(const numeric::NumericModel& model, const DyadSides
   errors.mode = mode_in(loci, sides);
   const std::vector<core::IsolatedPoint> events = events_of(loci, errors.mode);
   errors.map = numeric::empty_error_map(model, {values_of(range, request.grid.front(), events)});
-  std::vector<RangePose> poses =
-      numeric::error_range(model, sides, errors.map.axes.front(), request.loci.deadline);
+  std::vector<RangePose> poses = numeric::error_range(model, sides, errors.map.axes.front(), request.loci.deadline);
   errors.never_loaded = numeric::never_loaded(model, poses);
   for (RangePose& pose : poses) {
     if (pose.reachable) ++errors.reachable;

@@ -125,9 +125,9 @@ core::TaskConditions DesignTask::conditions_for(const std::vector<TaskDemand>& d
   for (const Mechanism& own : loads_) loads.push_back(&own);
   for (const Mechanism& own : directions_) directions.push_back(&own);
   if (!take_ups) return symbolic::task_conditions(loads, demands, directions);
-  const auto [along_x, along_y] = under_unit_forces(open_.mechanism);
+  const std::vector<Mechanism> unit = under_unit_forces(open_.mechanism);
   return symbolic::task_conditions(loads, demands, directions,
-                                   {take_up_demands(open_.mechanism), {&along_x, &along_y}});
+                                   {take_up_demands(open_.mechanism), {&unit[0], &unit[1]}});
 }
 
 std::vector<TaskDemand> DesignTask::demands() const {

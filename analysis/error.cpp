@@ -40,8 +40,7 @@ std::vector<std::optional<ErrorSizes>> sizes_in(const core::FieldMap& map, const
 
 ModeErrors grid_errors(const numeric::NumericModel& model, const DyadSides& sides, const ErrorRequest& request) {
   numeric::ErrorMap found = numeric::error_map(
-      model, sides,
-      {.cells = request.grid, .worst_case = request.worst_case, .deadline = request.loci.deadline});
+      model, sides, {.cells = request.grid, .worst_case = request.worst_case, .deadline = request.loci.deadline});
   ModeErrors errors;
   errors.map = std::move(found.map);
   errors.reachable = found.reachable;
@@ -112,7 +111,8 @@ Errors find_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& gi
   errors.notes = mechanism::fit_notes(mechanism);
   for (std::string& note : mechanism::notes_of(mechanism)) errors.notes.push_back(std::move(note));
   core::Zones zones;
-  if (request.with_zones) zones = find_zones(mechanism, {.loci = request.loci, .cells = request.zone_cells, .grid = request.grid});
+  if (request.with_zones)
+    zones = find_zones(mechanism, {.loci = request.loci, .cells = request.zone_cells, .grid = request.grid});
   if (request.with_zones && !zones.by_cells)
     errors.loci = with_modes(mechanism, zones.loci);
   else

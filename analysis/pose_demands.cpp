@@ -1,6 +1,6 @@
 #include "analysis/pose_demands.hpp"
 
-#include "numeric/pose_witness.hpp"
+#include "numeric/task_witness.hpp"
 
 namespace clearloci {
 
@@ -10,9 +10,9 @@ using core::TaskDemand;
 std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>& models, const std::vector<int>& sides,
                                        std::vector<TaskDemand> demands, const std::vector<std::vector<double>>& poses,
                                        std::vector<std::string>& notes) {
-  std::vector<const numeric::NumericModel*> list;
-  for (const numeric::NumericModel& own : models) list.push_back(&own);
-  const numeric::PoseWitness all(list, sides, demands, poses);
+  numeric::WitnessLoads loads;
+  for (const numeric::NumericModel& own : models) loads.ends.push_back(&own);
+  const numeric::TaskWitness all(loads, sides, demands, poses, numeric::TaskWitness::Rounding::of_coordinates);
   std::vector<TaskDemand> loaded;
   std::string names;
   for (std::size_t d = 0; d < demands.size(); ++d) {

@@ -7,6 +7,7 @@
 #include "analysis/framed.hpp"
 #include "analysis/group_sheets.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/pose_displacement.hpp"
 #include "analysis/pose_fit.hpp"
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
@@ -16,7 +17,7 @@
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/notes.hpp"
-#include "numeric/pose_witness.hpp"
+#include "numeric/task_witness.hpp"
 #include "symbolic/pose_statics.hpp"
 
 namespace clearloci {
@@ -182,6 +183,10 @@ class Verifier {
     if (result.verdict == core::Verdict::undecided) {
       result.open = open_part(proof, widened_.pose_of(proof.lower), widened_.pose_of(proof.upper));
     }
+    if (result.verified() && task_.pose_error) {
+      progress("pose error");
+      judge_displacement(mechanism_, task_, widened_, sides_, region_, request_.deadline, result);
+    }
     // Where a witness is in the task, one that is farther off is not the nearest.
     if (result.verdict != core::Verdict::refuted) tell_nearest(near, result);
     if (result.verified() && depth != VerifyDepth::verdict) measure(near, depth, result);
@@ -193,10 +198,10 @@ class Verifier {
     if (request_.progress) request_.progress(0, stage);
   }
 
-  numeric::PoseWitness witness_for(const std::vector<TaskDemand>& demands) const {
-    std::vector<const numeric::NumericModel*> models;
-    for (const numeric::NumericModel& own : models_) models.push_back(&own);
-    return {std::move(models), sides_, demands, region_.samples()};
+  numeric::TaskWitness witness_for(const std::vector<TaskDemand>& demands) const {
+    numeric::WitnessLoads loads;
+    for (const numeric::NumericModel& own : models_) loads.ends.push_back(&own);
+    return {std::move(loads), sides_, demands, region_.samples(), numeric::TaskWitness::Rounding::of_coordinates};
   }
 
   core::TaskWitness told(const PoseAt& at, const numeric::TaskFailure& failure) const {
@@ -231,7 +236,7 @@ class Verifier {
   std::optional<core::TaskWitness> fails_at(const PoseAt& somewhere, int demand) const {
     const PoseAt at = widened_.settled(somewhere);
     if (!(region_.distance(at) <= margin_ + region_.hair())) return std::nullopt;
-    const auto failure = witness_->failure(at, demand);
+    const auto failure = witness_->failure_of(at, demand);
     return failure ? std::optional(told(at, *failure)) : std::nullopt;
   }
 
@@ -285,7 +290,7 @@ class Verifier {
       for (const int demand : {suspect.demand, -1})
         if (witness_->differs(at(before), at(behind), demand)) {
           using Kind = numeric::TaskFailure::Kind;
-          numeric::TaskFailure failure{demand < 0 ? Kind::singular : Kind::vanishing, {}, 0, 0};
+          numeric::TaskFailure failure{demand < 0 ? Kind::singular : Kind::vanishing};
           if (demand >= 0) failure.demand = witness_->demands()[static_cast<std::size_t>(demand)];
           return told(at(high), failure);
         }
@@ -367,7 +372,7 @@ class Verifier {
   DyadSides sides_;
   std::vector<numeric::NumericModel> models_;
   std::vector<TaskDemand> demands_;
-  std::optional<numeric::PoseWitness> witness_;
+  std::optional<numeric::TaskWitness> witness_;
   core::PoseStatics statics_;
   std::optional<PoseCell> cell_;
   std::vector<std::string> notes_;

@@ -9,12 +9,10 @@
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci {
-namespace {
 
 using core::Expression;
 using core::Quantity;
 
-/// What this reaction of a joint takes up.
 const Expression& clearance_of(const mechanism::OpenDesign& open, const core::Vanishing& reaction) {
   std::size_t k = 0;
   for (const mechanism::Joint& joint : open.mechanism.joints) {
@@ -29,13 +27,13 @@ const Expression& clearance_of(const mechanism::OpenDesign& open, const core::Va
   return open.clearances.front().radial;
 }
 
-}  // namespace
-
 std::vector<core::TaskDemand> take_up_demands(const mechanism::Mechanism& open) {
   std::vector<core::TaskDemand> demands;
   for (const mechanism::Joint& joint : open.joints) {
     if (!joint.clearance) continue;
-    if (!mechanism::traits(joint).slides) demands.push_back({joint.name, Quantity::f, 1});
+    // A sleeve slides, and is pressed all the same.
+    if (!mechanism::traits(joint).slides || open.space == mechanism::Space::spatial)
+      demands.push_back({joint.name, Quantity::f, 1});
     if (mechanism::has_guide_ends(open, joint))
       for (const Quantity end : {Quantity::end_ahead, Quantity::end_behind}) demands.push_back({joint.name, end, 1});
     if (joint.actuated) demands.push_back({joint.name, mechanism::actuator_quantity(joint), 1});
@@ -51,22 +49,41 @@ mechanism::Mechanism unloaded(mechanism::Mechanism mechanism) {
   return mechanism;
 }
 
-std::array<mechanism::Mechanism, 2> under_unit_forces(const mechanism::Mechanism& open) {
-  std::array<mechanism::Mechanism, 2> both = {unloaded(open), unloaded(open)};
-  for (std::size_t c = 0; c < 2; ++c) {
+mechanism::Mechanism with_clearances(const mechanism::OpenDesign& open, mechanism::Mechanism loaded,
+                                     const Ranges& values) {
+  const auto number = [&](const Expression& e) {
+    return Expression::number(core::Rational(enclosure(e, values).middle()));
+  };
+  std::size_t k = 0;
+  for (mechanism::Joint& joint : loaded.joints) {
+    if (!joint.clearance) continue;
+    const mechanism::Clearance& own = open.clearances[k++];
+    joint.clearance->radial = number(own.radial);
+    joint.clearance->angular = number(own.angular);
+    joint.clearance->gap = number(own.gap);
+    joint.clearance->axial = number(own.axial);
+  }
+  return loaded;
+}
+
+std::vector<mechanism::Mechanism> under_unit_forces(const mechanism::Mechanism& open) {
+  const std::size_t dimension = mechanism::dimension(open);
+  std::vector<mechanism::Mechanism> all;
+  for (std::size_t c = 0; c < dimension; ++c) {
+    mechanism::Mechanism& own = all.emplace_back(unloaded(open));
     const auto push = [&](mechanism::LinkIndex link, int size) {
       mechanism::Load load;
       load.link = link;
       load.at = open.end_effector_point;
-      load.force.assign(2, Expression::number(0));
+      load.force.assign(dimension, Expression::number(0));
       load.force[c] = Expression::number(size);
       load.couple = Expression::number(0);
-      both[c].loads.push_back(std::move(load));
+      own.loads.push_back(std::move(load));
     };
     push(open.end_effector_link, 1);
     if (open.relative_to != mechanism::ground) push(open.relative_to, -1);
   }
-  return both;
+  return all;
 }
 
 loci::DesignClearances design_clearances(const mechanism::OpenDesign& open, const core::TaskConditions& conditions) {

@@ -3,12 +3,13 @@
 
 #include "analysis/design_task.hpp"
 #include "analysis/framed.hpp"
+#include "analysis/take_ups.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/verification.hpp"
 #include "core/enclosure.hpp"
 #include "core/errors.hpp"
-#include "numeric/design_witness.hpp"
 #include "numeric/pose_error.hpp"
+#include "numeric/task_witness.hpp"
 
 namespace clearloci {
 namespace {
@@ -124,13 +125,13 @@ class Tolerant {
     return std::nullopt;
   }
 
-  numeric::DesignWitness& witness(const std::vector<double>& parameters) {
+  numeric::TaskWitness& witness(const std::vector<double>& parameters) {
     if (witness_) return *witness_;
-    std::vector<const numeric::NumericModel*> loads, directions;
-    for (const numeric::NumericModel& own : loads_) loads.push_back(&own);
-    for (const numeric::NumericModel& own : directions_) directions.push_back(&own);
-    std::vector<core::LoadBall> balls = task_.balls();
-    for (core::LoadBall& own : balls) {
+    numeric::WitnessLoads loads;
+    for (const numeric::NumericModel& own : loads_) loads.ends.push_back(&own);
+    for (const numeric::NumericModel& own : directions_) loads.directions.push_back(&own);
+    loads.balls = task_.balls();
+    for (core::LoadBall& own : loads.balls) {
       own.force = inwards(own.force);
       own.couple_size = inwards(own.couple_size);
     }
@@ -139,8 +140,8 @@ class Tolerant {
       std::vector<double>& at = usual.emplace_back();
       for (const Bounded& own : bounded(pose, parameters)) at.push_back(own.value);
     }
-    return witness_.emplace(std::move(loads), std::move(directions), std::move(balls), task_.sides(), task_.demands(),
-                            usual);
+    return witness_.emplace(std::move(loads), task_.sides(), task_.demands(), usual,
+                            numeric::TaskWitness::Rounding::of_plane);
   }
 
   /// Radii were rounded up for the proof; a witness is within what was asked.
@@ -157,13 +158,16 @@ class Tolerant {
     const double distance = task_.region().signed_distance(pose);
     if (distance > 0 && distance >= task_.margin() && distance > 0x1p-48 * (1 + std::hypot(pose[0], pose[1])))
       return std::nullopt;
-    const auto found = witness(parameters).failures(bounded(pose, parameters));
+    const auto found = witness(parameters).failures(bounded(pose, parameters), true);
     return found.empty() ? std::nullopt : std::optional(described(pose, parameters, found));
   }
 
   /// A design whose end effector is displaced too far at a pose, under a load.
   std::optional<core::TaskWitness> displaced_at(const DesignFailure& failure) const {
-    mechanism::Mechanism open = with_clearances(task_.loads().front(), failure.parameters);
+    Ranges values_of_design;
+    for (std::size_t p = 0; p < failure.parameters.size(); ++p)
+      values_of_design[task_.design().varied[p]] = core::Interval(failure.parameters[p]);
+    mechanism::Mechanism open = with_clearances(task_.design(), task_.loads().front(), values_of_design);
     const auto number = [](double value) { return core::Expression::number(core::Rational(value)); };
     core::TaskWitness told;
     if (const auto& range = task_.task().loads) {
@@ -210,45 +214,24 @@ class Tolerant {
     return true;
   }
 
-  /// The open mechanism with the clearances of one design.
-  mechanism::Mechanism with_clearances(mechanism::Mechanism open, const std::vector<double>& parameters) const {
-    Ranges ranges;
-    for (std::size_t p = 0; p < parameters.size(); ++p)
-      ranges[task_.design().varied[p]] = core::Interval(parameters[p]);
-    const auto number = [&](const core::Expression& e) {
-      return core::Expression::number(core::Rational(enclosure(e, ranges).middle()));
-    };
-    std::size_t k = 0;
-    for (mechanism::Joint& joint : open.joints) {
-      if (!joint.clearance) continue;
-      const mechanism::Clearance& own = task_.design().clearances[k++];
-      joint.clearance->radial = number(own.radial);
-      joint.clearance->angular = number(own.angular);
-      joint.clearance->gap = number(own.gap);
-      joint.clearance->axial = number(own.axial);
-    }
-    return open;
-  }
-
   core::TaskWitness described(const Point2& pose, const std::vector<double>& parameters,
-                              const std::vector<numeric::DesignFailureAt>& found) const {
+                              const std::vector<numeric::TaskFailure>& found) const {
     using Kind = numeric::TaskFailure::Kind;
-    const numeric::DesignFailureAt& first = found.front();
-    core::TaskWitness told =
-        told_failure(mechanism_, loads_.front(), values(pose, parameters), task_.sides(), first.failure);
+    const numeric::TaskFailure& first = found.front();
+    core::TaskWitness told = told_failure(mechanism_, loads_.front(), values(pose, parameters), task_.sides(), first);
     told.limit.clear();  // those of the file's own design are told
     told.at = list_of(pose);
     told.distance = std::max(0.0, task_.region().signed_distance(pose));
     for (std::size_t p = 0; p < parameters.size(); ++p)
       told.design.emplace_back(task_.design().varied[p], parameters[p]);
-    if (first.failure.kind != Kind::vanishing && first.failure.kind != Kind::too_small) return told;
+    if (first.kind != Kind::vanishing && first.kind != Kind::too_small) return told;
     add_loads(told, first, parameters);
     return told;
   }
 
-  void add_loads(core::TaskWitness& told, const numeric::DesignFailureAt& found,
+  void add_loads(core::TaskWitness& told, const numeric::TaskFailure& found,
                  const std::vector<double>& parameters) const {
-    const double t = found.failure.load;
+    const double t = found.load;
     if (const auto& range = task_.task().loads) told.load = load_between(*range, t);
     // The file's loads at this design.
     const numeric::Posture posture =
@@ -282,7 +265,7 @@ class Tolerant {
   DesignTask task_;
   std::unique_ptr<loci::DesignJudge> judge_;
   std::vector<numeric::NumericModel> loads_, directions_;
-  std::optional<numeric::DesignWitness> witness_;
+  std::optional<numeric::TaskWitness> witness_;
 };
 
 }  // namespace

@@ -185,16 +185,19 @@ class Verifier {
   }
 
   numeric::TaskWitness witness_for(const loci::TaskRegion& region) const {
-    std::vector<const numeric::NumericModel*> models;
-    for (const LoadCase& one : cases_) models.push_back(&one.model);
-    return {std::move(models), sides_, demands_, region.samples()};
+    numeric::WitnessLoads loads;
+    for (const LoadCase& one : cases_) loads.ends.push_back(&one.model);
+    std::vector<std::vector<double>> usual;
+    for (const Point2& at : region.samples()) usual.push_back(list_of(at));
+    return {std::move(loads), sides_, demands_, usual, numeric::TaskWitness::Rounding::of_plane};
   }
 
   loci::RefutedAt refuted_at(const loci::TaskRegion& region, const numeric::TaskWitness& judge,
                              std::optional<TaskWitness>& witness) const {
     return [this, &region, &judge, &witness](const Point2& at, bool closely) {
       if (!judge.failure(at, closely)) return false;
-      witness = described(at, judge.failures(at, closely), region.signed_distance(at));
+      const std::vector<numeric::Bounded> place(at.begin(), at.end());
+      witness = described(at, judge.failures(place, closely), region.signed_distance(at));
       return true;
     };
   }

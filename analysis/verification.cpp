@@ -25,12 +25,12 @@ bool is_spatial(const Mechanism& mechanism) { return mechanism.space == mechanis
 /// The tower answers over two lengths, but for loads that vary in space and what it does not move or scale.
 bool is_asked_of_tower(const Mechanism& mechanism, const Task& task, TaskFit fit) {
   if (!mechanism::is_plane(mechanism) || !mechanism.groups.empty()) return false;
-  if (is_spatial(mechanism) && (task.loads || !task.loads_within.empty())) return false;
+  if (is_spatial(mechanism) && (task.loads || !task.loads_within.empty() || task.pose_error)) return false;
   return fit != TaskFit::largest && (fit == TaskFit::none || !is_tolerant(task));
 }
 
 /// What is not answered, and why: the one place.
-void require_answerable(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
+void require_answerable(const Task& task, const VerifyRequest& request) {
   const auto refuse = [&](const std::string& what, const std::string& mend) {
     throw InputError({task.file}, what, mend);
   };
@@ -39,11 +39,6 @@ void require_answerable(const Mechanism& mechanism, const Task& task, const Veri
                      "give one side for each dyad");
   if (!task.pose_error) return;
   mechanism::require_closed_forms(mechanism, "pose_error is proven", "leave it out");
-  if (!mechanism::is_plane(mechanism))
-    refuse("pose_error is proven over two lengths, and " + mechanism.file + " has other free coordinates",
-           "leave it out, or make the other coordinates parameters");
-  if (is_spatial(mechanism))
-    refuse("pose_error is proven in the plane, and " + mechanism.file + " is spatial", "leave it out");
   if (request.fit != TaskFit::none)
     refuse("a task with a pose_error is verified where it lies", "leave out --fit, or the pose_error");
 }
@@ -90,7 +85,7 @@ Verification verify(const Model& model, const Task& task, const VerifyRequest& r
   const Mechanism& mechanism = model.content().mechanism;
   check_request(mechanism, request.loci);
   check_task(mechanism, task);
-  require_answerable(mechanism, task, request);
+  require_answerable(task, request);
   if (!task.preload.empty()) return verify_preloaded(model, task, request);
   if (!mechanism::joints_without_preload(mechanism).empty()) return verify_with_preload(model, task, request);
   Verification result = is_asked_of_tower(mechanism, task, request.fit) ? verify_by_tower(mechanism, task, request)

@@ -1,8 +1,8 @@
 // The kernels that verify tasks (clearloci/verify.hpp), of which verification.cpp chooses one:
-//     Mechanism, Task -> symbolic::task_conditions -> loci::prove_task         <-> numeric::TaskWitness     the tower
-//     Mechanism, Task -> DesignTask                -> loci::DesignJudge        <-> numeric::DesignWitness   many
-//     designs Mechanism, Task -> symbolic::pose_statics    -> loci::pose::prove_poses  <-> numeric::PoseWitness     the
-//     statics
+//     Mechanism, Task -> symbolic::task_conditions -> loci::prove_task         the tower
+//     Mechanism, Task -> DesignTask                -> loci::DesignJudge        many designs
+//     Mechanism, Task -> symbolic::pose_statics    -> loci::pose::prove_poses  the statics
+// What they suspect to fail, numeric::TaskWitness confirms.
 // The first two take Cramer's numerators over the roots of the tower: sharp at the boundary of the workspace, over two
 // lengths. The last takes the equations as they stand, over one to six coordinates.
 // Private to analysis/.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "analysis/take_ups.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/enclosure.hpp"
 #include "core/errors.hpp"
@@ -154,6 +155,25 @@ std::vector<double> WidenedTask::settled(std::vector<double> at) const {
     for (std::size_t k = 0; k < ball.count && far > within; ++k) at[poses_ + ball.first + k] *= within / far;
   }
   return at;
+}
+
+Interval WidenedTask::clearance(const core::Vanishing& reaction) const {
+  return enclosure(clearance_of(open_, reaction), values_);
+}
+
+Mechanism WidenedTask::at_place(const std::vector<double>& at, double load) const {
+  Ranges design;
+  for (const auto& [name, value] : this->design(at)) design[name] = Interval(value);
+  Mechanism own = with_clearances(open_, loads_.front(), design);
+  if (loads_.size() < 2) return own;
+  std::vector<Expression>& force = own.loads.front().force;
+  const std::vector<Expression>& last = loads_.back().loads.front().force;
+  const auto part = [](double t, const Expression& of) {
+    return Expression::apply(Expression::Kind::multiply, {Expression::number(Rational(t)), of});
+  };
+  for (std::size_t c = 0; c < force.size(); ++c)
+    force[c] = Expression::apply(Expression::Kind::add, {part(1 - load, force[c]), part(load, last[c])});
+  return own;
 }
 
 std::vector<std::pair<std::string, double>> WidenedTask::design(const std::vector<double>& at) const {

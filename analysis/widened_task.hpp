@@ -36,6 +36,10 @@ class WidenedTask {
   std::vector<double> pose_of(const std::vector<double>& at) const;
   /// A place whose values behind the pose are those of one design, and of loads that the task speaks of.
   std::vector<double> settled(std::vector<double> at) const;
+  /// What a reaction takes up at least and at most within the tolerances, m or rad.
+  Interval clearance(const core::Vanishing& reaction) const;
+  /// The mechanism with the clearances of a settled place, under the load that lies so far from the first to the last.
+  mechanism::Mechanism at_place(const std::vector<double>& at, double load) const;
   /// The parameters that have a tolerance, at a settled place.
   std::vector<std::pair<std::string, double>> design(const std::vector<double>& at) const;
 

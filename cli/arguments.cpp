@@ -245,8 +245,9 @@ std::vector<int> parse_grid(const std::string& text, std::size_t coordinates) {
       grid.push_back(*count);
   if (grid.size() == coordinates && split(text, 'x').size() == coordinates) return grid;
   refuse("--grid", fmt::format("'{}' is not a {}", text, own.what),
-         coordinates == 1 ? fmt::format("give one number from 2 to {}, e.g. --grid {}", own.most, own.example)
-                          : fmt::format("give the cells along each, from 2 to {}, e.g. --grid {}", own.most, own.example));
+         coordinates == 1
+             ? fmt::format("give one number from 2 to {}, e.g. --grid {}", own.most, own.example)
+             : fmt::format("give the cells along each, from 2 to {}, e.g. --grid {}", own.most, own.example));
 }
 
 std::pair<std::size_t, double> parse_slice(const std::string& text, const mechanism::Mechanism& mechanism) {

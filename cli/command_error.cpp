@@ -83,8 +83,8 @@ int run(const ErrorCommand& arguments, TimeLimit& limit) {
                        .zone_cells = arguments.zone_cells,
                        .loci = loci_request(arguments.loci, mechanism, progress, limit)};
   request.grid = arguments.grid.empty() ? error_grid(request, coordinates) : parse_grid(arguments.grid, coordinates);
-  require_memory(memory_of(request.grid, mechanism, requested_modes(mechanism, request.loci).size(), formats),
-                 "--grid", grid_words(request.grid));
+  require_memory(memory_of(request.grid, mechanism, requested_modes(mechanism, request.loci).size(), formats), "--grid",
+                 grid_words(request.grid));
   const std::vector<core::FieldSlice> slices = slices_of(arguments, mechanism, request.grid);
   const Errors errors = find_errors(mechanism, request);
   progress.clear();

@@ -16,8 +16,8 @@ namespace clearloci::numeric {
 /// dalpha_z, dp, `under_load`; with the worst case worst_ of each.
 std::vector<core::Field> error_fields(mechanism::Space space, bool under_load, bool worst_case);
 
-/// A map over the model's box without values; `axes`: as of core::FieldMap. Throws core::InputError where no joint has a
-/// clearance.
+/// A map over the model's box without values; `axes`: as of core::FieldMap. Throws core::InputError where no joint has
+/// a clearance.
 core::FieldMap empty_error_map(const NumericModel& model, std::vector<std::vector<double>> axes);
 
 struct ErrorGrid {

@@ -3,24 +3,44 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
-#include "numeric/demand_failure.hpp"
+#include "numeric/geometry.hpp"
+#include "numeric/least_load.hpp"
 #include "numeric/take_up.hpp"
 #include "numeric/witness_rounding.hpp"
 
 namespace clearloci::numeric {
-TaskWitness::TaskWitness(std::vector<const NumericModel*> loads, std::vector<int> mode,
-                         std::vector<core::TaskDemand> demands, std::span<const Point2> usual)
-    : loads_(std::move(loads)), mode_(std::move(mode)), demands_(std::move(demands)) {
-  std::vector<std::vector<double>> poses;
-  for (const Point2& at : usual) {
-    extent_ = std::max({extent_, std::abs(at[0]), std::abs(at[1])});
-    poses.emplace_back(at.begin(), at.end());
+namespace {
+
+std::vector<Bounded> exactly(std::span<const double> at) { return {at.begin(), at.end()}; }
+
+/// The largest |A| at those of the poses that are within reach.
+double largest_determinant(const NumericModel& model, std::span<const int> mode,
+                           const std::vector<std::vector<double>>& poses) {
+  double largest = 0;
+  for (const std::vector<double>& at : poses) {
+    const BoundedNumerators n = bounded_numerators(model, at, mode);
+    if (n.reachable && std::isfinite(n.determinant.value)) largest = std::max(largest, std::abs(n.determinant.value));
   }
-  usual_determinant_ = usual_determinant(*loads_.front(), mode_, poses);
+  return largest;
+}
+
+}  // namespace
+
+TaskWitness::TaskWitness(WitnessLoads loads, std::vector<int> mode, std::vector<core::TaskDemand> demands,
+                         const std::vector<std::vector<double>>& usual, Rounding rounding)
+    : loads_(std::move(loads)), mode_(std::move(mode)), demands_(std::move(demands)), rounding_(rounding) {
+  for (const std::vector<double>& at : usual) {
+    extents_.resize(std::max(extents_.size(), at.size()), 0.0);
+    for (std::size_t c = 0; c < at.size(); ++c) extents_[c] = std::max(extents_[c], std::abs(at[c]));
+  }
+  if (rounding_ == Rounding::of_plane && extents_.size() > 1)
+    extents_[0] = extents_[1] = std::max(extents_[0], extents_[1]);
+  usual_determinant_ = largest_determinant(*loads_.ends.front(), mode_, usual);
 }
 
 std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskDemand& demand,
@@ -52,54 +72,149 @@ std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskD
   return parts;
 }
 
-bool TaskWitness::reachable_at(const Point2& at) const { return reachable(*loads_.front(), at, mode_); }
-
-std::optional<TaskFailure> TaskWitness::failure(const Point2& at, bool closely) const {
-  const std::vector<TaskFailure> found = some_failures(at, closely, 1);
-  return found.empty() ? std::nullopt : std::optional(found.front());
+std::size_t TaskWitness::coordinates(std::span<const Bounded> at) const {
+  return rounding_ == Rounding::of_plane ? 2 : at.size();
 }
 
-std::vector<TaskFailure> TaskWitness::failures(const Point2& at, bool closely) const {
+double TaskWitness::rounding_at(std::span<const Bounded> at, std::size_t c) const {
+  double extent = c < extents_.size() ? extents_[c] : 0;
+  if (rounding_ == Rounding::of_coordinates) return spacing(std::max(extent, std::abs(at[c].value)));
+  return spacing(std::max({extent, std::abs(at[0].value), std::abs(at[1].value)}));
+}
+
+std::pair<int, int> TaskWitness::reached_around(std::span<const Bounded> at, double many) const {
+  std::vector<double> pose;
+  for (const Bounded& own : at) pose.push_back(own.value);
+  int reached = 0, all = 0;
+  const auto look = [&] {
+    ++all;
+    if (reachable(*loads_.ends.front(), pose, mode_)) ++reached;
+  };
+  if (rounding_ == Rounding::of_coordinates) {
+    // Along each coordinate.
+    for (std::size_t c = 0; c < pose.size(); ++c)
+      for (const int way : {-1, 1}) {
+        pose[c] = at[c].value + way * many * rounding_at(at, c);
+        look();
+        pose[c] = at[c].value;
+      }
+    return {reached, all};
+  }
+  const double step = many * rounding_at(at, 0);
+  for (const int i : {-1, 0, 1})
+    for (const int j : {-1, 0, 1}) {
+      if (i == 0 && j == 0) continue;
+      pose[0] = at[0].value + step * i;
+      pose[1] = at[1].value + step * j;
+      look();
+    }
+  return {reached, all};
+}
+
+std::vector<BoundedNumerators> TaskWitness::numerators(const std::vector<const NumericModel*>& models,
+                                                       std::span<const Bounded> at, double many) const {
+  std::vector<Bounded> pose(at.begin(), at.end());
+  for (std::size_t c = 0; c < coordinates(at); ++c) pose[c].error = std::max(pose[c].error, many * rounding_at(at, c));
+  std::vector<BoundedNumerators> all;
+  for (const NumericModel* model : models) all.push_back(bounded_numerators(*model, pose, mode_));
+  return all;
+}
+
+std::optional<TaskFailure> TaskWitness::failure_of_pose(std::span<const Bounded> at, bool closely,
+                                                        std::optional<Solved>& solved) const {
+  using Kind = TaskFailure::Kind;
+  std::vector<double> pose;
+  for (const Bounded& own : at) pose.push_back(own.value);
+  const NumericModel& model = *loads_.ends.front();
+  const auto& groups = model.mechanism.groups;
+  if (!reachable(model, pose, mode_)) {
+    // Where continuation of a group ends nothing is certain.
+    const Posture here = posture(model, pose, mode_);
+    if (!groups.empty() && here.unreachable && *here.unreachable >= groups.front().first) return std::nullopt;
+    if (reached_around(at, spacings).first == 0) return TaskFailure{Kind::unreachable};
+  }
+  if (closely && groups.empty())
+    if (const auto [reached, all] = reached_around(at, boundary_spacings); reached < all)
+      return TaskFailure{Kind::boundary};
+  Solved own{numerators(loads_.ends, at, spacings), numerators(loads_.directions, at, spacings)};
+  if (!own.ends.front().reachable) return std::nullopt;
+  const Bounded& determinant = own.ends.front().determinant;
+  if (is_zero(determinant)) {
+    if (determinant.error <= known_zero * usual_determinant_) return TaskFailure{Kind::singular};
+    return std::nullopt;
+  }
+  solved = std::move(own);
+  return std::nullopt;
+}
+
+std::optional<TaskFailure> TaskWitness::judged(int demand, const Solved& solved) const {
+  const core::TaskDemand& own = demands_[static_cast<std::size_t>(demand)];
+  const NumericModel& model = *loads_.ends.front();
+  LoadedParts parts;
+  for (const BoundedNumerators& end : solved.ends) parts.ends.push_back(demanded_parts(model, own, end));
+  for (const BoundedNumerators& way : solved.directions) parts.directions.push_back(demanded_parts(model, own, way));
+  return failure_under_least_load(own, parts, loads_.balls, solved.ends.front().determinant,
+                                  usual_numerator(solved.ends));
+}
+
+std::vector<TaskFailure> TaskWitness::some_failures(std::span<const Bounded> at, bool closely, std::size_t most) const {
+  std::optional<Solved> solved;
+  if (const auto found = failure_of_pose(at, closely, solved)) return {*found};
+  std::vector<TaskFailure> all;
+  for (std::size_t d = 0; solved && d < demands_.size() && all.size() < most; ++d)
+    if (auto found = judged(static_cast<int>(d), *solved)) all.push_back(std::move(*found));
+  return all;
+}
+
+std::vector<TaskFailure> TaskWitness::failures(std::span<const Bounded> at, bool closely) const {
   return some_failures(at, closely, demands_.size());
 }
 
-std::vector<TaskFailure> TaskWitness::some_failures(const Point2& at, bool closely, std::size_t most) const {
-  using Kind = TaskFailure::Kind;
-  const auto alone = [](Kind kind) { return std::vector{TaskFailure{kind, {}, 0, 0}}; };
-  const double extent = std::max({extent_, std::abs(at[0]), std::abs(at[1])});
-  const auto around = [&](double many) {
-    std::array<Point2, 8> list{};
-    constexpr std::array<std::array<int, 2>, 8> ways = {
-        {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
-    const double step = many * spacing(extent);
-    for (std::size_t i = 0; i < list.size(); ++i) list[i] = {at[0] + step * ways[i][0], at[1] + step * ways[i][1]};
-    return list;
+std::optional<TaskFailure> TaskWitness::failure(std::span<const double> at, bool closely) const {
+  const std::vector<TaskFailure> found = some_failures(exactly(at), closely, 1);
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::optional<TaskFailure> TaskWitness::failure_of(std::span<const double> at, int demand) const {
+  std::optional<Solved> solved;
+  if (const auto found = failure_of_pose(exactly(at), false, solved)) return found;
+  return solved && demand >= 0 ? judged(demand, *solved) : std::nullopt;
+}
+
+bool TaskWitness::differs(std::span<const double> a, std::span<const double> b, int demand) const {
+  const std::vector<BoundedNumerators> one = numerators(loads_.ends, exactly(a), 0),
+                                       two = numerators(loads_.ends, exactly(b), 0);
+  if (!one.front().reachable || !two.front().reachable) return false;
+  const auto opposite = [](const Bounded& x, const Bounded& y) {
+    return !is_zero(x) && !is_zero(y) && (x.value > 0) != (y.value > 0);
   };
-  const auto reached = [&](const Point2& p) { return reachable_at(p); };
-  if (!reachable_at(at)) {
-    const auto near = around(spacings);
-    if (std::none_of(near.begin(), near.end(), reached)) return alone(Kind::unreachable);
+  if (demand < 0) return opposite(one.front().determinant, two.front().determinant);
+  const core::TaskDemand& own = demands_[static_cast<std::size_t>(demand)];
+  for (std::size_t load = 0; load < one.size(); ++load) {
+    const std::vector<Bounded> x = demanded_parts(*loads_.ends.front(), own, one[load]),
+                               y = demanded_parts(*loads_.ends.front(), own, two[load]);
+    if (x.size() == 1 && opposite(x[0], y[0])) return true;
   }
-  if (closely) {
-    const auto near = around(boundary_spacings);
-    if (!std::all_of(near.begin(), near.end(), reached)) return alone(Kind::boundary);
+  return false;
+}
+
+bool TaskWitness::is_never_loaded(int demand, const std::vector<std::vector<double>>& poses) const {
+  // Of all poses: at one where nearly all reactions vanish, none is large beside its rounding.
+  double usual = 0, error = 0;
+  std::size_t seen = 0;
+  for (const std::vector<double>& pose : poses) {
+    const std::vector<BoundedNumerators> all = numerators(loads_.ends, exactly(pose), 0);
+    if (!all.front().reachable || is_zero(all.front().determinant)) continue;
+    ++seen;
+    usual = std::max(usual, usual_numerator(all));
+    for (const BoundedNumerators& load : all)
+      for (const Bounded& part :
+           demanded_parts(*loads_.ends.front(), demands_[static_cast<std::size_t>(demand)], load)) {
+        if (!is_zero(part)) return false;
+        error = std::max(error, part.error);
+      }
   }
-  std::vector<Bounded> pose;
-  for (const double value : at) pose.emplace_back(value, spacings * spacing(extent));
-  std::vector<BoundedNumerators> numerators;
-  for (const NumericModel* load : loads_) numerators.push_back(bounded_numerators(*load, pose, mode_));
-  if (!numerators.front().reachable) return {};
-  const Bounded& determinant = numerators.front().determinant;
-  if (is_zero(determinant)) {
-    if (determinant.error <= known_zero * usual_determinant_) return alone(Kind::singular);
-    return {};
-  }
-  std::vector<TaskFailure> all;
-  for (const core::TaskDemand& demand : demands_) {
-    if (auto found = failure_of(*loads_.front(), demand, numerators)) all.push_back(std::move(*found));
-    if (all.size() >= most) break;
-  }
-  return all;
+  return seen > 0 && error <= known_zero * usual;
 }
 
 }  // namespace clearloci::numeric

@@ -1,10 +1,12 @@
 // Whether a pose fails a task, for certain, by reactions solved in floating point with bounds on their rounding errors:
-// the witness without whom no task is called refuted. It knows the mechanism, not the enclosures or the curves.
+// the witness without whom no task is called refuted. It knows the mechanism, not the enclosures or the curves. Poses
+// have one to six coordinates; of open designs (mechanism/open_design.hpp) variables follow them.
 //
-// Between two loads a reaction is w(t) = (1 - t) a + t b, solved under either of them. |w(t)|^2 is a convex quadratic
-// in t; its least value lies at t = -a.(b - a)/|b - a|^2, or at an end.
+// A reaction's numerator and |A| vary continuously with the pose wherever the mechanism is assembled: if the sign of
+// either is certain at both ends of a way and differs, then on that way it vanishes or the mechanism does not follow.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +15,12 @@
 #include "numeric/reactions.hpp"
 
 namespace clearloci::numeric {
+
+/// What comes on top of a load, one a ball.
+struct LoadChange {
+  double fx = 0, fy = 0;  ///< N
+  double couple = 0;      ///< N m
+};
 
 struct TaskFailure {
   enum class Kind {
@@ -23,9 +31,17 @@ struct TaskFailure {
     too_small     ///< it is less than it has to be
   };
   Kind kind = Kind::unreachable;
-  core::TaskDemand demand;  ///< of the last two kinds
-  double load = 0;          ///< t
-  double size = 0;          ///< of the reaction there, N or N m
+  core::TaskDemand demand = {};          ///< of the last two kinds, like what follows
+  double load = 0;                       ///< t, from the first load to the last
+  double size = 0;                       ///< of the reaction there, N or N m
+  std::vector<LoadChange> changes = {};  ///< where loads may differ within balls
+};
+
+/// The loads under which a task is asked for. All models must outlive what uses them.
+struct WitnessLoads {
+  std::vector<const NumericModel*> ends = {};  ///< the mechanism under the one load, or under the first and the last
+  std::vector<const NumericModel*> directions = {};  ///< under unit loads
+  std::vector<core::LoadBall> balls = {};            ///< what may come on top, by the directions
 };
 
 /// The components of what is demanded, times |A|: two of a guide's contact as a whole, one of either end of it.
@@ -34,27 +50,61 @@ std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskD
 
 class TaskWitness {
  public:
-  /// `loads`: the mechanism under the one load, or under the first and the last; must outlive the witness. `demands`:
-  /// without those of reactions that are zero whatever the pose. `usual`: poses that say how large |A| is, and
-  /// coordinates.
-  TaskWitness(std::vector<const NumericModel*> loads, std::vector<int> mode, std::vector<core::TaskDemand> demands,
-              std::span<const Point2> usual);
+  /// How far from a pose others are that cannot be told from it, by rounding.
+  enum class Rounding {
+    of_plane,       ///< the first two values are a place in the plane; what follows them is a variable
+    of_coordinates  ///< each value is a coordinate, measured alone
+  };
 
-  /// Nothing where the pose is good, or doubles cannot tell. It stands for every pose within a few roundings of it.
-  /// `closely`: also whether the boundary of the workspace passes through it.
-  std::optional<TaskFailure> failure(const Point2& at, bool closely) const;
+  /// `demands`: without those of reactions that are zero whatever the pose. `usual`: poses that say how large |A| is,
+  /// and coordinates.
+  TaskWitness(WitnessLoads loads, std::vector<int> mode, std::vector<core::TaskDemand> demands,
+              const std::vector<std::vector<double>>& usual, Rounding rounding);
 
-  /// All that fail there; one that has no demand, if any, alone.
-  std::vector<TaskFailure> failures(const Point2& at, bool closely) const;
+  /// All that fail at a pose; one that has no demand, if any, alone. Nothing where the pose is good, or doubles cannot
+  /// tell. It stands for every pose within a few roundings, and for variables within their errors. `closely`: also
+  /// whether the boundary of the workspace passes through it.
+  std::vector<TaskFailure> failures(std::span<const Bounded> at, bool closely) const;
+
+  /// The first of them.
+  std::optional<TaskFailure> failure(std::span<const double> at, bool closely) const;
+
+  /// The same of one demand; of -1, of |A| and the workspace alone.
+  std::optional<TaskFailure> failure_of(std::span<const double> at, int demand) const;
+
+  /// Whether a sign differs, for certain, at two poses: of |A| with demand -1, else of the one component of a reaction
+  /// or of |A|.
+  bool differs(std::span<const double> a, std::span<const double> b, int demand) const;
+
+  /// Whether a reaction is zero, to rounding, at every pose.
+  bool is_never_loaded(int demand, const std::vector<std::vector<double>>& poses) const;
+
+  const std::vector<core::TaskDemand>& demands() const { return demands_; }
 
  private:
-  std::vector<TaskFailure> some_failures(const Point2& at, bool closely, std::size_t most) const;
-  bool reachable_at(const Point2& at) const;
+  /// Under the ends of the loads and under the directions.
+  struct Solved {
+    std::vector<BoundedNumerators> ends, directions;
+  };
 
-  std::vector<const NumericModel*> loads_;
+  double rounding_at(std::span<const Bounded> at, std::size_t c) const;
+  std::size_t coordinates(std::span<const Bounded> at) const;
+  /// How many of the poses that cannot be told from one are within reach, and of how many.
+  std::pair<int, int> reached_around(std::span<const Bounded> at, double many) const;
+  std::vector<BoundedNumerators> numerators(const std::vector<const NumericModel*>& models, std::span<const Bounded> at,
+                                            double many) const;
+  /// What fails whatever is demanded; else `solved` is filled where demands can be judged.
+  std::optional<TaskFailure> failure_of_pose(std::span<const Bounded> at, bool closely,
+                                             std::optional<Solved>& solved) const;
+  std::optional<TaskFailure> judged(int demand, const Solved& solved) const;
+  std::vector<TaskFailure> some_failures(std::span<const Bounded> at, bool closely, std::size_t most) const;
+
+  WitnessLoads loads_;
   std::vector<int> mode_;
   std::vector<core::TaskDemand> demands_;
-  double usual_determinant_ = 0, extent_ = 0;  ///< extent: the largest coordinate of the usual poses
+  Rounding rounding_;
+  double usual_determinant_ = 0;
+  std::vector<double> extents_;  ///< of every value the largest among the usual poses
 };
 
 }  // namespace clearloci::numeric

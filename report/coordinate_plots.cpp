@@ -81,8 +81,7 @@ class ModePlots {
       const std::string& name = all_.joints[j];
       if (samples_.has("f" + name + "x")) {
         std::vector<double> size = lengths(samples_.at("f" + name + "x"), samples_.at("f" + name + "y"));
-        if (const std::string fz = "f" + name + "z"; samples_.has(fz))
-          size = lengths(size, samples_.at(fz));
+        if (const std::string fz = "f" + name + "z"; samples_.has(fz)) size = lengths(size, samples_.at(fz));
         forces.push_back({"f_" + name, {line(at_, size, force_.per_si)}, static_cast<int>(j)});
       }
       const auto add = [&](std::vector<PlotSeries>& series, const std::string& quantity, double factor) {

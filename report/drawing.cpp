@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <numbers>
+#include <optional>
 
 #include "report/label_places.hpp"
 #include "report/mechanism_drawing.hpp"

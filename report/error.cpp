@@ -177,12 +177,11 @@ std::string never_loaded_words(const std::vector<std::string>& joints) {
 
 std::string mode_text(const core::Errors& errors, const core::ModeErrors& mode) {
   const bool range = mode.map.dimension() == 1;
-  const std::string over =
-      range ? fmt::format("{} in {} steps", mode.map.coordinates.front(), errors.grid.front())
-            : fmt::format("{} cells", fmt::join(errors.grid, " x "));
+  const std::string over = range ? fmt::format("{} in {} steps", mode.map.coordinates.front(), errors.grid.front())
+                                 : fmt::format("{} cells", fmt::join(errors.grid, " x "));
   const std::string words = mode_words(errors.loci.tower, mode.mode);
-  std::string text = fmt::format("{}: pose error over {}{}\n", errors.loci.mechanism, over,
-                                 words.empty() ? "" : "; " + words);
+  std::string text =
+      fmt::format("{}: pose error over {}{}\n", errors.loci.mechanism, over, words.empty() ? "" : "; " + words);
   if (!mode.never_loaded.empty()) text += never_loaded_words(mode.never_loaded);
   const SizesText sizes(errors, mode);
   text += "\n" + sizes.of_all() + "\n";

@@ -40,8 +40,8 @@ Plane sliced(const core::Errors& errors, const core::FieldMap& map, const core::
   const std::size_t across = slice.across;
   Plane plane{core::slice_of(map, slice), {}};
   core::LocusMap& loci = plane.loci;
-  const std::string value = core::told(map.axes[across][slice.layer], map.angles[across] ? "rad" : "m",
-                                       errors.loci.units, few_digits);
+  const std::string value =
+      core::told(map.axes[across][slice.layer], map.angles[across] ? "rad" : "m", errors.loci.units, few_digits);
   loci.mechanism = errors.loci.mechanism + ", " + map.coordinates[across] + " = " + value;
   loci.units = errors.loci.units;
   loci.tower.roots = errors.loci.tower.roots;
@@ -85,16 +85,16 @@ Files error_csv(const ErrorSheet& sheet) {
   Files files;
   const core::Units& units = sheet.errors.loci.units;
   for (const core::ModeErrors& mode : sheet.errors.modes)
-    files.push_back({file_name("error", sheet.errors, mode, ".csv"),
-                     mode.map.dimension() == 1 ? shown_csv(core::samples_of(mode), units) : field_csv(mode.map, units)});
+    files.push_back({file_name("error", sheet.errors, mode, ".csv"), mode.map.dimension() == 1
+                                                                         ? shown_csv(core::samples_of(mode), units)
+                                                                         : field_csv(mode.map, units)});
   return files;
 }
 
 Files error_vti(const ErrorSheet& sheet) {
   Files files;
   for (const core::ModeErrors& mode : sheet.errors.modes)
-    if (mode.map.dimension() > 1)
-      files.push_back({file_name("error", sheet.errors, mode, ".vti"), vti(mode.map)});
+    if (mode.map.dimension() > 1) files.push_back({file_name("error", sheet.errors, mode, ".vti"), vti(mode.map)});
   return files;
 }
 

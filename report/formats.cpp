@@ -94,7 +94,8 @@ Files error_json(const ErrorSheet& sheet) { return {{"error.json", json_text(err
 template <PictureFormat format>
 Files trajectory_pictures(const core::TrajectoryResult& result) {
   Files files;
-  for (const NamedPlot& one : trajectory_plots(result)) files.push_back({one.name + ending_of(format), plot(one.plot, format)});
+  for (const NamedPlot& one : trajectory_plots(result))
+    files.push_back({one.name + ending_of(format), plot(one.plot, format)});
   return files;
 }
 Files trajectory_json(const core::TrajectoryResult& result) {
@@ -132,7 +133,8 @@ Format pictures(std::string_view name) {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = [] {
     std::vector<Format> list = {
-        {"json", any, loci_json, zones_json, verification_json, error_json, trajectory_json, pose_json, pose_in_modes_json, validation_json},
+        {"json", any, loci_json, zones_json, verification_json, error_json, trajectory_json, pose_json,
+         pose_in_modes_json, validation_json},
         {"csv", any, loci_csv, error_csv, trajectory_csv},
         pictures<PictureFormat::svg>("svg"),
         pictures<PictureFormat::png>("png"),

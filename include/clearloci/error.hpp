@@ -1,6 +1,6 @@
 // How far is the end effector from where it should be, all over the workspace? The pose error that the clearances cause
-// (docs/method.md section 6), over one to three free coordinates: in the cells of a grid, over a single coordinate along
-// its range with the jumps at the loci.
+// (docs/method.md section 6), over one to three free coordinates: in the cells of a grid, over a single coordinate
+// along its range with the jumps at the loci.
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::Errors errors = clearloci::find_errors(model, {.grid = {200, 300}});
@@ -38,13 +38,13 @@ struct FieldMap {
   std::vector<std::string> coordinates;
   std::vector<bool> angles;          ///< of each coordinate
   std::vector<double> lower, upper;  ///< the box; of an angle rad, else m
-  /// Along each coordinate the values at which the fields are known, ascending: the middles of equal cells; over a single
-  /// coordinate the ends of equal steps, and more.
+  /// Along each coordinate the values at which the fields are known, ascending: the middles of equal cells; over a
+  /// single coordinate the ends of equal steps, and more.
   std::vector<std::vector<double>> axes;
   std::vector<Field> fields;
 
   std::size_t dimension() const { return axes.size(); }
-  std::size_t size() const;                                     ///< cells
+  std::size_t size() const;                                         ///< cells
   std::size_t index(const std::array<std::size_t, 3>& cell) const;  ///< `cell`: 0 beyond the coordinates
   std::array<std::size_t, 3> cell(std::size_t index) const;
   std::vector<double> place(std::size_t index) const;  ///< where the fields are known in the cell
@@ -123,17 +123,17 @@ namespace clearloci {
 struct ErrorRequest {
   /// Cells along each coordinate, along a single one equal steps; empty: 720, 400 x 400 or 40 x 40 x 40.
   std::vector<int> grid = {};
-  bool worst_case = true;   ///< also the worst case over all take-ups
-  bool with_loci = true;    ///< over one and two coordinates also the loci, for pictures and as the places of jumps
-  bool with_zones = false;  ///< also the zones, with the cells in each
+  bool worst_case = true;     ///< also the worst case over all take-ups
+  bool with_loci = true;      ///< over one and two coordinates also the loci, for pictures and as the places of jumps
+  bool with_zones = false;    ///< also the zones, with the cells in each
   long zone_cells = 300'000;  ///< of zones by cells: as ZoneRequest::cells
-  LociRequest loci = {};    ///< working modes, deadline, progress; and how the loci are traced
+  LociRequest loci = {};      ///< working modes, deadline, progress; and how the loci are traced
 };
 
 /// Over one to three free coordinates. Throws InputError where there are others, where no joint has a clearance, where
 /// the equations are not square or the determinant vanishes in every pose, where zones over two lengths are asked for
-/// without loci; LimitReached where the deadline comes before the errors, but not where it comes before the loci; and as
-/// trace_loci and find_zones, where these are asked for.
+/// without loci; LimitReached where the deadline comes before the errors, but not where it comes before the loci; and
+/// as trace_loci and find_zones, where these are asked for.
 Errors find_errors(const Model& model, const ErrorRequest& request = {});
 
 }  // namespace clearloci

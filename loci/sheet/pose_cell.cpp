@@ -227,6 +227,23 @@ std::vector<double> PoseCellOf<Form>::component_values(const core::PoseDemand& d
 }
 
 template <class Form>
+Form PoseCellOf<Form>::sum_of(const core::LinearRow& row, std::size_t load) const {
+  Sum sum;
+  add_step(sum, 1, row.free[load]);
+  double beyond = 0;
+  for (const core::LinearRow::Term& term : row.terms) {
+    const auto j = static_cast<std::size_t>(term.unknown);
+    const Form& factor = registers_[static_cast<std::size_t>(term.step)];
+    add_step(sum, solution_[load][j], term.step);
+    sum.add(1, factor * moved_[load][j]);
+    beyond += factor.magnitude() * rest_[load][j];
+  }
+  Form own = sum.result();
+  own.r = (own.r + rounded_up(beyond, row.terms.size())) * (1 + 0x1p-40) + Form::slack(std::abs(own.c));
+  return own;
+}
+
+template <class Form>
 bool PoseCellOf<Form>::keeps(int index) {
   const core::PoseDemand& demand = statics_->demands[static_cast<std::size_t>(index)];
   const std::vector<double> first = component_values(demand, 0), last = component_values(demand, statics_->loads - 1);

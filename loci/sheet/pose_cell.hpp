@@ -77,6 +77,9 @@ class PoseCellOf : public CellAnswers {
   /// Of a proven cell: what every reaction has at least, N or N m, one a demand.
   const std::vector<double>& least_sizes() const { return least_; }
 
+  /// Of a cell that is regular: a row's sum in any of its poses under a load, N, N m or what the row is of.
+  Form sum_of(const core::LinearRow& row, std::size_t load) const;
+
   /// Of a cell in doubt; of forms of second order only. The chart and the box that it was entered with must still be.
   Known known();
 

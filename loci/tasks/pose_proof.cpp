@@ -11,12 +11,11 @@
 #include <utility>
 
 #include "loci/search/search.hpp"
+#include "loci/tasks/pose_parts.hpp"
 
 namespace clearloci::loci::pose {
 namespace {
 
-/// The finest cells, as a part of the piece: some thousand spacings of doubles.
-constexpr double finest = 1e-11;
 /// Cells to be handed out to threads.
 constexpr std::size_t enough_parts = 256;
 /// Suspects of one kind that a witness could not confirm, until no more are shown to it.
@@ -25,42 +24,6 @@ constexpr int most_in_vain = 8;
 constexpr int between_looks = 4;
 /// So little of what is usual is no direction.
 constexpr double no_direction = 1e-9;
-
-struct PieceBox {
-  const PosePiece* piece = nullptr;
-  PoseBox box;
-};
-
-Pose pose_of(const PieceBox& part) { return part.piece->chart.at(middle_of(part.box)); }
-
-/// The parameter along which a cut helps most; -1: all are too fine. One that is left far behind the others is cut
-/// sometimes, since what is in doubt may depend on it in another cell.
-template <class Cell>
-int chosen(const Cell& cell, const PieceBox& part) {
-  constexpr double share_of_width = 1e-3;
-  int best = -1;
-  double most = -1, total = 0;
-  for (const double own : cell.spreads()) total += own;
-  if (!(total > 0)) total = 1;
-  for (std::size_t p = 0; p < part.box.size(); ++p) {
-    const auto& whole = part.piece->box[p];
-    const double width = part.box[p][1] - part.box[p][0], all = whole[1] - whole[0];
-    if (!(width > finest * all) || !(width > 0x1p-50 * std::max(std::abs(whole[0]), std::abs(whole[1])))) continue;
-    const double own = cell.spreads()[p] + share_of_width * total * width / all;
-    if (own > most) {
-      most = own;
-      best = static_cast<int>(p);
-    }
-  }
-  return best;
-}
-
-std::pair<PieceBox, PieceBox> halves(const PieceBox& part, std::size_t along, double at) {
-  std::pair<PieceBox, PieceBox> two{part, part};
-  two.first.box[along][1] = at;
-  two.second.box[along][0] = at;
-  return two;
-}
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
@@ -189,23 +152,7 @@ class Search {
   void leave_open(const PieceBox& part) {
     const std::lock_guard lock(mutex_);
     ++open_;
-    const std::size_t n = region_.coordinates();
-    for (std::size_t c = 0; c < n; ++c) {
-      double low = part.piece->chart.base[c], high = low;
-      for (std::size_t p = 0; p < part.box.size(); ++p) {
-        const double a = part.piece->chart.ways[p][c] * part.box[p][0],
-                     b = part.piece->chart.ways[p][c] * part.box[p][1];
-        low += std::min(a, b);
-        high += std::max(a, b);
-      }
-      if (lower_.size() < n) {
-        lower_.push_back(low);
-        upper_.push_back(high);
-      } else {
-        lower_[c] = std::min(lower_[c], low);
-        upper_[c] = std::max(upper_[c], high);
-      }
-    }
+    widen(part, lower_, upper_);
     constexpr std::size_t most_open = 1000;  // the search ends where it stays open again and again
     if (open_ >= most_open) stopped_ = true;
   }
@@ -306,14 +253,6 @@ struct LargerKey {
     return a.key > b.key;
   }
 };
-
-bool over(const PoseEffort& effort, long cells) {
-  return cells >= effort.most_cells || (effort.deadline && std::chrono::steady_clock::now() >= *effort.deadline);
-}
-
-/// Whether products of coordinates pay: where every coordinate has them. Of six they are but a few, take as many cells
-/// and half as long again.
-bool with_products(const PoseRegion& region) { return region.coordinates() <= Affine::curved; }
 
 template <class Cell>
 std::vector<double> least_by(const core::PoseStatics& statics, const PoseRegion& region, const std::vector<double>& met,

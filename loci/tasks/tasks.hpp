@@ -3,6 +3,7 @@
 #pragma once
 
 #include "loci/tasks/design_proof.hpp"
+#include "loci/tasks/pose_displacement.hpp"
 #include "loci/tasks/pose_nearest.hpp"
 #include "loci/tasks/pose_proof.hpp"
 #include "loci/tasks/pose_region.hpp"

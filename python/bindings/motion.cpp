@@ -251,8 +251,11 @@ void bind_motion(py::module_& module) {
   });
   module.def("find_errors", [](const Model& model, const std::vector<int>& grid, bool worst_case, bool loci, bool zones,
                                const py::kwargs& options) {
-    ErrorRequest request{
-        .grid = grid, .worst_case = worst_case, .with_loci = loci, .with_zones = zones, .loci = request_of(model, options)};
+    ErrorRequest request{.grid = grid,
+                         .worst_case = worst_case,
+                         .with_loci = loci,
+                         .with_zones = zones,
+                         .loci = request_of(model, options)};
     LociRequest own = request.loci;
     return unlocked(own, [&](const LociRequest& with_signals) {
       request.loci = with_signals;

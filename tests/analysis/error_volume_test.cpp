@@ -100,10 +100,8 @@ TEST(ErrorVolume, HasSlicesAcrossEachCoordinate) {
 
 /// In a zone no leg's force changes its sign: by the closed form, which knows nothing of cells.
 TEST(ErrorVolume, SharesItsCellsOutAmongZonesInWhichNoLegsForceTurns) {
-  const Errors errors = find_errors(example("three_rpr_orientation"), {.grid = {9, 8, 7},
-                                                                       .worst_case = false,
-                                                                       .with_zones = true,
-                                                                       .zone_cells = 20'000});
+  const Errors errors = find_errors(example("three_rpr_orientation"),
+                                    {.grid = {9, 8, 7}, .worst_case = false, .with_zones = true, .zone_cells = 20'000});
   const ModeErrors& mode = errors.modes.front();
   ASSERT_GT(mode.zones.size(), 1U);
   std::vector<int> zones_of(mode.map.size(), 0);

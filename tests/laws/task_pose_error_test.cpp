@@ -138,6 +138,26 @@ TEST(TaskPoseError, AWitnessNamesItsLoad) {
   }
 }
 
+/// A couple is one number, which two parts of a force can bring to zero in many ways.
+TEST(TaskUnderABallOfLoads, IsRefutedWhereACoupleVanishesUnderSomeLoad) {
+  const Verification answer = decided(clearances(), box.text() + "loads_within: [{load: 1, radius: 200}]\n");
+  ASSERT_EQ(answer.verdict, core::Verdict::refuted);
+  ASSERT_EQ(answer.witness->kind, core::TaskWitness::Kind::vanishing);
+  const core::WitnessLoad& load = answer.witness->loads.at(0);
+  EXPECT_LE(std::hypot(load.force[0], load.force[1] + 100), 200);
+  const mechanism::Mechanism m = mechanism::parse_mechanism(
+      under(clearances(), fmt::format("[{:.17g}, {:.17g}]", load.force[0], load.force[1])), "a.yaml");
+  const numeric::NumericModel model = numeric::compile(m);
+  const numeric::Posture posture = numeric::posture(model, answer.witness->at, mechanism::working_mode(m));
+  const numeric::Accuracy accuracy = numeric::pose_accuracy(model, posture);
+  for (const core::Vanishing& own : answer.witness->vanishing)
+    for (std::size_t j = 0; j < m.joints.size(); ++j) {
+      if (m.joints[j].name != own.joint) continue;
+      const bool effort = own.quantity == core::Quantity::M;
+      EXPECT_NEAR(effort ? accuracy.of_joints[j].actuator : accuracy.of_joints[j].force.norm(), 0, 1e-9) << own.joint;
+    }
+}
+
 TEST(TaskPoseError, OfRandomMechanismsIsNotContradictedByPoses) {
   std::mt19937 random(16);
   const auto uniform = [&](double low, double high) {

@@ -315,7 +315,8 @@ TEST(SpatialErrorMap, AgreesWithSinglePoses) {
         worst << one.worst.dp, one.worst.dalpha;
         for (std::size_t c = 0; c < 6; ++c) {
           const auto k = static_cast<Eigen::Index>(c);
-          EXPECT_NEAR(map.fields[c].values[map.index({i, j})], error(k), tolerance * error.norm()) << map.fields[c].name;
+          EXPECT_NEAR(map.fields[c].values[map.index({i, j})], error(k), tolerance * error.norm())
+              << map.fields[c].name;
           EXPECT_NEAR(map.fields[7 + c].values[map.index({i, j})], worst(k), tolerance * worst.norm());
         }
         EXPECT_NEAR(map.fields[6].values[map.index({i, j})], one.error.dp.norm(), tolerance * error.norm());

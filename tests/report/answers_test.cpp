@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "report/error.hpp"
 #include "report/formats.hpp"
@@ -144,12 +144,8 @@ core::Errors one_field() {
   errors.loci.tower.coordinates = {"x", "y"};
   errors.grid = {2, 2};
   core::ModeErrors mode;
-  mode.map = {{"x", "y"},
-              {false, false},
-              {0, 0},
-              {2, 2},
-              {{0.5, 1.5}, {0.5, 1.5}},
-              {{"dp", "distance", "m", false, {1, 2, nan, 4}}}};
+  mode.map = {{"x", "y"}, {false, false},           {0, 0},
+              {2, 2},     {{0.5, 1.5}, {0.5, 1.5}}, {{"dp", "distance", "m", false, {1, 2, nan, 4}}}};
   mode.sizes = {core::ErrorSizes{2, 4, 4, 4, 3}};
   mode.reachable = 3;
   mode.zones = {{"z1", {0, 1}, {core::ErrorSizes{1, 2, 2, 2, 1}}}, {"z2", {2}, {std::nullopt}}};

@@ -1,0 +1,260 @@
+#include "loci/tasks/pose_displacement.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <queue>
+
+#include "core/errors.hpp"
+#include "loci/search/search.hpp"
+#include "loci/tasks/pose_parts.hpp"
+
+namespace clearloci::loci::pose {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Poses under a part of the loads between the first and the last.
+struct LoadedPart {
+  PieceBox part;
+  double from = 0, to = 0;
+};
+
+/// How far the end effector is displaced over a cell that was entered last.
+template <class Cell, class Form>
+class Displacement {
+ public:
+  Displacement(const core::PoseStatics& statics, std::size_t loads, const std::vector<PoseTakeUp>& take_ups)
+      : loads_(loads), units_(statics.loads - loads), take_ups_(take_ups) {}
+
+  /// |dp|^2, m^2.
+  Form square(const Cell& cell, double from, double to) const {
+    std::vector<Form> moved(units_);
+    for (const PoseTakeUp& own : take_ups_) {
+      const std::vector<Form> taken = direction(cell, own, from, to);
+      const Form clearance = within(own.clearance);
+      for (std::size_t u = 0; u < units_; ++u) {
+        Form along;
+        for (std::size_t i = 0; i < taken.size(); ++i)
+          along = along + cell.sum_of(own.reaction[i], loads_ + u) * taken[i];
+        moved[u] = moved[u] + clearance * along;
+      }
+    }
+    Form sum;
+    for (const Form& own : moved) sum = sum + squared(own);
+    return sum;
+  }
+
+ private:
+  /// Anything between two numbers.
+  static Form within(const std::array<double, 2>& range) {
+    Form own(range[0] + 0.5 * (range[1] - range[0]));
+    own.r = std::max(range[1] - own.c, own.c - range[0]) * (1 + 0x1p-50);
+    if (own.r > 0) own.r += Form::slack(std::abs(own.c));
+    return own;
+  }
+
+  /// c / |c| of every component, under some of the loads.
+  std::vector<Form> direction(const Cell& cell, const PoseTakeUp& take_up, double from, double to) const {
+    std::vector<Form> c;
+    for (const core::LinearRow& row : take_up.reaction) {
+      const Form first = cell.sum_of(row, 0);
+      // Affine between the first load and the last.
+      c.push_back(loads_ == 1 ? first : first + within({from, to}) * (cell.sum_of(row, 1) - first));
+    }
+    if (c.size() == 1) {
+      if (c[0].lower() > 0) return {Form(1.0)};
+      if (c[0].upper() < 0) return {Form(-1.0)};
+      return {within({-1, 1})};
+    }
+    Form square;
+    for (const Form& own : c) square = square + squared(own);
+    if (!(square.lower() > 0)) return std::vector<Form>(c.size(), within({-1, 1}));
+    const Form per_size = inverse(square_root(square));
+    for (Form& own : c) {
+      own = own * per_size;
+      if (own.magnitude() > 2) own = within({-1, 1});
+    }
+    return c;
+  }
+
+  std::size_t loads_, units_;
+  const std::vector<PoseTakeUp>& take_ups_;
+};
+
+double root_above(double square) { return std::sqrt(std::max(0.0, square)) * (1 + 0x1p-50); }
+
+template <class Cell, class Form>
+class DisplacementSearch {
+ public:
+  DisplacementSearch(const core::PoseStatics& statics, std::size_t loads, const std::vector<PoseTakeUp>& take_ups,
+                     const PoseRegion& region, double margin, double allowed, double accuracy, const PoseEffort& effort)
+      : displacement_(statics, loads, take_ups),
+        ranged_(loads > 1),
+        region_(region),
+        reach_(margin + region.hair()),
+        allowed_(allowed),
+        accuracy_(accuracy),
+        effort_(effort),
+        cells_([&statics] { return Cell(statics); }),
+        pieces_(region.pieces(margin)) {}
+
+  PoseDisplacement run() {
+    for (const PosePiece& piece : pieces_) open_.push({infinite, {{&piece, piece.box}, 0, ranged_ ? 1.0 : 0.0}});
+    double left = 0;  // of parts that are as fine as can be
+    while (!open_.empty() && open_.top().most > enough()) {
+      if (found_.cells >= effort_.most_cells) found_.out_of_cells = true;
+      if (effort_.deadline && std::chrono::steady_clock::now() >= *effort_.deadline) found_.out_of_time = true;
+      if (found_.out_of_cells || found_.out_of_time || found_.met > allowed_) break;
+      left = std::max(left, step());
+    }
+    found_.most = std::max(left, open_.empty() ? 0.0 : open_.top().most);
+    for (; !open_.empty() && open_.top().most > allowed_; open_.pop()) leave_open(open_.top().loaded.part);
+    return found_;
+  }
+
+ private:
+  struct Item {
+    double most = infinite;
+    LoadedPart loaded;
+    bool operator<(const Item& other) const { return most < other.most; }
+  };
+  /// What is found of a part.
+  struct Seen {
+    bool inside = false;  ///< poses of the task, that may be assembled
+    double most = infinite;
+    std::optional<double> met = {};  ///< at its middle
+    int along = -1;                  ///< where to cut it; -1: it is too fine
+    bool cut_loads = false;
+  };
+
+  double enough() const {
+    const double near = found_.met * (1 + accuracy_);
+    return found_.met <= allowed_ ? std::min(near, allowed_) : near;
+  }
+
+  /// The parts of the largest bounds, looked at side by side; what is merged of them does not depend on threads.
+  double step() {
+    constexpr std::size_t at_once = 64;
+    std::vector<Item> items;
+    while (!open_.empty() && items.size() < at_once && open_.top().most > enough()) {
+      items.push_back(open_.top());
+      open_.pop();
+    }
+    found_.cells += static_cast<long>(items.size());
+    std::vector<Seen> seen(items.size());
+    run_in_order(items.size(), [&](std::size_t i) { seen[i] = look(cells_.local(), items[i].loaded); });
+    double left = 0;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const Seen& own = seen[i];
+      if (!own.inside) continue;
+      const LoadedPart& loaded = items[i].loaded;
+      if (own.met && *own.met > found_.met) {
+        found_.met = *own.met;
+        found_.at = pose_of(loaded.part);
+        found_.load = 0.5 * (loaded.from + loaded.to);
+      }
+      const double most = std::min(own.most, items[i].most);
+      if (own.cut_loads) {
+        const double middle = 0.5 * (loaded.from + loaded.to);
+        open_.push({most, {loaded.part, loaded.from, middle}});
+        open_.push({most, {loaded.part, middle, loaded.to}});
+      } else if (own.along >= 0) {
+        const auto along = static_cast<std::size_t>(own.along);
+        const auto& [low, high] = loaded.part.box[along];
+        auto [first, second] = halves(loaded.part, along, 0.5 * (low + high));
+        open_.push({most, {std::move(first), loaded.from, loaded.to}});
+        open_.push({most, {std::move(second), loaded.from, loaded.to}});
+      } else {
+        left = std::max(left, most);
+        if (most > allowed_) leave_open(loaded.part);
+      }
+    }
+    return left;
+  }
+
+  void leave_open(const PieceBox& part) {
+    ++found_.open;
+    widen(part, found_.lower, found_.upper);
+  }
+
+  Seen look(Cell& cell, const LoadedPart& loaded) const {
+    const PieceBox& part = loaded.part;
+    if (region_.distance(*part.piece, part.box) > reach_) return {};
+    const CellAnswers::State state = cell.enter(part.piece->chart, part.box);
+    if (state == CellAnswers::State::outside) return {};
+    Seen own{.inside = true};
+    if (state != CellAnswers::State::proven) {
+      own.along = chosen(cell, part);
+      return own;
+    }
+    const Form square = displacement_.square(cell, loaded.from, loaded.to);
+    if (std::isfinite(square.upper())) own.most = root_above(square.upper());
+    if (region_.distance(pose_of(part)) <= reach_) {
+      const PoseBox point = point_of(part.box);
+      const double middle = 0.5 * (loaded.from + loaded.to);
+      if (cell.enter(part.piece->chart, point) == CellAnswers::State::proven)
+        own.met = std::sqrt(std::max(0.0, displacement_.square(cell, middle, middle).lower()));
+    }
+    const Moves moves{square.a};
+    own.along = chosen(moves, part);
+    own.cut_loads = loaded.to > loaded.from && loaded.to - loaded.from >= widest(part);
+    return own;
+  }
+
+  struct Moves {
+    std::array<double, Form::noises> of_square;
+    std::array<double, Form::noises> spreads() const {
+      std::array<double, Form::noises> sizes{};
+      for (std::size_t p = 0; p < sizes.size(); ++p) sizes[p] = std::abs(of_square[p]);
+      return sizes;
+    }
+  };
+
+  static PoseBox point_of(const PoseBox& box) {
+    PoseBox point = box;
+    const std::vector<double> middle = middle_of(box);
+    for (std::size_t p = 0; p < point.size(); ++p) point[p] = {middle[p], middle[p]};
+    return point;
+  }
+
+  /// The largest width of a part, as a share of its piece's.
+  static double widest(const PieceBox& part) {
+    double most = 0;
+    for (std::size_t p = 0; p < part.box.size(); ++p) {
+      const auto& whole = part.piece->box[p];
+      if (whole[1] > whole[0]) most = std::max(most, (part.box[p][1] - part.box[p][0]) / (whole[1] - whole[0]));
+    }
+    return most;
+  }
+
+  Displacement<Cell, Form> displacement_;
+  bool ranged_;
+  const PoseRegion& region_;
+  double reach_, allowed_, accuracy_;
+  const PoseEffort& effort_;
+  tbb::enumerable_thread_specific<Cell> cells_;
+  std::vector<PosePiece> pieces_;
+  std::priority_queue<Item> open_;
+  PoseDisplacement found_;
+};
+
+}  // namespace
+
+PoseDisplacement most_displaced(const core::PoseStatics& statics, std::size_t loads,
+                                const std::vector<PoseTakeUp>& take_ups, const PoseRegion& region, double margin,
+                                double allowed, double accuracy, const PoseEffort& effort) {
+  core::ensure(statics.demands.empty() && loads >= 1 && loads <= 2 && loads < statics.loads,
+               "loads, and unit forces behind them");
+  return with_products(region)
+             ? DisplacementSearch<PoseCell, Affine>(statics, loads, take_ups, region, margin, allowed, accuracy, effort)
+                   .run()
+             : DisplacementSearch<PoseCellOf<FlatAffine>, FlatAffine>(statics, loads, take_ups, region, margin, allowed,
+                                                                      accuracy, effort)
+                   .run();
+}
+
+}  // namespace clearloci::loci::pose
