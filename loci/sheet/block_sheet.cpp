@@ -57,8 +57,12 @@ class Growth {
     while (!queue_.empty()) {
       const int next = queue_.front();
       queue_.pop_front();
+      // Cells that were not held against their neighbours cover nothing.
+      if (is_over()) {
+        nodes_[static_cast<std::size_t>(next)].state = State::refused;
+        continue;
+      }
       spread_from(next);
-      if (is_over()) break;
     }
     return true;
   }
@@ -304,7 +308,6 @@ class Growth {
 
   /// The leaves beyond a face.
   void meet(int index, int from, const PoseBox& face, std::size_t axis, std::size_t side) {
-    if (is_over()) return;
     const PoseBox box = nodes_[static_cast<std::size_t>(index)].box;
     PoseBox common = face;
     for (std::size_t p = 0; p < box.size(); ++p) {
