@@ -12,6 +12,7 @@
 #include "analysis/zones.hpp"
 #include "core/errors.hpp"
 #include "mechanism/fits.hpp"
+#include "mechanism/group_closing.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/error_map.hpp"
@@ -68,7 +69,13 @@ std::optional<ErrorSizes> sizes_of(const std::vector<double>& values, const std:
 }
 
 core::LocusMap loci_below(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
-  return request.with_loci ? with_modes(mechanism, trace_loci(mechanism, request.loci)) : empty_map(mechanism);
+  // Those of points that close together are known over one coordinate.
+  const bool known = mechanism.groups.empty() || mechanism.coordinates.size() == 1;
+  if (request.with_loci && known) return with_modes(mechanism, trace_loci(mechanism, request.loci));
+  core::LocusMap none = empty_map(mechanism);
+  if (request.with_loci)
+    none.notes.push_back("no loci are drawn: the points of group " + mechanism.groups.front().name + " close together");
+  return none;
 }
 
 core::WorkingMode mode_in(const core::LocusMap& loci, const DyadSides& sides) {
@@ -79,6 +86,8 @@ ErrorMap error_map(const mechanism::Mechanism& mechanism, const ErrorRequest& re
   if (request.with_zones && !request.with_loci)
     throw core::InputError({mechanism.file}, "zones are bounded by the loci", "ask for the loci too");
   require_coordinates(mechanism, 2, 2, "maps of errors are drawn");
+  if (request.with_zones)
+    mechanism::require_closed_forms(mechanism, "errors zone by zone are told", "ask without zones");
   if (request.with_zones && !mechanism::is_plane(mechanism))
     throw core::InputError({mechanism.file}, "errors zone by zone are those over two lengths", "ask without zones");
   if (const std::optional<Framed> own = framed_where_far(mechanism))

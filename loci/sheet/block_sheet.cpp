@@ -92,7 +92,8 @@ class Growth {
   std::vector<SheetEnd> ends() {
     std::vector<SheetEnd> all;
     for (const Node& own : nodes_)
-      if (own.axis < 0 && own.state != State::open && own.state != State::proven)
+      if (own.axis < 0 && own.state != State::open && own.state != State::proven &&
+          own.box[0][1] - own.box[0][0] <= 2 * std::ldexp(box_[0][1] - box_[0][0], -deepest(1)))
         all.push_back({own.box[0][0], own.box[0][1], own.block, false});
     for (SheetEnd& own : all) own.proven = own.block == 0 && (turns_back(own, -1) || turns_back(own, 1));
     return all;
