@@ -167,6 +167,10 @@ class Closure {
     return put(at(form.first) + (cross(at(form.second) - at(form.first), v) / turn) * u);
   }
 
+  bool place(const mechanism::GroupPoint&) {
+    throw core::InputError({}, "a certificate is of points with closed forms, and some of these close together", "");
+  }
+
   bool place(const mechanism::OffsetPoint& form) {
     const Vector way = at(form.second) - at(form.first);
     const Interval d = square_of(way);

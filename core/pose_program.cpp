@@ -172,7 +172,7 @@ PoseProgram PoseProgramBuilder::program(const std::vector<int*>& results) const 
   std::vector<bool> needed(steps_.size(), false);
   for (const int* result : results) needed[static_cast<std::size_t>(*result)] = true;
   for (const PoseProgram::Block& block : blocks_)
-    for (const auto* own : {&block.unknowns, &block.equations, &block.jacobian})
+    for (const auto* own : {&block.unknowns, &block.equations, &block.jacobian, &block.rates})
       for (const int step : *own) needed[static_cast<std::size_t>(step)] = true;
   for (std::size_t i = steps_.size(); i-- > 0;) {
     if (!needed[i]) continue;
@@ -193,7 +193,7 @@ PoseProgram PoseProgramBuilder::program(const std::vector<int*>& results) const 
   }
   for (int* result : results) *result = place[static_cast<std::size_t>(*result)];
   for (PoseProgram::Block block : blocks_) {
-    for (auto* own : {&block.unknowns, &block.equations, &block.jacobian})
+    for (auto* own : {&block.unknowns, &block.equations, &block.jacobian, &block.rates})
       for (int& step : *own) {
         step = place[static_cast<std::size_t>(step)];
         block.end = std::max(block.end, step + 1);

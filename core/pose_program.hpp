@@ -45,6 +45,7 @@ struct PoseProgram {
     std::vector<int> unknowns;   ///< steps
     std::vector<int> equations;  ///< as many steps, zero
     std::vector<int> jacobian;   ///< row after row
+    std::vector<int> rates;      ///< over one coordinate: the derivatives of the equations by it; else empty
     std::vector<double> near;    ///< the unknowns of the posture whose sheet is meant, at the pose `near`
   };
   std::vector<Step> steps;

@@ -47,6 +47,9 @@ void PoseSteps::close(std::size_t group, const std::vector<int>& equations) {
   builder_.close(group, equations);
   core::PoseProgram::Block& block = builder_.block(group);
   block.name = m_.groups[group].name;
+  if (m_.coordinates.size() == 1)
+    for (const int equation : equations)
+      block.rates.push_back(builder_.derivative(equation, symbols_.at(m_.coordinates.front().name)));
   for (const std::array<Rational, 3>& place : m_.groups[group].near)
     for (std::size_t i = 0; i < dimension(m_); ++i) block.near.push_back(core::to_double(place[i]));
 }

@@ -82,9 +82,9 @@ struct NumericModel {
   std::vector<std::array<int, 2>> across;
 
   int inputs() const {
-    std::size_t unknowns = 0;
-    for (const GroupBlock& group : groups) unknowns += group.unknowns.size();
-    return static_cast<int>(box.size() + dyads.size() + unknowns);
+    std::size_t count = box.size() + dyads.size();
+    for (const GroupBlock& group : groups) count += group.unknowns.size();
+    return static_cast<int>(count);
   }
 };
 

@@ -57,8 +57,12 @@ class Growth {
     while (!queue_.empty()) {
       const int next = queue_.front();
       queue_.pop_front();
+      // Cells that were not held against their neighbours cover nothing.
+      if (is_over()) {
+        nodes_[static_cast<std::size_t>(next)].state = State::refused;
+        continue;
+      }
       spread_from(next);
-      if (is_over()) break;
     }
     return true;
   }
@@ -85,11 +89,13 @@ class Growth {
   bool out_of_effort() const { return out_of_effort_; }
   bool differs() const { return differs_; }
   /// Over one coordinate: cells at the end of what is covered.
-  std::vector<SheetEnd> ends() const {
+  std::vector<SheetEnd> ends() {
     std::vector<SheetEnd> all;
     for (const Node& own : nodes_)
-      if (own.axis < 0 && own.state != State::open && own.state != State::proven)
+      if (own.axis < 0 && own.state != State::open && own.state != State::proven &&
+          own.box[0][1] - own.box[0][0] <= 2 * std::ldexp(box_[0][1] - box_[0][0], -deepest(1)))
         all.push_back({own.box[0][0], own.box[0][1], own.block, false});
+    for (SheetEnd& own : all) own.proven = own.block == 0 && (turns_back(own, -1) || turns_back(own, 1));
     return all;
   }
 
@@ -213,6 +219,60 @@ class Growth {
     return true;
   }
 
+  /// Whether the sheet, which covers what lies before a cell (`side` -1) or behind it, goes on there as a curve in q
+  /// and u on which det J has another sign a little farther on: then it vanishes between the two, at a dead centre.
+  bool turns_back(const SheetEnd& end, int side) {
+    const core::PoseProgram::Block& block = program_.blocks.front();
+    if (block.rates.empty()) return false;
+    const double width = end.upper - end.lower, edge = side < 0 ? end.lower : end.upper;
+    const auto at = [&](double apart) { return solution({edge + side * apart}); };
+    const std::optional<BlockUnknowns> last = at(width);
+    if (!last) return false;
+    const std::size_t n = block.unknowns.size();
+    for (const double part : {1e-4, 1e-6, 1e-8}) {
+      const double apart = part * (box_[0][1] - box_[0][0]);
+      const std::optional<BlockUnknowns> first = at(apart);
+      if (!first) continue;
+      std::size_t k = 0;
+      for (std::size_t j = 0; j < n; ++j)
+        if (std::abs((*last)[j] - (*first)[j]) > std::abs((*last)[k] - (*first)[k])) k = j;
+      const double half = std::abs((*last)[k] - (*first)[k]);
+      if (half > 0 && is_curve_with_two_signs(edge, edge + side * apart, *first, *last, k, half)) return true;
+    }
+    return false;
+  }
+
+  bool is_curve_with_two_signs(double q, double q_first, const BlockUnknowns& first, const BlockUnknowns& last,
+                               std::size_t k, double half) {
+    const std::size_t n = program_.blocks.front().unknowns.size();
+    const std::span<const double> start(last.data(), n);
+    if (!forms_.turn(q, start, k, half)) return false;
+    const std::vector<typename PoseForms<Form>::Unique> curve = forms_.turned();
+    const double way = first[k] < last[k] ? -1 : 1;
+    // Where the first solution is on the curve, and what lies as far on the other side.
+    BlockUnknowns other(n);
+    double q_other = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto& [middle, radius] = curve[j];
+      const double here = middle.c + way * middle.a[0] + (Form::products > 0 ? middle.b[0] : 0),
+                   there = middle.c - way * middle.a[0] + (Form::products > 0 ? middle.b[0] : 0);
+      const double known = j == k ? q_first : first[j];
+      if (!(std::abs(here - known) + 0.1 * radius < radius)) return false;
+      (j == k ? q_other : other[j]) = there;
+    }
+    other[k] = last[k] - way * half;
+    if (!forms_.turn(q_other, other, k, 0)) return false;
+    for (std::size_t j = 0; j < n; ++j) {
+      const Form& own = forms_.turned()[j].middle;
+      const double there =
+          curve[j].middle.c - way * curve[j].middle.a[0] + (Form::products > 0 ? curve[j].middle.b[0] : 0);
+      if (!(std::abs(own.c - there) + 0.1 * curve[j].radius < curve[j].radius)) return false;
+    }
+    const int beyond = forms_.orientation();
+    if (forms_.run({{q_first}, {}}, {}, first) != PoseForms<Form>::Outcome::complete) return false;
+    return beyond * forms_.orientation() < 0;
+  }
+
   bool cut(int index) {
     const PoseBox box = nodes_[static_cast<std::size_t>(index)].box;
     std::size_t axis = 0;
@@ -249,7 +309,6 @@ class Growth {
 
   /// The leaves beyond a face.
   void meet(int index, int from, const PoseBox& face, std::size_t axis, std::size_t side) {
-    if (is_over()) return;
     const PoseBox box = nodes_[static_cast<std::size_t>(index)].box;
     PoseBox common = face;
     for (std::size_t p = 0; p < box.size(); ++p) {

@@ -80,6 +80,10 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run_steps(int from, int to, c
       case Operation::unknown:
         break;
       case Operation::coordinate: {
+        if (coordinate_ != nullptr) {
+          registers_[i] = *coordinate_;
+          break;
+        }
         const auto q = static_cast<std::size_t>(own.first);
         SumOf<Form> sum;
         sum.add(1, Form(chart.base[q]));
@@ -141,7 +145,7 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run_steps(int from, int to, c
 /// With the unknowns enclosed by u_0 + D in the registers: whether the operator stays inside D. `rest`: what of it is
 /// beside -Y g.
 template <class Form>
-bool PoseForms<Form>::contracts(const core::PoseProgram::Block& block, const std::vector<double>& inverse,
+bool PoseForms<Form>::contracts(const std::vector<int>& jacobian, const std::vector<double>& inverse,
                                 const std::vector<Form>& moved, const std::vector<double>& radius,
                                 std::vector<double>& rest) {
   const std::size_t n = radius.size();
@@ -153,7 +157,7 @@ bool PoseForms<Form>::contracts(const core::PoseProgram::Block& block, const std
       SumOf<Form> sum;
       if (i == k) sum.add(1, Form(1.0));
       for (std::size_t j = 0; j < n; ++j)
-        if (const Form& entry = (*this)[block.jacobian[j * n + k]]; entry.c != 0 || entry.radius() > 0)
+        if (const Form& entry = (*this)[jacobian[j * n + k]]; entry.c != 0 || entry.radius() > 0)
           sum.add(-inverse[i * n + j], entry);
       const Form e = sum.result();
       beside += e.magnitude() * radius[k];
@@ -167,65 +171,131 @@ bool PoseForms<Form>::contracts(const core::PoseProgram::Block& block, const std
   return inside;
 }
 
+/// `put(middle, radius)` evaluates the equations with unknowns in middle + [-radius, radius]. `middle`: at first the
+/// solution at the cell's middle.
 template <class Form>
-typename PoseForms<Form>::Outcome PoseForms<Form>::close(const core::PoseProgram::Block& block, const PoseChart& chart,
-                                                         const PoseBox& box, std::span<const double> start) {
+template <class Put>
+typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<int>& jacobian,
+                                                            const std::vector<int>& equations, const Put& put,
+                                                            std::vector<Form>& middle, std::vector<Form>& result,
+                                                            std::vector<Unique>& unique) {
   constexpr int iterations = 3;     // orders of the cell that u_0 holds
   constexpr double finest = 1e-11;  // of the unknowns' size: far above what rounding leaves of a solution
   constexpr std::array<double, 4> widths = {64, 8, 2, 1.25};
-  const std::size_t n = block.unknowns.size();
-  std::vector<Form> middle, moved(n);
+  const std::size_t n = middle.size();
+  std::vector<Form> moved(n);
+  std::vector<double> inverse(n * n), radius(n, 0.0), rest(n);
   double size = 0;
-  for (const double own : start) {
-    middle.emplace_back(own);
-    size = std::max(size, std::abs(own));
-  }
-  const auto put = [&](const std::vector<double>* radius) {
-    for (std::size_t k = 0; k < n; ++k) {
-      Form own = middle[k];
-      if (radius != nullptr) own.r += (*radius)[k] + Form::slack(std::abs(own.c));
-      (*this)[block.unknowns[k]] = own;
-    }
-    return run_steps(block.begin, block.end, chart, box, nullptr);
-  };
-  std::vector<double> inverse(n * n);
-  const auto newton = [&](std::size_t i) {
-    SumOf<Form> sum;
-    for (std::size_t j = 0; j < n; ++j) sum.add(inverse[i * n + j], (*this)[block.equations[j]]);
-    return sum.result();
-  };
+  for (const Form& own : middle) size = std::max(size, std::abs(own.c));
   for (int step = 0; step <= iterations; ++step) {
-    if (const Outcome own = put(nullptr); own != Outcome::complete) return Outcome::in_doubt;
+    if (put(middle, radius) != Outcome::complete) return Outcome::in_doubt;
     if (step == 0) {
-      std::vector<double> jacobian;
-      for (const int own : block.jacobian) jacobian.push_back((*this)[own].c);
-      if (!loci::invert(jacobian, inverse, n)) {
+      std::vector<double> at_middle;
+      for (const int own : jacobian) at_middle.push_back((*this)[own].c);
+      if (!loci::invert(at_middle, inverse, n)) {
         doubt_ = Form();
         doubt_.a.fill(1);
         return Outcome::in_doubt;
       }
     }
-    for (std::size_t i = 0; i < n; ++i) moved[i] = newton(i);
+    for (std::size_t i = 0; i < n; ++i) {
+      SumOf<Form> sum;
+      for (std::size_t j = 0; j < n; ++j) sum.add(inverse[i * n + j], (*this)[equations[j]]);
+      moved[i] = sum.result();
+    }
     if (step == iterations) break;
     for (std::size_t i = 0; i < n; ++i) {
       middle[i] = middle[i] - moved[i];
       middle[i].r = 0;
     }
   }
-  std::vector<double> radius(n), rest(n);
   for (const double width : widths) {
     for (std::size_t i = 0; i < n; ++i)
       radius[i] = std::max(width * moved[i].magnitude(), std::max(width, 4.0) * finest * size);
-    if (put(&radius) != Outcome::complete || !contracts(block, inverse, moved, radius, rest)) continue;
+    if (put(middle, radius) != Outcome::complete || !contracts(jacobian, inverse, moved, radius, rest)) continue;
+    result.clear();
     for (std::size_t i = 0; i < n; ++i) {
-      unique_.push_back({middle[i], radius[i]});
+      unique.push_back({middle[i], radius[i]});
       Form own = middle[i] - moved[i];
       own.r = own.r * (1 + 0x1p-50) + rest[i] * (1 + 0x1p-50);
-      (*this)[block.unknowns[i]] = own;
+      result.push_back(own);
     }
     return Outcome::complete;
   }
   return Outcome::in_doubt;
+}
+
+namespace {
+
+template <class Form>
+Form widened(Form own, double radius) {
+  if (radius > 0) own.r += radius + Form::slack(std::abs(own.c));
+  return own;
+}
+
+}  // namespace
+
+template <class Form>
+typename PoseForms<Form>::Outcome PoseForms<Form>::close(const core::PoseProgram::Block& block, const PoseChart& chart,
+                                                         const PoseBox& box, std::span<const double> start) {
+  std::vector<Form> middle, result;
+  for (const double own : start) middle.emplace_back(own);
+  const auto put = [&](const std::vector<Form>& unknowns, const std::vector<double>& radius) {
+    for (std::size_t k = 0; k < unknowns.size(); ++k) (*this)[block.unknowns[k]] = widened(unknowns[k], radius[k]);
+    return run_steps(block.begin, block.end, chart, box, nullptr);
+  };
+  const Outcome outcome = krawczyk(block.jacobian, block.equations, put, middle, result, unique_);
+  for (std::size_t k = 0; k < result.size(); ++k) (*this)[block.unknowns[k]] = result[k];
+  return outcome;
+}
+
+template <class Form>
+bool PoseForms<Form>::turn(double q, std::span<const double> start, std::size_t k, double half) {
+  const core::PoseProgram::Block& block = program_->blocks.front();
+  const std::size_t n = start.size();
+  std::vector<Form> middle, result;
+  for (const double own : start) middle.emplace_back(own);
+  middle[k] = Form(q);
+  Form parameter(start[k]);
+  parameter.a[0] = half;
+  if (half > 0) parameter.r = Form::slack(std::abs(start[k]) + half);
+  std::vector<int> jacobian = block.jacobian;
+  for (std::size_t i = 0; i < n; ++i) jacobian[i * n + k] = block.rates[i];
+  Form coordinate;
+  const auto put = [&](const std::vector<Form>& unknowns, const std::vector<double>& radius) {
+    for (std::size_t j = 0; j < n; ++j)
+      if (j != k) (*this)[block.unknowns[j]] = widened(unknowns[j], radius[j]);
+    (*this)[block.unknowns[k]] = parameter;
+    coordinate = widened(unknowns[k], radius[k]);
+    return run_steps(0, block.end, {}, {}, nullptr);
+  };
+  coordinate_ = &coordinate;
+  turned_.clear();
+  const Outcome outcome = krawczyk(jacobian, block.equations, put, middle, result, turned_);
+  if (outcome == Outcome::complete) (void)put(result, std::vector<double>(n, 0.0));
+  coordinate_ = nullptr;
+  return outcome == Outcome::complete;
+}
+
+template <class Form>
+int PoseForms<Form>::orientation() const {
+  const core::PoseProgram::Block& block = program_->blocks.front();
+  const std::size_t n = block.unknowns.size();
+  std::vector<double> middle, inverse(n * n);
+  for (const int own : block.jacobian) middle.push_back((*this)[own].c);
+  int sign = 0;
+  if (!loci::invert(middle, inverse, n, 0, &sign)) return 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double row = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      SumOf<Form> sum;
+      if (i == k) sum.add(1, Form(1.0));
+      for (std::size_t j = 0; j < n; ++j) sum.add(-inverse[i * n + j], (*this)[block.jacobian[j * n + k]]);
+      row += sum.result().magnitude();
+    }
+    if (!(row * (1 + 0x1p-40) < 1)) return 0;
+  }
+  return sign;
 }
 
 template class PoseForms<Affine>;
