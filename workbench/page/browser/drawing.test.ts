@@ -39,7 +39,7 @@ async function give(page: Page, name: string, text: string): Promise<void> {
 }
 
 const legend = (page: Page): Promise<number> => page.locator(".legend-row").count();
-const picture = (page: Page): Promise<string> => page.locator('.sheet canvas[data-layer="mechanism"]').evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
+const picture = (page: Page): Promise<string> => page.locator('canvas[data-layer="sheet"]').evaluate((canvas: HTMLCanvasElement) => canvas.toDataURL());
 
 describe("the gallery", () => {
   it("shows twelve mechanisms, each of which opens", async () => {

@@ -1,6 +1,5 @@
 // A hand on the sheet of the page: what it does is counted, as a person would count it.
 import type { Page } from "playwright-core";
-import { expect } from "vitest";
 import { rest } from "./program";
 
 export class Sheet {
@@ -52,7 +51,7 @@ export class Sheet {
   async file(): Promise<string> {
     const text = this.page.locator("#file-text");
     if (!(await text.isVisible())) await this.page.locator("summary", { hasText: /^File$/ }).click();
-    await expect.poll(() => text.inputValue()).not.toBe("");
+    await this.page.waitForFunction(() => document.querySelector<HTMLTextAreaElement>("#file-text")?.value !== "");
     await rest(this.page);
     return text.inputValue();
   }

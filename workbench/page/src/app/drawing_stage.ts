@@ -48,8 +48,8 @@ export class DrawingStage {
   private arrow: number | undefined;
 
   constructor(private readonly bench: Workbench) {
-    this.ground = new Layer(this.canvas, "loci");
-    this.top = new Layer(this.canvas, "mechanism");
+    this.ground = new Layer(this.canvas, "sheet-loci");
+    this.top = new Layer(this.canvas, "sheet");
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.canvas.addEventListener("pointerdown", (event) => this.press(event));
     this.canvas.addEventListener("pointermove", (event) => this.move(event));

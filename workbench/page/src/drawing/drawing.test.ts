@@ -249,6 +249,8 @@ describe("snapping", () => {
     expect(way.length).toBe("100");
     expect(Math.hypot(...way.at)).toBeCloseTo(0.1, 5);
     expect(snap(drawing, [0, -0.359], pixel, { grid: true, lengths: true }, [0, 0]).length).toBe("360.555127546");
+    const given = drawingOf(drawing.text.replace("{points: [A, C]}", "{points: [A, C], length: 3601/10}"));
+    expect(snap(given, [0, -0.359], pixel, { grid: true, lengths: true }, [0, 0]).length).toBe("3601/10");
   });
 });
 
