@@ -26,6 +26,9 @@ class WrongCalls(InOwnFolder):
         for command in ("loci", "equations", "validate", "pose", "error", "zones", "verify", "trajectory"):
             self.assertIn("MODEL", self.complaint(command))
 
+    def test_view_without_a_model_has_no_parameters(self):
+        self.assertIn("--set", self.complaint("view", "--set", "L=1"))
+
     def test_mechanisms_that_a_command_is_not_for(self):
         examples = FIVE_BAR.parent
         for command in ("loci", "zones", "validate", "error"):

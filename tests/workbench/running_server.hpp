@@ -24,12 +24,12 @@ inline std::string example(const std::string& name) {
 class RunningServer {
  public:
   explicit RunningServer(double time_limit = 20)
-      : server_({.file = "five_bar.yaml",
-                 .text = example("five_bar.yaml"),
-                 .values = {},
-                 .port = 0,
-                 .time_limit = time_limit}),
-        thread_([this] { server_.run(); }) {
+      : RunningServer({.file = "five_bar.yaml",
+                       .text = example("five_bar.yaml"),
+                       .values = {},
+                       .port = 0,
+                       .time_limit = time_limit}) {}
+  explicit RunningServer(ServerOptions options) : server_(std::move(options)), thread_([this] { server_.run(); }) {
     httplib::Client client("127.0.0.1", server_.port());
     while (!client.Get("/")) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

@@ -1,6 +1,7 @@
 // The server answers its own page alone, and what it answers is what the library says.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 
 #include "clearloci/export.hpp"
@@ -31,6 +32,28 @@ TEST_F(TheServer, GivesThePageBelowItsTokenAlone) {
   EXPECT_EQ(client.Get(server->path("app.js"))->get_header_value("Content-Type"), "text/javascript; charset=utf-8");
   for (const char* path : {"/", "/index.html", "/0123456789abcdef0123456789abcdef/", "/api/start"})
     EXPECT_EQ(client.Get(path)->status, 403) << path;
+}
+
+TEST(AServerWithoutAModel, BeginsWithTheExamplesAlone) {
+  const RunningServer server(ServerOptions{});
+  const auto start = Json::parse(server.client().Get(server.path("api/start"))->body);
+  EXPECT_EQ(start["text"], "");
+  EXPECT_EQ(start["file"], "");
+  // What the gallery shows is there.
+  for (const char* name : {"five_bar.yaml", "four_bar.yaml", "gough_stewart.yaml", "delta.yaml"})
+    EXPECT_TRUE(std::any_of(start["examples"].begin(), start["examples"].end(), [&](const Json& one) {
+      return one["name"] == name;
+    })) << name;
+}
+
+TEST_F(TheServer, SaysWhereADrawingIsWrong) {
+  const std::string drawing =
+      "format: 1\ndrawn: {A: [0, 0], B: [1, 0], C: [2, 1]}\nlinks:\n  AB: {points: [A, B]}\n  BC: {points: [B, C]}\n"
+      "joints:\n  A: {revolute: [ground, AB], at: A, actuated: true}\n  B: {revolute: [AB, BC], at: B}\n"
+      "end_effector: {link: BC, at: C}\n";
+  const auto answer = Json::parse(server->ask("loci", {{"text", drawing}, {"file", "sketch.yaml"}})->body);
+  EXPECT_EQ(answer["line"], 5);
+  EXPECT_NE(std::string(answer["error"]).find("link BC moves freely"), std::string::npos) << answer;
 }
 
 TEST_F(TheServer, AnswersNoOtherOriginAndNoOtherName) {

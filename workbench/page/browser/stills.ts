@@ -1,5 +1,6 @@
 // The stills of the README: node tools/run.mjs browser/stills.ts OUT.png, with CLEARLOCI_PROGRAM set. One row: the end
 // effector is dragged across a locus, a slider moves, a task is verified.
+import { montage, type Still } from "./montage";
 import { drag, launch, open, pose, rest, Served, type } from "./program";
 
 const served = await Served.start("five_bar.yaml");
@@ -7,7 +8,7 @@ const browser = await launch();
 const { page } = await open(browser, served.address, { width: 900, height: 620 });
 await rest(page);
 
-const stills: { words: string; image: string }[] = [];
+const stills: Still[] = [];
 const still = async (words: string): Promise<void> => {
   stills.push({ words, image: (await page.locator(".stage").first().screenshot()).toString("base64") });
 };
@@ -27,10 +28,6 @@ await page.getByRole("button", { name: "box", exact: true }).click();
 await rest(page);
 await still("Draw a task: proven, with its margin, while it moves");
 
-const sheet = await browser.newPage({ viewport: { width: 1320, height: 600 } });
-const figures = stills.map((one) => `<figure><img src="data:image/png;base64,${one.image}"><figcaption>${one.words}</figcaption></figure>`);
-await sheet.setContent(`<style>body{margin:0;background:#fff}div{display:flex;gap:12px;font:14px system-ui,"DejaVu Sans",sans-serif}
-figure{margin:0;flex:1}img{width:100%;border:1px solid #d5dae0}figcaption{padding:4px 2px}</style><div>${figures.join("")}</div>`);
-await sheet.locator("div").screenshot({ path: process.argv[3] ?? "stills.png" });
+await montage(browser, stills, process.argv[3] ?? "stills.png");
 await browser.close();
 served.stop();

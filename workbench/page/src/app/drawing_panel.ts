@@ -1,6 +1,8 @@
 // What belongs to the whole drawing: its name, its units, its parameters.
 import { insertEntry, removeAt, setValue, typed, wordAt, type ValuePath } from "../data/file_text";
+import { jointFields } from "../drawing/fields";
 import { firstFree } from "../drawing/names";
+import { rename } from "../drawing/rename";
 import { h, replace, section } from "./dom";
 import type { Panel } from "./panels";
 import type { Workbench } from "./workbench";
@@ -15,6 +17,7 @@ export function drawingPanel(bench: Workbench): Panel {
   const name = h("input", { type: "text", class: "wide", "aria-label": "Name of the mechanism", autocomplete: "off" });
   const body = h("div", {});
   const parameters = h("div", { class: "parameters" });
+  const clearances = h("div", {});
   const write = (path: ValuePath, value: string): void => bench.edit(setValue(bench.state.text, path, typed(value)));
   name.addEventListener("change", () => name.value.trim() !== "" && write(["name"], name.value.trim()));
   const selects = units.map(([key, label, usual, names]) => {
@@ -36,30 +39,44 @@ export function drawingPanel(bench: Workbench): Panel {
     h("div", {}, ...selects.map((one) => one.row), h("p", { class: "quiet" }, "Numbers stay as they are written: another unit makes another size.")),
     parameters,
     add,
+    section("Clearances and fits", false, h("p", { class: "quiet" }, "A number, or a fit of ISO 286 with its diameter: H7/g6 12."), clearances),
   );
+  /** What cannot be done leaves what is written. */
+  const change = (text: string | undefined): void => {
+    if (text !== undefined) return bench.edit(text);
+    shown = "";
+    update();
+  };
   let shown = "";
   const update = (): void => {
     const { text } = bench.state;
     if (document.activeElement !== name) name.value = wordAt(text, ["name"]) ?? "";
     for (const { key, usual, select } of selects) select.value = wordAt(text, ["units", key]) ?? usual;
-    const list = bench.drawing.parameters;
-    const now = JSON.stringify(list);
+    const { parameters: list, joints: pins } = bench.drawing;
+    const fits = pins.flatMap((joint) => jointFields(bench.drawing, joint, bench.units.length.name));
+    const now = JSON.stringify([list, fits]);
     if (now === shown) return;
     shown = now;
     replace(
       parameters,
       ...list.map((one) =>
         h("div", { class: "parameter-row" },
-          cell(`name of parameter ${one.name}`, one.name, (value) => /^[A-Za-z]\w*$/.test(value) && bench.edit(renamed(bench.state.text, one.name, value))),
+          cell(`name of parameter ${one.name}`, one.name, (value) => change(rename(bench.drawing, "parameter", one.name, value))),
           cell(`value of parameter ${one.name}`, one.text, (value) => write(["parameters", one.name], value)),
           h("button", { type: "button", "aria-label": `Delete parameter ${one.name}`, click: () => bench.edit(removeAt(bench.state.text, ["parameters", one.name])) }, "×"))),
     );
+    replace(
+      clearances,
+      ...fits.map((one, k) => {
+        const input = cell(`${one.label} in the table`, one.text, () => undefined);
+        input.placeholder = one.hint;
+        input.addEventListener("change", () => {
+          const joint = bench.drawing.joints.flatMap((own) => jointFields(bench.drawing, own, bench.units.length.name))[k];
+          change(joint?.write(input.value));
+        });
+        return h("label", { class: "on-field" }, h("span", {}, one.label), input, h("span", { class: "unit" }, one.unit));
+      }),
+    );
   };
   return { element: section("Drawing", true, body), update: (news) => (news.has("state") || news.has("model")) && update() };
-}
-
-/** Another name in the place of the first one, of a parameter that stands nowhere else; where it is used the program says so. */
-function renamed(text: string, from: string, to: string): string {
-  const value = wordAt(text, ["parameters", from]);
-  return value === undefined ? text : insertEntry(removeAt(text, ["parameters", from]), ["parameters"], to, typed(value));
 }

@@ -48,8 +48,8 @@ export class DrawingStage {
   private arrow: number | undefined;
 
   constructor(private readonly bench: Workbench) {
-    this.ground = new Layer(this.canvas, "loci");
-    this.top = new Layer(this.canvas, "mechanism");
+    this.ground = new Layer(this.canvas, "sheet-loci");
+    this.top = new Layer(this.canvas, "sheet");
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.canvas.addEventListener("pointerdown", (event) => this.press(event));
     this.canvas.addEventListener("pointermove", (event) => this.move(event));
@@ -169,6 +169,7 @@ export class DrawingStage {
     }
     drawDrawing(context, view, drawing, theme, { selected: this.selected, wrong: this.wrong, arrow: this.arrow ?? arrowScale(drawing) });
     this.drawPreview(context);
+    this.canvas.dataset["points"] = JSON.stringify(Object.fromEntries(drawing.points.map((one) => [one.name, one.at])));
     this.followers.forEach((follow) => follow());
   }
 
@@ -332,6 +333,7 @@ export class DrawingStage {
     if (text === undefined) this.bench.tell("nothing");
     else this.bench.edit(text);
     this.bench.history.endGesture();
+    this.pointer = undefined; // until it moves again
     this.drawTop();
   }
 

@@ -10,29 +10,31 @@ interface Imported {
 
 const longest = 4 << 20; // bytes; the program reads no more either
 
-function toBase64(bytes: Uint8Array): string {
-  let text = "";
-  for (const byte of bytes) text += String.fromCharCode(byte);
-  return btoa(text);
-}
-
-/** Its own format as it is; what came of another one, with notes. */
-export async function openFile(bench: Workbench, file: File): Promise<string[]> {
-  if (file.size > longest) return [`${file.name} has more than 4 MB`];
-  if (/\.ya?ml$/i.test(file.name)) {
-    const text = await file.text();
-    if (text.trim() === "") return [`${file.name} is empty`];
-    bench.open(file.name, text);
+/** Its own format as it is; what came of another one, with notes. A mechanism file beside a foreign one belongs to it, as the loops of a URDF. */
+export async function openFiles(bench: Workbench, files: File[]): Promise<string[]> {
+  const own = (file: File): boolean => /\.ya?ml$/i.test(file.name);
+  const main = files.find((file) => !own(file)) ?? files[0];
+  if (!main) return [];
+  if (files.some((file) => file.size > longest)) return [`${main.name} has more than 4 MB`];
+  const text = await main.text();
+  if (text.trim() === "") return [`${main.name} is empty`];
+  if (own(main)) {
+    bench.open(main.name, text);
     return [];
   }
+  const side = files.find((file) => file !== main);
+  return openForeign(bench, main.name, text, side && { side: await side.text(), side_file: side.name });
+}
+
+/** A file of another program, or an address of one, which the program turns into a mechanism file. */
+async function openForeign(bench: Workbench, file: string, text: string, side: object = {}): Promise<string[]> {
   try {
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    const answer = await ask<Imported>("import", { file: file.name, base64: toBase64(bytes), lane: "import" });
-    bench.open(`${file.name.replace(/\.[^.]*$/, "")}.yaml`, answer.text);
+    const answer = await ask<Imported>("import", { file, text, ...side, lane: "import" });
+    bench.open(`${file.replace(/\.[^.]*$/, "")}.yaml`, answer.text);
     return answer.notes;
   } catch (error) {
     if (!(error instanceof AskingError)) throw error;
-    return [error.fault.status === 404 ? `${file.name} is no mechanism file (.yaml)` : error.fault.message];
+    return [error.fault.status === 404 ? `${file} is no mechanism file (.yaml)` : error.fault.message];
   }
 }
 
@@ -40,18 +42,21 @@ export function save(bench: Workbench): void {
   if (!bench.nothing) download(bench.state.file, bench.state.text, "application/yaml");
 }
 
-/** A button that lets choose a file; dropping one anywhere does the same. */
+/** A button that lets choose files; dropping some anywhere, or an address, does the same. */
 export function openButton(bench: Workbench, say: (words: string[]) => void): HTMLElement {
-  const input = h("input", { type: "file", id: "open-file", hidden: true, "aria-hidden": "true" });
-  const open = async (file: File | undefined): Promise<void> => {
-    if (file) say(await openFile(bench, file));
+  const input = h("input", { type: "file", id: "open-file", multiple: true, hidden: true, "aria-hidden": "true" });
+  const open = async (files: Iterable<File>): Promise<void> => {
+    say(await openFiles(bench, [...files]));
     input.value = "";
   };
-  input.addEventListener("change", () => void open(input.files?.[0]));
+  input.addEventListener("change", () => void open([...(input.files ?? [])]));
   document.addEventListener("dragover", (event) => event.preventDefault());
   document.addEventListener("drop", (event) => {
     event.preventDefault();
-    void open(event.dataTransfer?.files[0]);
+    const dropped = event.dataTransfer;
+    const address = dropped?.getData("text/plain").trim() ?? "";
+    if (dropped && dropped.files.length > 0) void open([...dropped.files]);
+    else if (/^https?:/.test(address)) void openForeign(bench, "dropped", address).then(say);
   });
   return h("span", {}, h("button", { type: "button", title: "Open a mechanism file, or drop it on the page (Ctrl+O)", click: () => input.click() }, "Open"), input);
 }

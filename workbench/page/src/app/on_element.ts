@@ -1,7 +1,9 @@
 // Beside the thing that is selected: its numbers to type, what it is or is not, and a way to take it away.
-import { fieldsOf, switchesOf, titleOf } from "../drawing/fields";
+import { fieldsOf, nameField, switchesOf, titleOf } from "../drawing/fields";
 import { placeOfElement, type Element } from "../drawing/element";
+import { boxAround } from "../draw/mechanism";
 import { page } from "../draw/view";
+import { extentOf } from "../drawing/picture";
 import type { DrawingStage } from "./drawing_stage";
 import { h, replace } from "./dom";
 import type { Workbench } from "./workbench";
@@ -25,7 +27,8 @@ export class OnElement {
     }
     this.put(selected);
     const { drawing } = this.bench;
-    const fields = fieldsOf(drawing, selected);
+    const name = nameField(drawing, selected);
+    const fields = [...(name ? [name] : []), ...fieldsOf(drawing, selected)];
     const switches = switchesOf(drawing, selected);
     const now = JSON.stringify([selected, fields, switches, titleOf(drawing, selected)]);
     if (now === this.built || (held && this.built !== "" && this.element.contains(document.activeElement))) return;
@@ -37,8 +40,11 @@ export class OnElement {
       ...fields.map((field, k) => {
         const input = h("input", { type: "text", class: "exact", name: field.label, value: field.text, placeholder: field.hint, "aria-label": field.label, spellcheck: "false", autocomplete: "off" });
         input.addEventListener("change", () => {
-          const text = fieldsOf(this.bench.drawing, selected)[k]?.write(input.value);
-          if (text !== undefined) this.bench.edit(text);
+          const now = nameField(this.bench.drawing, selected);
+          const text = [...(now ? [now] : []), ...fieldsOf(this.bench.drawing, selected)][k]?.write(input.value);
+          if (text === undefined) return void (input.value = field.text);
+          if (field.label === "name" && "name" in selected) this.stage.selected = { ...selected, name: input.value.trim() };
+          this.bench.edit(text);
         });
         return h("label", { class: "on-field" }, h("span", {}, field.label), input, h("span", { class: "unit" }, field.unit));
       }),
@@ -56,13 +62,17 @@ export class OnElement {
     if (typing !== undefined) this.element.querySelector<HTMLInputElement>(`[name="${CSS.escape(typing)}"]`)?.focus();
   }
 
-  /** Below and to the right of the thing, within the sheet. */
+  /** Beside the thing, away from the middle of what is drawn, within the sheet. */
   private put(selected: Element): void {
     const place = placeOfElement(this.bench.drawing, selected);
     const { clientWidth: width, clientHeight: height } = this.stage.canvas;
     const [x, y] = place ? page(this.stage.view, place) : [20, 20];
     const own = { width: this.element.offsetWidth || 220, height: this.element.offsetHeight || 110 };
-    this.element.style.left = `${Math.max(6, Math.min(x + 26, width - own.width - 6))}px`;
-    this.element.style.top = `${Math.max(6, Math.min(y + 22, height - own.height - 6))}px`;
+    const box = boxAround(extentOf(this.bench.drawing));
+    const middle = box ? page(this.stage.view, [(box.low[0] + box.high[0]) / 2, (box.low[1] + box.high[1]) / 2]) : [x, y];
+    const left = x < (middle[0] ?? x) - 1 ? x - 26 - own.width : x + 26;
+    const top = y < (middle[1] ?? y) - 1 ? y - 22 - own.height : y + 22;
+    this.element.style.left = `${Math.max(6, Math.min(left, width - own.width - 6))}px`;
+    this.element.style.top = `${Math.max(6, Math.min(top, height - own.height - 6))}px`;
   }
 }

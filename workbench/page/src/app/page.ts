@@ -39,7 +39,7 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
   const notice = h("div", { class: "notice", role: "status" });
   const panels: Panel[] = [
     drawingSection,
-    textPanel(bench),
+    textPanel(bench, sheet),
     reading,
     legendPanel(bench),
     valuesPanel(bench),
@@ -53,7 +53,7 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
   ];
   const space = new SpaceStage(bench);
   stage.element.append(new Inset(bench).element);
-  const main = h("div", { class: "stage-column" }, notice, drawn, stage.element, space.element, space.controls, playBar(bench), new CycleStrip(bench).element);
+  const main = h("div", { class: "stage-column" }, notice, drawn, stage.element, space.element, space.controls, playBar(bench, (n) => n === 1), new CycleStrip(bench).element);
   const work = h("main", { class: "bench" }, main, h("aside", { class: "side", "aria-label": "Design" }, ...panels.map((panel) => panel.element)));
   replace(root, buildHead(bench), gallery.element, work, welcome(bench));
 
@@ -129,7 +129,7 @@ function callAt(callout: HTMLElement, bench: Workbench, sheet: DrawingStage): vo
   const { wrong } = sheet;
   const place = wrong && placeOfElement(bench.drawing, wrong);
   callout.hidden = words === "";
-  callout.textContent = words;
+  callout.textContent = place ? words.replace(/^[^:]+:\d+:\d+: /, "") : words; // at the thing itself its line says nothing
   callout.dataset["element"] = wrong ? ("name" in wrong ? `${wrong.kind} ${wrong.name}` : `${wrong.kind} ${wrong.index + 1}`) : "";
   const [x, y] = place ? toPage(sheet.view, place) : [12, 8];
   const { clientWidth: width, clientHeight: height } = sheet.canvas;

@@ -1,6 +1,9 @@
 // One coordinate goes through its range and back, or round a full turn; what lets go on the way is said.
 import { h } from "./dom";
-import { reactionName, type Picture } from "../data/answers";
+import { reactionName, type Picture, type Point } from "../data/answers";
+import { shownOf } from "../draw/loci";
+import { crossed } from "../draw/pick";
+import { crossingWords } from "./stage_drawing";
 import type { Workbench } from "./workbench";
 
 const round = 2 * Math.PI;
@@ -12,15 +15,22 @@ export function alongPlay(low: number, high: number, turns: boolean, part: numbe
   return low + (t < 0.5 ? 2 * t : 2 - 2 * t) * (high - low);
 }
 
-/** What vanishes between two values of the one coordinate. */
-export function passed(picture: Picture, from: number, to: number): string[] {
-  const [low, high] = from < to ? [from, to] : [to, from];
+/** What vanishes between two poses over one or two coordinates. */
+export function passed(picture: Picture, from: readonly number[], to: readonly number[]): string[] {
+  if (from.length === 2) {
+    const way = [from, to].map((at): Point => [at[0] ?? 0, at[1] ?? 0]) as [Point, Point];
+    const curves = crossed(shownOf(picture, undefined, new Set()), ...way).filter((one) => one.kind !== "workspace-boundary");
+    return curves.length > 0 ? [crossingWords(curves)] : [];
+  }
+  if (from.length !== 1) return [];
+  const [low, high] = [Math.min(from[0] ?? 0, to[0] ?? 0), Math.max(from[0] ?? 0, to[0] ?? 0)];
   const found = picture.point_groups.flatMap((group) => group.points.flatMap((index) => picture.loci.isolated_points[index] ?? []));
   const names = found.filter((one) => (one.at[0] ?? NaN) > low && (one.at[0] ?? NaN) <= high && one.kind !== "workspace-boundary").map((one) => one.vanishing.map(reactionName).join(", ") || one.kind.replace("-", " "));
   return [...new Set(names)];
 }
 
-export function playBar(bench: Workbench): HTMLElement {
+/** `over`: how many free coordinates it is for. */
+export function playBar(bench: Workbench, over: (n: number) => boolean): HTMLElement {
   const play = h("button", { type: "button", "aria-pressed": "false", title: "One coordinate goes through its range" }, "Play");
   const which = h("select", { "aria-label": "the coordinate that plays" });
   const speed = h("input", { type: "range", min: "-2", max: "2", step: "0.1", value: "0", "aria-label": "speed" });
@@ -40,12 +50,13 @@ export function playBar(bench: Workbench): HTMLElement {
     last = now;
     const before = at[k] ?? 0;
     const value = Number(alongPlay(range.lower, range.upper, turns, part).toPrecision(9));
-    const names = bench.coordinates.length === 1 && bench.picture && Math.abs(value - before) < (range.upper - range.lower) / 2 ? passed(bench.picture, before, value) : [];
+    const to = at.map((one, i) => (i === k ? value : one));
+    const names = bench.picture && Math.abs(value - before) < (range.upper - range.lower) / 2 ? passed(bench.picture, at, to) : [];
     if (names.length > 0) {
       said.textContent = `lets go: ${names.join("; ")}`;
       shownUntil = now + 1200;
     } else if (now > shownUntil) said.textContent = "";
-    bench.change({ at: at.map((one, i) => (i === k ? value : one)) }, "play");
+    bench.change({ at: to }, "play");
     requestAnimationFrame(tick);
   };
   const stop = (): void => {
@@ -72,7 +83,7 @@ export function playBar(bench: Workbench): HTMLElement {
   const element = h("div", { class: "play" }, play, which, h("label", { class: "tick" }, "speed ", speed), said);
   let names = "";
   bench.watch(() => {
-    element.hidden = bench.nothing || bench.missing !== undefined || bench.coordinates.length === 0 || bench.coordinates.length > 3;
+    element.hidden = bench.nothing || bench.missing !== undefined || !over(bench.coordinates.length);
     if (element.hidden && last !== undefined) stop();
     const now = bench.coordinates.map((one) => one.name).join();
     if (now === names) return;

@@ -5,6 +5,7 @@ import { parseExact, shortNumber, toNumber } from "../data/exact";
 import { lengthWords, turnWords, unitOf, type Unit, type Units } from "../data/units";
 import { h, replace, section } from "./dom";
 import type { Panel } from "./panels";
+import { playBar } from "./play";
 import type { Stage } from "./stage";
 import type { Workbench } from "./workbench";
 
@@ -98,7 +99,7 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
     );
   };
   return {
-    element: section("Pose", true, fields, fault, facts, h("div", { class: "scroll" }, table)),
+    element: section("Pose", true, fields, playBar(bench, (n) => n > 1), fault, facts, h("div", { class: "scroll" }, table)),
     update: (news) => (news.has("pose") || news.has("model") || news.has("state")) && update(),
   };
 }

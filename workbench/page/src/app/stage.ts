@@ -1,8 +1,8 @@
 // The plane on which one designs: loci and zones below, the mechanism and the task above, all of it moved by hand.
 import type { Curve, Point, Sketch } from "../data/answers";
-import { parseExact, roundText } from "../data/exact";
+import { roundText } from "../data/exact";
 import { unitOf } from "../data/units";
-import type { ValuePath } from "../data/model_text";
+import { slotOf, type ValuePath } from "../data/file_text";
 import { drawBox, drawGrid, type AxisNames } from "../draw/axes";
 import { drawCurves, drawPoints, drawWorkspace, drawZoneNames, drawZones, shownOf, type Shown } from "../draw/loci";
 import { drawLoads, drawNames, drawReactions, drawSketch, drawSprings, drawTakeUp, placesOf, reactionArrows } from "../draw/mechanism";
@@ -338,12 +338,7 @@ export class Stage {
 
   /** Where the coordinates of a point on the ground can be written: a number, or a parameter that stands alone. */
   private slots(path: ValuePath): (ValuePath | undefined)[] {
-    return [0, 1].map((axis) => {
-      const own = [...path, axis];
-      const word = this.bench.model.read(own)?.trim() ?? "";
-      if (parseExact(word)) return own;
-      return this.bench.model.read(["parameters", word]) === undefined ? undefined : ["parameters", word];
-    });
+    return [0, 1].map((axis) => slotOf(this.bench.state.text, [...path, axis]));
   }
 
   private draggable(path: ValuePath): boolean {

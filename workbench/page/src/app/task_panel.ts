@@ -79,6 +79,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
 
   const start = (kind: TaskShape["kind"]): void => {
     const shape = firstShape(kind, bench);
+    bench.look(false); // it is drawn among the loci
     bench.change({ task: { ...noDemands, ...bench.state.task, shape } });
     stage.showAll();
     stage.arm(kind === "ranges" ? undefined : kind);

@@ -17,12 +17,13 @@ export function welcome(bench: Workbench): HTMLElement {
     h("ul", {},
       h("li", {}, h("strong", {}, "Drag the end effector"), " — where the load arrow stands: posture, reactions and error follow; crossing a curve flashes what lets go."),
       h("li", {}, h("strong", {}, "Drag a joint on the ground, or move a slider"), ": the curves follow. Type exact values such as 7/20."),
+      h("li", {}, h("strong", {}, "Draw"), " changes the mechanism itself: links, pins, motors, forces; New begins with an empty sheet."),
       h("li", {}, h("strong", {}, "Draw a task"), ": it is proven free of loci while you move it, or refuted with a witness."),
       h("li", {}, "With the keyboard: Tab to the picture, arrow keys move the end effector (Shift: small steps), + − 0 zoom, Ctrl+Z undoes.")),
     close,
   );
   dialog.addEventListener("close", () => localStorage.setItem(seen, "1"));
-  if (!localStorage.getItem(seen)) queueMicrotask(() => dialog?.showModal());
+  if (!localStorage.getItem(seen) && !bench.nothing) queueMicrotask(() => dialog?.showModal());
   return dialog;
 }
 

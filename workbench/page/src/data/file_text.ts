@@ -1,6 +1,7 @@
 // Edits of a YAML text that leave every other byte where it is: comments, order and spelling stay. Each takes the text and
 // gives the changed one; values are handed over as they are to be written.
 import { isMap, isPair, isScalar, isSeq, parseDocument, type Document, type Node, type Pair, type YAMLMap, type YAMLSeq } from "yaml";
+import { parseExact } from "./exact";
 
 /** Where a value stands in a file. */
 export type ValuePath = (string | number)[];
@@ -32,6 +33,14 @@ export function typed(value: string): string {
 export function wordAt(text: string, path: ValuePath): string | undefined {
   const node = nodeAt(parseFile(text), path);
   return isScalar(node) ? String(node.value) : undefined;
+}
+
+/** Where a coordinate can be written by the hand: a number of its own, or a parameter that stands there alone. */
+export function slotOf(text: string, path: ValuePath): ValuePath | undefined {
+  const word = wordAt(text, path)?.trim();
+  if (word === undefined) return undefined;
+  if (parseExact(word)) return path;
+  return wordAt(text, ["parameters", word]) === undefined ? undefined : ["parameters", word];
 }
 
 const isEmpty = (node: Node | undefined): boolean => !node || (isScalar(node) && (node.value === null || node.value === ""));
@@ -166,7 +175,11 @@ function indexOf(holder: YAMLMap | YAMLSeq, key: string | number | undefined): n
 /** What stands at a line and a column, both from 1 on: the path of the innermost entry there. */
 export function pathAt(text: string, line: number, column: number): ValuePath {
   const lines = text.split("\n");
-  const place = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0) + column - 1;
+  return pathAtOffset(text, lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0) + column - 1);
+}
+
+/** The same by how many letters come before. */
+export function pathAtOffset(text: string, place: number): ValuePath {
   const path: ValuePath = [];
   let node: unknown = parseFile(text).contents;
   for (;;) {
@@ -177,4 +190,12 @@ export function pathAt(text: string, line: number, column: number): ValuePath {
     path.push(isPair(item) && isScalar(item.key) ? String(item.key.value) : index);
     node = isPair(item) ? item.value : item;
   }
+}
+
+/** From where to where an entry stands, its key too. */
+export function rangeAt(text: string, path: ValuePath): [number, number] | undefined {
+  const holder = nodeAt(parseFile(text), path.slice(0, -1));
+  if (!isMap(holder) && !isSeq(holder)) return undefined;
+  const item: unknown = holder.items[indexOf(holder, path.at(-1))];
+  return item === undefined ? undefined : [startOf(item), endOf(item)];
 }

@@ -1,6 +1,7 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import type { Point } from "../data/answers";
+import { slotOf } from "../data/file_text";
 import { ModelText } from "../data/model_text";
 import { setRangeEnd } from "./coordinates";
 import { drawingOf, drawnPose, placeOf, type Drawing, type DrawnCoordinate } from "./drawing";
@@ -10,6 +11,7 @@ import { fieldsOf, switchesOf } from "./fields";
 import { angleText, arrowScale, elementAt, gripAt, handlesOf } from "./grips";
 import { missingIn } from "./missing";
 import { removeElement } from "./remove";
+import { rename } from "./rename";
 import { linksAt, snap } from "./snap";
 import { tools } from "./tools/list";
 import { moveGrip } from "./tools/select";
@@ -107,7 +109,7 @@ loads:
   });
   it("has plates, pins on links, springs, masses and free coordinates", () => {
     const sheet = fiveBar().use("plate", [25, 450], [100, 650]).use("pin", [600, 150]).use("spring", [-200, 300], [700, 300]).use("mass", [25, 450]).use("free", [25, 450]);
-    expect(sheet.lines).toEqual(expect.arrayContaining(["  CD: {points: [C, D, F], mass: 1}", "gravity: [0, -9.81]", "  - {links: [AC, DE], at: [C, E], stiffness: 1000}", "  theta: {angle: [0 deg, 360 deg], of: CD}"]));
+    expect(sheet.lines).toEqual(expect.arrayContaining(["  CD: {points: [C, D, F], mass: 1}", "gravity: [0, -9.81]", "  - {links: [AC, DE], at: [C, E], stiffness: 1000, free_length: 0}", "  theta: {angle: [0 deg, 360 deg], of: CD}"]));
     expect(sheet.drawing.links.find((one) => one.name === "BE")?.points).toEqual(["B", "E", "G"]);
     sheet.use("link", [600, 150], [600, 400]);
     expect(sheet.lines).toContain("  G: {revolute: [BE, GH], at: G}");
@@ -184,6 +186,56 @@ describe("what is drawn", () => {
   });
 });
 
+describe("names", () => {
+  it("change everywhere in the file, and nowhere else", () => {
+    const file = `# A holds C
+format: 1
+name: A and C
+parameters: {AC: 3}
+workspace: {theta: {angle: [0, 1], of: AC}, s: {stroke: [1, 2], of: C}}
+drawn: {A: [0, 0], C: [1, AC], CC: [3, 3]}
+links:
+  AC: {points: [A, C], lengths: {A-C: 3}}   # A to C
+joints:
+  A: {revolute: [ground, AC], at: A}
+  C: {prismatic: [AC, ground], at: C, axis: [A, C]}
+springs: [{joint: A, stiffness: 2, rest: 1}]
+end_effector: {link: AC, at: C}
+loads: [{link: AC, at: C, force: '30*(A - C) + AC*CC'}]
+`;
+    const drawing = drawingOf(file);
+    const point = rename(drawing, "point", "C", "Tip") ?? "";
+    expect(point).toContain("drawn: {A: [0, 0], Tip: [1, AC], CC: [3, 3]}");
+    expect(point).toContain("AC: {points: [A, Tip], lengths: {A-Tip: 3}}   # A to C");
+    expect(point).toContain("C: {prismatic: [AC, ground], at: Tip, axis: [A, Tip]}");
+    expect(point).toContain("at: Tip, force: '30*(A - Tip) + AC*CC'}");
+    expect(point).toContain("of: C}}\n");
+    expect(point).toContain("# A holds C\nformat: 1\nname: A and C\n");
+    expect(rename(drawingOf(point), "point", "Tip", "C")).toBe(file);
+    const link = rename(drawing, "link", "AC", "crank") ?? "";
+    expect(link).toContain("parameters: {AC: 3}");
+    expect(link).toContain("  crank: {points: [A, C]");
+    expect(link).toContain("C: {prismatic: [crank, ground]");
+    expect(link).toContain("+ AC*CC'");
+    const joint = rename(drawing, "joint", "A", "Motor") ?? "";
+    expect(joint).toContain("  Motor: {revolute: [ground, AC], at: A}");
+    expect(joint).toContain("springs: [{joint: Motor,");
+    expect(rename(drawing, "joint", "C", "S")).toContain("of: S}}\n");
+    expect(rename(drawing, "parameter", "AC", "h")).toContain("C: [1, h]");
+    for (const taken of ["A", "theta", "", "2x", "a b"]) expect(rename(drawing, "point", "C", taken)).toBeUndefined();
+  });
+});
+
+describe("pins", () => {
+  it("that are taken out let an end go", () => {
+    const { drawing } = fiveBar();
+    const text = removeElement(drawing, { kind: "joint", name: "D" }) ?? "";
+    expect(text).toContain("  DE: {points: [F, E]}\n");
+    expect(text).toContain("  F: [250, 600]\n");
+    expect(text).not.toContain("  D: {revolute");
+  });
+});
+
 describe("snapping", () => {
   const { drawing } = fiveBar();
   it("takes points, then lines through them, then the grid", () => {
@@ -197,6 +249,18 @@ describe("snapping", () => {
     expect(way.length).toBe("100");
     expect(Math.hypot(...way.at)).toBeCloseTo(0.1, 5);
     expect(snap(drawing, [0, -0.359], pixel, { grid: true, lengths: true }, [0, 0]).length).toBe("360.555127546");
+    const given = drawingOf(drawing.text.replace("{points: [A, C]}", "{points: [A, C], length: 3601/10}"));
+    expect(snap(given, [0, -0.359], pixel, { grid: true, lengths: true }, [0, 0]).length).toBe("3601/10");
+  });
+});
+
+describe("a parameter", () => {
+  it("is moved where it stands alone, and a formula stays", () => {
+    const file = "parameters: {d: 5}   # apart\ndrawn: {A: [d, 2*d], B: [0, 0]}\n";
+    const drawing = drawingOf(file);
+    expect(placeOf(drawing, "A")).toEqual([5, 10]);
+    expect(movePoint(drawing, "A", ["7", "8"])).toBe(file.replace("d: 5", "d: 7"));
+    expect(movePoint(drawing, "B", ["7", "8"])).toBe(file.replace("[0, 0]", "[7, 8]"));
   });
 });
 
@@ -206,12 +270,14 @@ describe("files of others", () => {
     const text = readFileSync(new URL(name, examples), "utf8");
     const drawing = drawingOf(text);
     expect(drawing.coordinates.map((one) => one.name)).toEqual(new ModelText(text).coordinateNames);
-    const point = drawing.points.find((one) => one.fixed);
-    if (!point) return;
-    const moved = movePoint(drawing, point.name, ["1", "2"]) ?? text;
-    const [before, after] = [text.split("\n"), moved.split("\n")];
-    expect(after.filter((line, k) => line !== before[k])).toHaveLength(1);
-    expect(placeOf(drawingOf(moved), point.name)).toEqual([drawing.metres, 2 * drawing.metres]);
+    // By its own numbers or by parameters that stand alone; what is a formula stays.
+    const point = drawing.points.find((one) => one.fixed && [0, 1].every((axis) => slotOf(text, [one.section, one.name, axis])));
+    const moved = point && movePoint(drawing, point.name, ["1", "2"]);
+    if (point && moved !== undefined) {
+      const [before, after] = [text.split("\n"), moved.split("\n")];
+      expect(after.filter((line, k) => line !== before[k]).length).toBeLessThanOrEqual(2);
+      expect(placeOf(drawingOf(moved), point.name)).toEqual([drawing.metres, 2 * drawing.metres]);
+    }
     const [own] = drawing.coordinates;
     expect(drawingOf(setRangeEnd(drawing, own?.name ?? "", 0, "-7") ?? "").coordinates[0]?.low).toBeLessThan(-0.001);
   });

@@ -1,7 +1,7 @@
 // What tools do to a mechanism file: the text in, the changed text out, all else as it was. Nothing comes back where there
 // is nothing to do.
 import type { Point } from "../data/answers";
-import { appendItem, insertEntry, nodeAt, parseFile, removeAt, setValue } from "../data/file_text";
+import { appendItem, insertEntry, nodeAt, parseFile, removeAt, setValue, slotOf } from "../data/file_text";
 import { carriers, drawingOf, isGround, placeOf, type Drawing } from "./drawing";
 import { nextJoint, nextLink, nextPoint } from "./names";
 
@@ -51,11 +51,14 @@ function withPlace(drawing: Drawing, name: string): Drawing {
   return again(drawing, insertEntry(drawing.text, ["drawn"], name, pair(texts)));
 }
 
-/** Moves a point whose place is written as two numbers. */
+/** Moves a point whose place is written as numbers, or as parameters that stand alone; a formula stays. */
 export function movePoint(drawing: Drawing, name: string, texts: [string, string]): Edit {
   const point = drawing.points.find((one) => one.name === name);
   if (!point?.fixed) return undefined;
-  const moved = texts.reduce((text, word, axis) => setValue(text, [point.section, name, axis], word), drawing.text);
+  const moved = texts.reduce((text, word, axis) => {
+    const slot = slotOf(text, [point.section, name, axis]);
+    return slot ? setValue(text, slot, word) : text;
+  }, drawing.text);
   return moved === drawing.text ? undefined : moved;
 }
 
@@ -231,7 +234,7 @@ export function addSpring(drawing: Drawing, from: string, to: string): Edit {
   const second = linkOf(to) === first ? others(to, first) : linkOf(to);
   if (first === second) return undefined;
   const placed = again(drawing, withPlace(withPlace(drawing, from), to).text);
-  return appendItem(placed.text, ["springs"], `{links: [${first}, ${second}], at: [${from}, ${to}], stiffness: 1000}`);
+  return appendItem(placed.text, ["springs"], `{links: [${first}, ${second}], at: [${from}, ${to}], stiffness: 1000, free_length: 0}`);
 }
 
 /** The link on which a load at this point acts: the end effector's, else the last that was drawn there. */

@@ -4,6 +4,15 @@ import { shortNumber } from "../data/exact";
 import { carriers, placeOf, type Drawing, type DrawnJoint } from "./drawing";
 import { again, setMass, toggleMotor, writtenCoordinates, type Edit } from "./edit";
 import type { Element } from "./element";
+import { removeElement } from "./remove";
+import { rename } from "./rename";
+
+/** What its name is; nothing where it has none. */
+export function nameField(drawing: Drawing, element: Element): Field | undefined {
+  if (!("name" in element)) return undefined;
+  const { kind, name } = element;
+  return { label: "name", text: name, hint: "", unit: "", write: (text) => rename(drawing, kind, name, text.trim()) };
+}
 
 export interface Field {
   label: string;
@@ -53,7 +62,7 @@ function pointFields(drawing: Drawing, name: string, length: string): Field[] {
 }
 
 /** "20e-6" or a fit with its diameter, "H7/g6 12". */
-function jointFields(drawing: Drawing, joint: DrawnJoint, length: string): Field[] {
+export function jointFields(drawing: Drawing, joint: DrawnJoint, length: string): Field[] {
   const path = ["joints", joint.name, "clearance"];
   if (joint.type === "prismatic") return joint.actuated ? [field(drawing, `${joint.name} axial clearance`, [...path, "axial"], length, "none")] : [field(drawing, `${joint.name} gap`, [...path, "gap"], length, "none")];
   const fit = wordAt(drawing.text, [...path, "fit"]);
@@ -100,7 +109,13 @@ export interface Switch {
 
 export function switchesOf(drawing: Drawing, element: Element): Switch[] {
   const joints = element.kind === "joint" ? drawing.joints.filter((one) => one.name === element.name) : element.kind === "point" ? drawing.joints.filter((one) => one.at === element.name) : [];
-  return joints.filter((one) => one.type === "revolute" || one.type === "prismatic").map((joint) => ({ label: `motor ${joint.name} (${joint.from}–${joint.to})`, on: joint.actuated, flip: () => toggleMotor(drawing, joint.name) }));
+  return joints
+    .filter((one) => one.type === "revolute" || one.type === "prismatic")
+    .flatMap((joint) => {
+      const between = `${joint.from}–${joint.to}`;
+      const motor = { label: `motor ${joint.name} (${between})`, on: joint.actuated, flip: () => toggleMotor(drawing, joint.name) };
+      return joint.type === "revolute" ? [motor, { label: `pin ${joint.name} (${between})`, on: true, flip: () => removeElement(drawing, { kind: "joint", name: joint.name }) }] : [motor];
+    });
 }
 
 /** What it is, in words. */

@@ -1,8 +1,9 @@
 // Taking something away, with all that hangs on it.
-import { removeAt, type ValuePath } from "../data/file_text";
+import { insertEntry, removeAt, setValue, wordAt, type ValuePath } from "../data/file_text";
 import { carriers, type Drawing } from "./drawing";
 import { again, removeCoordinate, type Edit } from "./edit";
 import type { Element } from "./element";
+import { nextPoint } from "./names";
 
 export function removeElement(drawing: Drawing, element: Element): Edit {
   const removed = remove(drawing, element).text;
@@ -16,7 +17,7 @@ function remove(drawing: Drawing, element: Element): Drawing {
     case "link":
       return removeLink(drawing, element.name);
     case "joint":
-      return removeJoint(drawing, element.name);
+      return unpin(drawing, element.name);
     case "load":
       return without(drawing, ["loads", element.index]);
     case "spring":
@@ -41,6 +42,21 @@ function removeJoint(drawing: Drawing, name: string): Drawing {
   const strokes = drawing.coordinates.filter((one) => one.range !== undefined && (one.name === name || (one.kind === "stroke" && one.of === name)));
   const bare = strokes.reduce((left, one) => removeCoordinate(left, one.name), drawing);
   return without(bare, ["joints", name]);
+}
+
+/** A joint taken out from between links: what nothing holds there any more gets an end of its own. */
+function unpin(drawing: Drawing, name: string): Drawing {
+  const joint = drawing.joints.find((one) => one.name === name);
+  const left = removeJoint(drawing, name);
+  if (!joint || joint.from === "ground" || joint.to === "ground" || joint.type === "prismatic") return left;
+  const loose = [joint.to, joint.from].find((link) => !left.joints.some((one) => one.at === joint.at && (one.from === link || one.to === link)));
+  const index = left.links.find((one) => one.name === loose)?.points.indexOf(joint.at) ?? -1;
+  const point = left.points.find((one) => one.name === joint.at);
+  if (loose === undefined || index < 0 || point?.section !== "drawn") return left;
+  const end = nextPoint(left);
+  const texts = [0, 1].map((axis) => wordAt(left.text, ["drawn", joint.at, axis]) ?? "0");
+  const placed = insertEntry(left.text, ["drawn"], end, `[${texts.join(", ")}]`);
+  return again(left, setValue(placed, ["links", loose, "points", index], end));
 }
 
 /** Loads, springs, joints, coordinates and the end effector that name it. */

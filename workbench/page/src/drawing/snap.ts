@@ -1,6 +1,6 @@
 // Where a hand means to point: a point that is there, a line with one, a round length, the grid.
 import type { Point } from "../data/answers";
-import { roundText } from "../data/exact";
+import { parseExact, roundText, toNumber } from "../data/exact";
 import { distanceToSegment } from "../draw/pick";
 import type { Drawing } from "./drawing";
 import type { Spot } from "./edit";
@@ -52,16 +52,24 @@ function onLength(drawing: Drawing, at: Point, pixel: number, from: Point): Spot
   const way = Math.hypot(at[0] - from[0], at[1] - from[1]);
   if (way < 4 * pixel) return undefined;
   const step = gridStep(drawing, pixel) * drawing.metres;
-  const own = drawing.links.flatMap((link) => {
-    const [a, b] = link.points.map((name) => drawing.points.find((one) => one.name === name)?.at);
-    return link.points.length === 2 && a && b ? [Math.hypot(b[0] - a[0], b[1] - a[1])] : [];
-  });
-  const same = own.find((one) => Math.abs(one - way) <= lineReach * pixel);
-  const length = same ?? Math.round(way / step) * step;
+  const same = lengthsOf(drawing).find((one) => Math.abs(one.value - way) <= lineReach * pixel);
+  const length = same?.value ?? Math.round(way / step) * step;
   if (length === 0) return undefined;
   const place: Point = [from[0] + ((at[0] - from[0]) * length) / way, from[1] + ((at[1] - from[1]) * length) / way];
   const texts = place.map((value) => roundText(value / drawing.metres, pixel / drawing.metres / 1000)) as [string, string];
-  return { at: [Number(texts[0]) * drawing.metres, Number(texts[1]) * drawing.metres], texts, length: same === undefined ? roundText(length / drawing.metres, step / drawing.metres) : exactText(length / drawing.metres) };
+  return { at: [Number(texts[0]) * drawing.metres, Number(texts[1]) * drawing.metres], texts, length: same?.text ?? roundText(length / drawing.metres, step / drawing.metres) };
+}
+
+/** Of links of two points, as given or as drawn. */
+function lengthsOf(drawing: Drawing): { value: number; text: string }[] {
+  return drawing.links.flatMap((link) => {
+    const [a, b] = link.points.map((name) => drawing.points.find((one) => one.name === name)?.at);
+    if (link.points.length !== 2 || !a || !b) return [];
+    const drawn = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const given = parseExact(link.length ?? "");
+    if (given && link.length !== undefined) return [{ value: toNumber(given) * drawing.metres, text: link.length }];
+    return link.length === undefined ? [{ value: drawn, text: exactText(drawn / drawing.metres) }] : [];
+  });
 }
 
 /** The link whose body lies under a place; of several the last drawn. */
