@@ -36,17 +36,16 @@ std::string clearance_of(const ImportOptions& options) {
   return given;
 }
 
-/// Freedoms are counted in matrices as wide as there are links.
-void check_size(const imports::Source& source, const std::string& file) {
-  constexpr std::size_t most = 300;
+/// Freedoms are counted, and postures closed, in matrices as wide as there are links.
+void check_size(const imports::Source& source, const std::string& file, std::size_t most) {
   const auto links = static_cast<std::size_t>(
       std::count_if(source.links.begin(), source.links.end(), [](const auto& link) { return !link.dropped; }));
   const auto joints = static_cast<std::size_t>(
       std::count_if(source.joints.begin(), source.joints.end(), [](const auto& joint) { return !joint.dropped; }));
-  if (links > most / 3 || joints > most)
-    throw InputError({file}, "the " + source.format + " file has " + std::to_string(links) + " links that move and " +
-                                 std::to_string(joints) + " joints",
-                     "take a part of it: 60 links are what a drawing may have");
+  if (links > most || joints > 3 * most)
+    throw InputError({file}, "the " + std::string(source.format) + " file has " + std::to_string(links) +
+                                 " links that move and " + std::to_string(joints) + " joints",
+                     "take a part of it: a drawing may have 60 links");
 }
 
 /// Links that no joint joins to anything.
@@ -89,9 +88,10 @@ Imported import_text(const std::string& text, const std::string& file, const Imp
   const std::string clearance = clearance_of(options);
   imports::Source source = format->read({text, file, options.side, options.side_file});
   source.format = format->name;
-  check_size(source, file);
+  constexpr std::size_t most_in_file = 1000, most_links = 60;
+  check_size(source, file, most_in_file);
   imports::merge_welds(source);
-  check_size(source, file);
+  check_size(source, file, most_links);
   imports::close_posture(source, file);
   imports::merge_welds(source);
   imports::merge_rigid(source);

@@ -105,20 +105,26 @@ class Constraints {
 
   void add_parallel(const SourceJoint& j, const std::vector<const Vec*>& of_from, const std::vector<const Vec*>& of_to,
                     std::vector<double>& values, Rows* rows) const {
-    // One axis: its cross product is 0 for the opposite direction too; two turned apart by more than a right angle are
-    // pushed together by their difference.
+    // Cross products are 0 for opposite directions too: what is turned apart by more than a right angle (of three axes:
+    // 1 + 2 cos < 1) is pushed together by the difference of the axis that is farthest off.
+    double together = 0;
+    std::size_t farthest = 0;
     Vec off{};
-    for (std::size_t a = 0; a < of_from.size(); ++a) off = off + cross(*of_from[a], *of_to[a]);
-    const bool flipped = of_from.size() == 1 && dot(*of_from[0], *of_to[0]) < 0;
-    if (flipped) off = *of_from[0] - *of_to[0];
+    for (std::size_t a = 0; a < of_from.size(); ++a) {
+      together += dot(*of_from[a], *of_to[a]);
+      off = off + cross(*of_from[a], *of_to[a]);
+      if (dot(*of_from[a], *of_to[a]) < dot(*of_from[farthest], *of_to[farthest])) farthest = a;
+    }
+    const bool flipped = together < (of_from.size() == 1 ? 0 : 1);
+    if (flipped) off = *of_from[farthest] - *of_to[farthest];
     for (std::size_t i = 0; i < 3; ++i) values.push_back(off[i]);
     if (start(rows, 3) == nullptr) return;
     each_freedom(j, [&](std::size_t column, std::size_t freedom, bool from) {
       Vec d{};
       for (std::size_t a = 0; a < of_from.size(); ++a) {
-        if (flipped)
+        if (flipped && a == farthest)
           d = d + (from ? turned(*of_from[a], freedom) : -turned(*of_to[a], freedom));
-        else
+        if (!flipped)
           d = d + (from ? cross(turned(*of_from[a], freedom), *of_to[a]) : cross(*of_from[a], turned(*of_to[a], freedom)));
       }
       for (std::size_t i = 0; i < 3; ++i) (*rows)[rows->size() - 3 + i][column] += d[i];
@@ -208,12 +214,12 @@ Source moved_by(const Source& source, const Constraints& constraints, const std:
   return moved;
 }
 
-/// The zero that is reached from here, or the best that was found.
-Source descend(Source source) {
+/// The zero that is reached from here, or the best that was found. `work`: multiplications that may still be done.
+Source descend(Source source, double& work) {
   double damping = 1e-6;
   double cost = squares(values_of(source));
   constexpr int most_steps = 200;
-  for (int step = 0; step < most_steps && cost > met * met; ++step) {
+  for (int step = 0; step < most_steps && cost > met * met && work > 0; ++step) {
     const Constraints constraints(source);
     std::vector<double> values;
     Rows rows;
@@ -228,8 +234,11 @@ Source descend(Source source) {
         right[i] -= rows[r][i] * values[r];
         for (std::size_t j = 0; j <= i; ++j) normal[i][j] += rows[r][i] * rows[r][j];
       }
+    const double size = static_cast<double>(n);
+    work -= static_cast<double>(rows.size()) * size * size / 2;
     bool better = false;
     for (; damping < 1e6 && !better; damping *= better ? 1 : 10) {
+      work -= size * size * size / 3;
       Rows damped = normal;
       for (std::size_t i = 0; i < n; ++i) damped[i][i] += damping;
       std::vector<double> way = right;
@@ -413,8 +422,9 @@ void close_posture(Source& source, const std::string& file) {
     return;
   }
   const Source start = source;
+  double work = 1e9;  // a second
   if (!source.open_posture) {
-    source = descend(std::move(source));
+    source = descend(std::move(source), work);
     if (!(largest(values_of(source)) <= 100 * met)) refuse(source);
     double moved = 0;
     for (std::size_t j = 0; j < source.joints.size(); ++j)
@@ -429,8 +439,8 @@ void close_posture(Source& source, const std::string& file) {
   Source best = source;
   std::optional<Source> beyond;
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_starts; ++i) {
-    Source found = descend(spread_out(start, spread));
+  for (int i = 0; i < most_starts && work > 0; ++i) {
+    Source found = descend(spread_out(start, spread), work);
     const double left = largest(values_of(found));
     if (left < least) {
       least = left;
