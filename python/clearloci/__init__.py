@@ -18,7 +18,7 @@ from . import _needs  # first: says in a line what is missing
 from ._clearloci import InputError, LimitReached, __version__
 from .answers import Curve, Loci, Surface, Validation, Verification, Zone, ZonedMode, Zones
 from .design import Designs, design
-from .model import Model, NormalizedFile, parse, read
+from .model import ImportedFile, Model, NormalizedFile, import_file, parse, read
 from .motion import CoordinateErrors, ErrorMap, ErrorVolume, Pose, Trajectory
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "Designs",
     "ErrorMap",
     "ErrorVolume",
+    "ImportedFile",
     "InputError",
     "LimitReached",
     "Loci",
@@ -42,6 +43,7 @@ __all__ = [
     "Zones",
     "__version__",
     "design",
+    "import_file",
     "parse",
     "read",
 ]
