@@ -17,10 +17,17 @@ std::string link_name(const mechanism::Mechanism& mechanism, mechanism::LinkInde
   return link == mechanism::ground ? "ground" : mechanism.links[static_cast<std::size_t>(link)].name;
 }
 
+/// With what the import of its file said.
+mechanism::Mechanism with_notes(mechanism::Mechanism own, const std::vector<std::string>& notes) {
+  own.notes.insert(own.notes.begin(), notes.begin(), notes.end());
+  return own;
+}
+
 }  // namespace
 
-SharedDesign::SharedDesign(std::string text, std::string file, mechanism::Mechanism first)
-    : text_(std::move(text)), file_(std::move(file)), first_(std::move(first)) {
+SharedDesign::SharedDesign(std::string text, std::string file, std::vector<std::string> notes,
+                           mechanism::Mechanism first)
+    : text_(std::move(text)), file_(std::move(file)), notes_(std::move(notes)), first_(std::move(first)) {
   // Each member has its own.
   for (mechanism::Joint& joint : first_.joints)
     if (joint.free_effort) joint.free_effort->given = true;
@@ -35,19 +42,30 @@ const symbolic::LocusFamily& SharedDesign::family() const {
   return *family_;
 }
 
+namespace {
+
+std::shared_ptr<const Model::Content> content_of(mechanism::ModelText own, std::string file,
+                                                 const std::vector<Model::Value>& values) {
+  mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(own.text, file, values), own.notes);
+  auto shared =
+      std::make_shared<const SharedDesign>(std::move(own.text), std::move(file), std::move(own.notes), read);
+  return std::make_shared<const Model::Content>(Model::Content{std::move(shared), values, std::move(read), false});
+}
+
+}  // namespace
+
 Model Model::parse(std::string text, std::string file, const std::vector<Value>& values) {
-  mechanism::Mechanism own = mechanism::parse_mechanism(text, file, values);
-  auto shared = std::make_shared<const SharedDesign>(std::move(text), std::move(file), own);
-  return Model(std::make_shared<const Content>(Content{std::move(shared), values, std::move(own), false}));
+  mechanism::ModelText own = mechanism::model_text(text, file);
+  return Model(content_of(std::move(own), std::move(file), values));
 }
 
 Model Model::Content::of(mechanism::Mechanism own) {
-  auto shared = std::make_shared<const SharedDesign>(std::string(), own.file, own);
+  auto shared = std::make_shared<const SharedDesign>(std::string(), own.file, std::vector<std::string>(), own);
   return Model(std::make_shared<const Content>(Content{std::move(shared), {}, std::move(own), false}));
 }
 
 Model Model::read(const std::string& path, const std::vector<Value>& values) {
-  return parse(mechanism::read_text(path, "the mechanism file"), path, values);
+  return Model(content_of(mechanism::read_model_text(path), path, values));
 }
 
 Model Model::with(const std::vector<Value>& values) const {
@@ -55,7 +73,8 @@ Model Model::with(const std::vector<Value>& values) const {
   for (const Value& old : content_->values)
     if (std::none_of(values.begin(), values.end(), [&](const Value& v) { return v.first == old.first; }))
       all.push_back(old);
-  mechanism::Mechanism own = mechanism::parse_mechanism(text(), file(), all);
+  mechanism::Mechanism own =
+      with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
   return Model(std::make_shared<const Content>(Content{content_->shared, std::move(all), std::move(own), true}));
 }
 

@@ -3,7 +3,9 @@
 
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "clearloci/mechanism.hpp"
 #include "mechanism/mechanism.hpp"
@@ -16,15 +18,17 @@ namespace clearloci {
 /// with values put in, which is looked at entry by entry; others are derived alone.
 class SharedDesign {
  public:
-  SharedDesign(std::string text, std::string file, mechanism::Mechanism first);
+  SharedDesign(std::string text, std::string file, std::vector<std::string> notes, mechanism::Mechanism first);
 
   const std::string& text() const { return text_; }
   const std::string& file() const { return file_; }
+  const std::vector<std::string>& notes() const { return notes_; }  ///< of the import of another program's file
   /// Throws core::InputError where the equations themselves are wrong.
   const symbolic::LocusFamily& family() const;
 
  private:
   std::string text_, file_;
+  std::vector<std::string> notes_;
   mechanism::Mechanism first_;
   mutable std::mutex mutex_;
   mutable std::optional<symbolic::LocusFamily> family_;

@@ -367,10 +367,11 @@ Examination check_certificate_text(const std::string& model_text, const std::str
   try {
     CertificateFile certificate = read_certificate(certificate_text, certificate_file);
     certificate.deadline = deadline;
-    if (!same_text(model_text, certificate.model))
+    const std::string own_text = mechanism::model_text(model_text, model_file).text;
+    if (!same_text(own_text, certificate.model))
       throw FalseClaim("model: it is not the file that the certificate was made for");
     mechanism::Mechanism mechanism =
-        mechanism::without_idle_limits(mechanism::parse_mechanism(model_text, model_file, certificate.overrides));
+        mechanism::without_idle_limits(mechanism::parse_mechanism(own_text, model_file, certificate.overrides));
     // What is claimed of a pose is held against the model at that pose of the model's own.
     mechanism.frame = mechanism::Frame{
         .origin = {}, .from = {certificate.from.begin(), certificate.from.end()}, .scale = certificate.scale};
@@ -383,7 +384,8 @@ Examination check_certificate_text(const std::string& model_text, const std::str
 }
 
 Examination check_certificate(const std::string& model, const std::string& certificate, const Deadline& deadline) {
-  return check_certificate_text(bytes_of(model), model, bytes_of(certificate), certificate, deadline);
+  return check_certificate_text(mechanism::read_model_text(model).text, model, bytes_of(certificate), certificate,
+                                deadline);
 }
 
 }  // namespace clearloci::check

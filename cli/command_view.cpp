@@ -36,7 +36,7 @@ int run(const ViewCommand& arguments) {
           ? usual_time_limit
           : core::to_double(parse_positive(arguments.common.time_limit, "--time-limit", mechanism::Mechanism{}));
   workbench::Server server({.file = arguments.common.model,
-                            .text = has_model ? mechanism::read_text(arguments.common.model, "the mechanism file") : "",
+                            .text = has_model ? mechanism::read_model_text(arguments.common.model).text : "",
                             .values = parse_overrides(arguments.common.overrides),
                             .port = arguments.port,
                             .time_limit = time_limit});

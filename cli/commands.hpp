@@ -23,6 +23,7 @@ Command add_trajectory_command(CLI::App& program);
 Command add_check_command(CLI::App& program);
 Command add_design_command(CLI::App& program);
 Command add_normalize_command(CLI::App& program);
+Command add_import_command(CLI::App& program);
 Command add_view_command(CLI::App& program);
 
 }  // namespace clearloci::cli

@@ -74,7 +74,8 @@ int parse_and_run(int argc, const char* const* argv) {
       add_loci_command(program),   add_equations_command(program),  add_validate_command(program),
       add_pose_command(program),   add_error_command(program),      add_zones_command(program),
       add_verify_command(program), add_trajectory_command(program), add_check_command(program),
-      add_design_command(program), add_normalize_command(program),  add_view_command(program)};
+      add_design_command(program), add_normalize_command(program),  add_import_command(program),
+      add_view_command(program)};
   try {
     check_command_word(commands, argc, argv);
     program.parse(argc, argv);

@@ -54,7 +54,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libclearloci-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 string(CONCAT CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "libginac-dev, libcln-dev, libeigen3-dev, libcgal-dev, libgmp-dev, libmpfr-dev, libmpfi-dev, libflint-dev, libyaml-cpp-dev, "
+  "libginac-dev, libcln-dev, libeigen3-dev, libcgal-dev, libgmp-dev, libmpfr-dev, libmpfi-dev, libflint-dev, libyaml-cpp-dev, libpugixml-dev, "
   "libnlopt-dev, libfmt-dev, nlohmann-json3-dev, libcairomm-1.16-dev, libboost-dev, libtbb-dev, zlib1g-dev")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-clearloci)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

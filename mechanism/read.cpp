@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "mechanism/assembly/assemble.hpp"
+#include "mechanism/import/import.hpp"
 #include "mechanism/inline_points.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/repeat.hpp"
@@ -155,8 +156,21 @@ std::string read_text(const std::string& path, const std::string& what, std::siz
   return text;
 }
 
+ModelText read_model_text(const std::string& path) {
+  Imported own = import_file(path);
+  return {std::move(own.text), std::move(own.notes)};
+}
+
+ModelText model_text(const std::string& text, const std::string& file) {
+  Imported own = import_text(text, file);
+  return {std::move(own.text), std::move(own.notes)};
+}
+
 Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides) {
-  return parse_mechanism(read_text(path, "the mechanism file"), path, overrides);
+  const ModelText own = read_model_text(path);
+  Mechanism mechanism = parse_mechanism(own.text, path, overrides);
+  mechanism.notes.insert(mechanism.notes.begin(), own.notes.begin(), own.notes.end());
+  return mechanism;
 }
 
 }  // namespace clearloci::mechanism

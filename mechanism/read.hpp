@@ -12,10 +12,20 @@ namespace clearloci::mechanism {
 /// `--set name=value` of the command line.
 using Override = std::pair<std::string, std::string>;
 
-/// Throws core::InputError, with file, line, column, problem and mend, for whatever is wrong with the input.
+/// The text of a model: of a mechanism file as it is, of another program's file or address as the drawn form that it is
+/// imported as (docs/import.md).
+struct ModelText {
+  std::string text;
+  std::vector<std::string> notes;  ///< what the import says
+};
+ModelText read_model_text(const std::string& path);
+ModelText model_text(const std::string& text, const std::string& file);
+
+/// Throws core::InputError, with file, line, column, problem and mend, for whatever is wrong with the input. Of another
+/// program's file too, whose notes are the mechanism's.
 Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides = {});
 
-/// The same for a text; `file` is the name that errors show.
+/// The same for the text of a mechanism file; `file` is the name that errors show.
 Mechanism parse_mechanism(const std::string& text, const std::string& file,
                           const std::vector<Override>& overrides = {});
 

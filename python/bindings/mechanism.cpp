@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "bindings/bindings.hpp"
+#include "clearloci/import.hpp"
 #include "clearloci/normalize.hpp"
 #include "clearloci/sketch.hpp"
 
@@ -178,6 +179,15 @@ void bind_mechanism(py::module_& module) {
           "The same mechanism with new values: with_parameters(L='0.45', F=80). What does not depend on them is "
           "derived "
           "once.")
+      .def_static(
+          "import_file",
+          [](const std::string& path, const std::string& clearance, const std::string& side,
+             const std::string& side_file) {
+            ImportedFile found = import_file(path, {clearance, side, side_file});
+            return py::make_tuple(std::move(found.text), std::move(found.format), std::move(found.notes));
+          },
+          py::arg("path"), py::arg("clearance"), py::arg("side"), py::arg("side_file"),
+          "Another program's file as a mechanism file: its text, the format, and notes")
       .def(
           "normalize",
           [](const Model& model) {

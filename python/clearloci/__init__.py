@@ -18,13 +18,14 @@ from . import _needs  # first: says in a line what is missing
 from ._clearloci import InputError, LimitReached, __version__
 from .answers import Curve, Loci, Surface, Validation, Verification, Zone, ZonedMode, Zones
 from .design import Designs, design
-from .model import Model, NormalizedFile, parse, read
+from .model import ImportedFile, Model, NormalizedFile, import_file, parse, read
 from .motion import Errors, Pose, Trajectory
 
 __all__ = [
     "Curve",
     "Designs",
     "Errors",
+    "ImportedFile",
     "InputError",
     "LimitReached",
     "Loci",
@@ -40,6 +41,7 @@ __all__ = [
     "Zones",
     "__version__",
     "design",
+    "import_file",
     "parse",
     "read",
 ]

@@ -30,6 +30,16 @@ class NormalizedFile(NamedTuple):
     notes: list[str]
 
 
+class ImportedFile(NamedTuple):
+    """Another program's file as a mechanism file in the drawn form."""
+
+    text: str
+    #: "PMKS+", "Linkage", "MJCF", "URDF", "SDF", "DXF", "pyslvs" or "CUIK"; "" of a mechanism file.
+    format: str
+    #: What was interpreted, and what was left out.
+    notes: list[str]
+
+
 class Model:
     """What a mechanism file says, with values of parameters put in::
 
@@ -390,6 +400,28 @@ def read(path: str | os.PathLike[str]) -> Model:
     """The mechanism of a file (docs/mechanism-file.md). Raises InputError with file, line, column, what is wrong and how to
     mend it."""
     return Model(_clearloci.Model.read(arguments.path("path", path)))
+
+
+def import_file(
+    path: str | os.PathLike[str],
+    *,
+    clearance: str | float | None = None,
+    loops: str | os.PathLike[str] | None = None,
+) -> ImportedFile:
+    """Another program's file as a mechanism file (docs/import.md); `read` takes such files directly.
+
+    `path`: of a file, or an address of PMKS+. `clearance`: of pins and balls of which the file says none, m or a text with
+    its unit; None: 20e-6 m. `loops`: the file with `closed_loop:` of a URDF; None: robot.yaml beside robot.urdf.
+    """
+    side = "" if loops is None else open(loops, encoding="utf-8").read()
+    return ImportedFile(
+        *_clearloci.Model.import_file(
+            os.fspath(path),
+            "" if clearance is None else str(clearance),
+            side,
+            "" if loops is None else os.fspath(loops),
+        )
+    )
 
 
 def parse(text: str, file: str = "model") -> Model:

@@ -17,7 +17,7 @@ struct Vocabulary {
   std::vector<std::string> lines;    ///< whole lines
 };
 
-/// One of the vocabularies: "mechanism", "task", "trajectory", "expression", "arguments".
+/// One of the vocabularies: "mechanism", "import", "task", "trajectory", "expression", "arguments".
 const Vocabulary& vocabulary_of(const std::string& target);
 
 /// The text after one to a few mutations; the same seed gives the same text.

@@ -76,6 +76,12 @@ TEST_P(Fuzz, MutationsKeepTheProperty) {
 
 std::vector<Target> targets() {
   std::vector<Target> all = {{"mechanism", mechanism_target, {"examples"}},
+                             {"import",
+                              import_target,
+                              {"tests/mechanism/import/files/pmks", "tests/mechanism/import/files/linkage",
+                               "tests/mechanism/import/files/mjcf", "tests/mechanism/import/files/urdf",
+                               "tests/mechanism/import/files/sdf", "tests/mechanism/import/files/dxf",
+                               "tests/mechanism/import/files/pyslvs", "tests/mechanism/import/files/cuik"}},
                              {"task", task_target, {"examples/tasks"}},
                              {"trajectory", trajectory_target, {"examples/pick_and_place"}},
                              {"expression", expression_target, {}},

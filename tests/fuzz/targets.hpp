@@ -9,6 +9,9 @@ namespace clearloci::fuzz {
 /// A mechanism file: read, checked, and every number of what comes out finite.
 void mechanism_target(std::string_view bytes);
 
+/// Another program's file of any format that is known: refused, or a mechanism file that is read or refused.
+void import_target(std::string_view bytes);
+
 /// A task file, beside mechanisms of the plane, of angles and of space.
 void task_target(std::string_view bytes);
 

@@ -325,14 +325,38 @@ Vocabulary certificate_vocabulary() {
   return all;
 }
 
+/// Of docs/import.md.
+Vocabulary import_vocabulary() {
+  Vocabulary all;
+  all.numbers = numbers;
+  all.words = {"connector", "Link",     "slider",  "slidelimit", "anchor",   "input",    "actuator", "throw",  "cpm",
+               "fastenlink", "true",    "false",   "body",       "joint",    "hinge",    "slide",    "ball",   "pos",
+               "axis",      "equality", "connect", "weld",       "site1",    "anchor",   "keyframe", "qpos",   "inertial",
+               "robot",     "link",     "parent",  "child",      "revolute", "continuous", "prismatic", "fixed", "origin",
+               "xyz",       "rpy",      "limit",   "pose",       "relative_to", "frame", "attached_to", "world", "universal",
+               "SECTION",   "ENTITIES", "LINE",    "CIRCLE",     "ground",   "M[",       "J[",       "P[",     "L[",
+               "A[",        "RP",       "[LINKS]", "[JOINTS]",   "[CONSTANTS]", "SPHERICAL", "SPH_SPH", "range", "length"};
+  all.groups = {"()", "[]", "<>", "</>", "(0,0,0)", "(0,0,0)+(0,1,0)", "P[0, 0]", "L[ground, L1]", "\"\"", ".."};
+  all.lines = {"<connector id=\"1\" x=\"0\" y=\"0\"/>",
+               "<Link id=\"1\"><connector id=\"0\"/></Link>",
+               "<joint axis=\"1 0 0\"/>",
+               "<link name=\"base\"/>",
+               "J[R, P[0, 0], L[ground, L1]],",
+               "REVOLUTE: a (0,0,0)+(0,1,0) b (0,0,0)+(0,1,0)",
+               "0",
+               "ENDSEC"};
+  return all;
+}
+
 }  // namespace
 
 const Vocabulary& vocabulary_of(const std::string& target) {
   static const Vocabulary mechanism = mechanism_vocabulary(), task = task_vocabulary(),
                           trajectory = trajectory_vocabulary(), expression = expression_vocabulary(),
                           arguments = arguments_vocabulary(), certificate = certificate_vocabulary(),
-                          server = server_vocabulary();
+                          server = server_vocabulary(), imported = import_vocabulary();
   if (target == "mechanism") return mechanism;
+  if (target == "import") return imported;
   if (target == "task") return task;
   if (target == "trajectory") return trajectory;
   if (target == "expression") return expression;

@@ -5,6 +5,7 @@
 
 #include "clearloci/errors.hpp"
 #include "clearloci/export.hpp"
+#include "clearloci/import.hpp"
 #include "clearloci/normalize.hpp"
 #include "clearloci/sketch.hpp"
 #include "workbench/server/refusal.hpp"
@@ -79,6 +80,15 @@ Json answer_normalize(const Json& body, const Watch&) {
   return {{"text", found.text}, {"notes", found.notes}};
 }
 
+Json answer_import(const Json& body, const Watch&) {
+  const Fields fields(body);
+  const ImportRequest request{.clearance = fields.text("clearance", ""),
+                              .side = fields.text("side", ""),
+                              .side_file = fields.text("side_file", "")};
+  const ImportedFile found = import_text(fields.text("text"), fields.text("file", "model.yaml"), request);
+  return {{"text", found.text}, {"source", found.format}, {"notes", found.notes}};
+}
+
 LociRequest watched(LociRequest request, const Watch& watch) {
   request.deadline = watch.deadline;
   request.progress = [watch](double fraction, std::string_view stage) {
@@ -94,7 +104,7 @@ void check(const Watch& watch) {
 }
 
 Question question_named(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, Question>, 11> known = {{{"model", answer_model},
+  constexpr std::array<std::pair<std::string_view, Question>, 12> known = {{{"model", answer_model},
                                                                             {"loci", answer_loci},
                                                                             {"zones", answer_zones},
                                                                             {"verify", answer_verify},
@@ -104,6 +114,7 @@ Question question_named(const std::string& name) {
                                                                             {"modes", answer_modes},
                                                                             {"trajectory", answer_trajectory},
                                                                             {"normalize", answer_normalize},
+                                                                            {"import", answer_import},
                                                                             {"export", answer_export}}};
   for (const auto& [own, question] : known)
     if (own == name) return question;

@@ -20,7 +20,8 @@ struct Watch {
 
 using Question = Json (*)(const Json& body, const Watch& watch);
 
-/// "model", "loci", "zones", "verify", "pose", "sweep", "cycle", "modes", "trajectory", "normalize", "export"; null for
+/// "model", "loci", "zones", "verify", "pose", "sweep", "cycle", "modes", "trajectory", "normalize",
+/// "import", "export"; null for
 /// another name.
 Question question_named(const std::string& name);
 
@@ -35,6 +36,7 @@ Json answer_cycle(const Json& body, const Watch& watch);
 Json answer_modes(const Json& body, const Watch& watch);
 Json answer_trajectory(const Json& body, const Watch& watch);
 Json answer_normalize(const Json& body, const Watch& watch);
+Json answer_import(const Json& body, const Watch& watch);
 Json answer_export(const Json& body, const Watch& watch);
 
 /// A request's loci under the watch: its deadline, and an end as soon as it is abandoned.

@@ -48,6 +48,7 @@ THIRD_PARTIES = {
     "MPFR": (("mpfr.h",), set(), {"symbolic", "mechanism"}),
     "MPFI": (("mpfi.h", "mpfi_io.h"), set(), {"check"}),
     "yaml-cpp": (("yaml-cpp/",), set(), {"mechanism"}),
+    "pugixml": (("pugixml.hpp",), set(), {"mechanism"}),
     "GiNaC": (("ginac/",), set(), {"symbolic", "mechanism"}),
     "CLN": (("cln/",), set(), {"symbolic", "mechanism"}),
     "FLINT": (("flint/",), set(), {"symbolic", "loci/numbers"}),

@@ -1,0 +1,85 @@
+// clearloci import: another program's file as a mechanism file.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "clearloci/import.hpp"
+#include "clearloci/mechanism.hpp"
+#include "cli/commands.hpp"
+#include "cli/program.hpp"
+#include "core/text.hpp"
+#include "mechanism/read.hpp"
+#include "report/files.hpp"
+#include "report/loci_json.hpp"
+
+namespace clearloci::cli {
+namespace {
+
+struct ImportCommand {
+  std::string file, output, clearance, loops;
+  bool quiet = false, json = false;
+};
+
+/// What hinders the file from being asked anything as it stands.
+std::string hindrance(const ImportedFile& found, const std::string& file) {
+  try {
+    (void)Model::parse(found.text, file);
+  } catch (const InputError& error) {
+    return error.problem() + "; " + error.mend();
+  }
+  return {};
+}
+
+int run(const ImportCommand& arguments) {
+  ImportRequest request{.clearance = arguments.clearance, .side = {}, .side_file = arguments.loops};
+  if (!arguments.loops.empty()) request.side = mechanism::read_text(arguments.loops, "the file of loops");
+  ImportedFile found = import_file(arguments.file, request);
+  if (found.format.empty())
+    throw InputError({arguments.file, 0, 0}, "this is a mechanism file already, or in no format that is known",
+                     fmt::format("name a file of {}", fmt::join(import_formats(), ", ")));
+  const std::string name = arguments.output.empty() ? arguments.file : arguments.output;
+  if (const std::string why = hindrance(found, name); !why.empty()) found.notes.push_back("as it stands it is refused: " + core::message_line(why));
+  if (!arguments.output.empty()) report::write_atomically(arguments.output, found.text);
+  if (arguments.json) {
+    fmt::print("{}", report::json_text(nlohmann::ordered_json{
+                         {"format", 1}, {"source", found.format}, {"text", found.text}, {"notes", found.notes}}));
+    return exit_done;
+  }
+  if (arguments.output.empty()) {
+    fmt::print("{}", found.text);
+    return exit_done;
+  }
+  if (arguments.quiet) return exit_done;
+  for (const std::string& note : found.notes) fmt::print("{}\n", note);
+  fmt::print("Written to {}\n", arguments.output);
+  return exit_done;
+}
+
+}  // namespace
+
+Command add_import_command(CLI::App& program) {
+  auto arguments = std::make_shared<ImportCommand>();
+  CLI::App* command = program.add_subcommand("import", "Write another program's file as a mechanism file");
+  command->add_option("file", arguments->file,
+                      "A file of PMKS+, Linkage, MJCF, URDF, SDF, DXF, pyslvs or CUIK; or an address of PMKS+, in quotes")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "File to write; without it the text is printed");
+  command->add_option("--clearance", arguments->clearance,
+                      "Radial clearance of pins and balls of which the file says none, m (20e-6) or with its unit");
+  command->add_option("--loops", arguments->loops,
+                      "The file with closed_loop: of a URDF; otherwise robot.yaml beside robot.urdf");
+  command->add_flag("--json", arguments->json, "Print text and notes as JSON");
+  command->add_flag("--quiet", arguments->quiet, "Print nothing but what is asked for");
+  command->footer(
+      "Examples:\n"
+      "  clearloci import linkage.linkage2 -o own.yaml\n"
+      "  clearloci import 'https://app.pmksplus.com/?...' -o own.yaml --clearance '30 um'\n"
+      "  clearloci loci robot.urdf\n"
+      "All commands take such files directly. What of each format is read: docs/import.md.");
+  return {command, [arguments] { return run(*arguments); }};
+}
+
+}  // namespace clearloci::cli

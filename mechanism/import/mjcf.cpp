@@ -1,0 +1,544 @@
+// MJCF (mujoco.readthedocs.io, "XML Reference"): bodies in a tree with their joints, and equalities that close loops.
+// Several joints of a body follow each other through parts without mass; two hinges across each other are a universal
+// joint, three a ball.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/errors.hpp"
+#include "mechanism/import/common.hpp"
+#include "mechanism/import/formats.hpp"
+#include "mechanism/import/xml.hpp"
+
+namespace clearloci::mechanism::imports {
+namespace {
+
+using core::InputError;
+
+/// A joint of the tree, of which the posture may be another than the model's.
+struct TreeJoint {
+  std::string name, type;
+  std::vector<int> joints;  ///< of the source
+  double reference = 0;
+};
+
+struct Body {
+  std::string name;
+  int link = ground_link, parent = -1;
+  Pose pose;
+};
+
+class Reader {
+ public:
+  explicit Reader(const SourceText& given) : file_(given.file), root_(parse_xml(given.text, given.file)) {}
+
+  Source read() {
+    root_.read = true;
+    s_.name = root_.get("model", "");
+    constexpr double g = 9.81;
+    s_.gravity = Vec{0, 0, -g};
+    if (const XmlElement* include = find(root_, "include")) refuse(*include, "the model includes another file", "put it in its place");
+    for (const XmlElement* own : root_.all("compiler")) compiler(*own);
+    for (const XmlElement* own : root_.all("option")) option(*own);
+    for (const XmlElement* own : root_.all("default")) defaults(*own, "main", {});
+    bodies_.push_back({"world", ground_link, -1, {}});
+    for (const XmlElement* own : root_.all("worldbody")) contents(*own, 0, {}, "main", 0);
+    if (s_.links.empty()) refuse(root_, "the model has no bodies", "name an MJCF file of a mechanism");
+    for (const XmlElement* own : root_.all("equality")) equality(*own);
+    for (const XmlElement* own : root_.all("actuator")) actuators(*own);
+    for (const auto& [name, site] : sites_)
+      if (!used_sites_.contains(name) && bodies_[static_cast<std::size_t>(site.first)].link != ground_link)
+        s_.points.push_back({name, bodies_[static_cast<std::size_t>(site.first)].link, site.second.at, true});
+    for (const XmlElement* own : root_.all("keyframe")) keyframe(*own);
+    if (const auto left = unread(root_); !left.empty()) {
+      std::string text;
+      for (const std::string& word : left) text += (text.empty() ? "" : ", ") + word;
+      s_.note("left out: " + text);
+    }
+    if (!without_mass_.empty()) s_.note("no mass is known of " + enumerated(without_mass_) + ", whose shapes are meshes or have none");
+    return std::move(s_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const XmlElement& at, const std::string& problem, const std::string& mend) const { throw InputError({file_, at.line}, problem, mend); }
+
+  static const XmlElement* find(const XmlElement& at, const std::string& name) {
+    for (const XmlElement& child : at.children) {
+      if (child.name == name) return &child;
+      if (const XmlElement* below = find(child, name)) return below;
+    }
+    return nullptr;
+  }
+
+  // --- settings
+
+  void compiler(const XmlElement& at) {
+    degrees_ = at.get("angle", degrees_ ? "degree" : "radian") == "degree";
+    if (at.get("coordinate", "local") != "local") refuse(at, "the model has global coordinates", "write it with coordinate=\"local\"");
+    order_ = at.get("eulerseq", order_);
+    from_shapes_ = at.get("inertiafromgeom", from_shapes_);
+    limits_by_range_ = at.get("autolimits", "true") == "true";
+    if (order_.size() != 3 || order_.find_first_not_of("xyzXYZ") != std::string::npos) refuse(at, "eulerseq is '" + order_ + "'", "write such as xyz");
+  }
+
+  void option(const XmlElement& at) {
+    if (const auto text = at.get("gravity")) {
+      const auto v = numbers_of(*text, at, "gravity", file_, 3, 3);
+      s_.gravity = Vec{v[0], v[1], v[2]};
+    }
+  }
+
+  void defaults(const XmlElement& at, const std::string& name, std::map<std::string, std::vector<const XmlElement*>> outer) {
+    const std::string own = at.get("class", name);
+    for (const XmlElement& child : at.children) {
+      if (child.name == "default") continue;
+      child.read = true;
+      auto& chain = outer[child.name];
+      chain.insert(chain.begin(), &child);
+    }
+    classes_[own] = outer;
+    for (const XmlElement* child : at.all("default")) defaults(*child, "", outer);
+  }
+
+  /// What an element says itself, or its class.
+  std::optional<std::string> value(const XmlElement& at, const std::string& attribute, const std::string& childclass) const {
+    if (auto own = at.get(attribute)) return own;
+    const std::string name = at.get("class", childclass);
+    auto found = classes_.find(name);
+    if (found == classes_.end()) {
+      if (name != "main") refuse(at, "<" + at.name + "> is of class '" + name + "', which is not there", "add the default class");
+      return std::nullopt;
+    }
+    const auto chain = found->second.find(at.name);
+    if (chain == found->second.end()) return std::nullopt;
+    for (const XmlElement* own : chain->second)
+      if (auto text = own->get(attribute)) return text;
+    return std::nullopt;
+  }
+  std::vector<double> numbers(const XmlElement& at, const std::string& attribute, const std::string& text, std::size_t least, std::size_t most) const {
+    return numbers_of(text, at, attribute + " of <" + at.name + ">", file_, least, most);
+  }
+  Vec vector(const XmlElement& at, const std::string& attribute, const Vec& otherwise, const std::string& childclass) const {
+    const auto text = value(at, attribute, childclass);
+    if (!text) return otherwise;
+    const auto v = numbers(at, attribute, *text, 3, 3);
+    return {v[0], v[1], v[2]};
+  }
+  double angle(double v) const { return degrees_ ? v * std::numbers::pi / 180 : v; }
+
+  Rotation orientation(const XmlElement& at, const std::string& childclass) const {
+    if (const auto text = value(at, "quat", childclass)) {
+      const auto q = numbers(at, "quat", *text, 4, 4);
+      return quaternion(q[0], q[1], q[2], q[3]);
+    }
+    if (const auto text = value(at, "axisangle", childclass)) {
+      const auto v = numbers(at, "axisangle", *text, 4, 4);
+      return turn(unit({v[0], v[1], v[2]}), angle(v[3]));
+    }
+    if (const auto text = value(at, "euler", childclass)) {
+      const auto v = numbers(at, "euler", *text, 3, 3);
+      Rotation r;
+      for (std::size_t i = 0; i < 3; ++i) {
+        Vec e{};
+        const bool fixed = order_[i] >= 'X' && order_[i] <= 'Z';
+        e[static_cast<std::size_t>(order_[i] - (fixed ? 'X' : 'x'))] = 1;
+        r = fixed ? turn(e, angle(v[i])) * r : r * turn(e, angle(v[i]));
+      }
+      return r;
+    }
+    if (const auto text = value(at, "xyaxes", childclass)) {
+      const auto v = numbers(at, "xyaxes", *text, 6, 6);
+      const Vec x = unit({v[0], v[1], v[2]}), y = {v[3], v[4], v[5]};
+      const Vec straight = unit(y - dot(x, y) * x);
+      return {x, straight, cross(x, straight)};
+    }
+    if (const auto text = value(at, "zaxis", childclass)) {
+      const auto v = numbers(at, "zaxis", *text, 3, 3);
+      const Vec z = unit({v[0], v[1], v[2]}), way = cross({0, 0, 1}, z);
+      const double sine = norm(way);
+      return sine > 1e-12 ? turn((1 / sine) * way, std::atan2(sine, z[2])) : z[2] < 0 ? turn({1, 0, 0}, std::numbers::pi) : Rotation{};
+    }
+    return {};
+  }
+  Pose pose_of(const XmlElement& at, const std::string& childclass) const { return {orientation(at, childclass), vector(at, "pos", {}, childclass)}; }
+
+  // --- bodies
+
+  /// The joints and shapes of a body, within frames too.
+  struct Parts {
+    std::vector<std::pair<const XmlElement*, std::pair<Pose, std::string>>> joints, shapes;
+    const XmlElement* inertial = nullptr;
+    Pose inertial_frame;
+  };
+
+  void contents(const XmlElement& at, int body, const Pose& pose, const std::string& childclass, int depth) {
+    for (const char* unknown : {"composite", "flexcomp", "replicate", "attach", "include"})
+      if (const XmlElement* own = at.first(unknown)) refuse(*own, "<" + own->name + "> makes bodies that are not written", "write the bodies themselves");
+    if (const XmlElement* own = at.first("freejoint")) refuse(*own, "body " + bodies_[static_cast<std::size_t>(body)].name + " is free (freejoint)", "fix its base: take the free joint out");
+    for (const XmlElement* own : at.all("site")) {
+      const std::string name = own->get("name", "");
+      if (!name.empty()) sites_[name] = {body, pose * pose_of(*own, childclass)};
+    }
+    for (const XmlElement* own : at.all("frame")) contents(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
+    for (const XmlElement* own : at.all("body")) body_of(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
+  }
+
+  void body_of(const XmlElement& at, int parent, const Pose& pose, const std::string& childclass, int depth) {
+    Body own;
+    own.name = at.get("name", "body" + std::to_string(bodies_.size()));
+    own.parent = parent;
+    own.pose = pose;
+    if (at.get("mocap", "false") == "true") s_.note("body " + own.name + " is moved from outside (mocap); it stands still here");
+    s_.links.push_back({own.name, at.line, 0, {}, {}, false, false});
+    own.link = static_cast<int>(s_.links.size()) - 1;
+    const int index = static_cast<int>(bodies_.size());
+    bodies_.push_back(own);
+    // Joints and masses of this body come before those of its children.
+    Parts parts;
+    gather(at, pose, childclass, parts, depth);
+    join(at, own, parts);
+    weigh(at, own, parts);
+    contents(at, index, pose, childclass, depth);
+  }
+
+  void gather(const XmlElement& at, const Pose& pose, const std::string& childclass, Parts& parts, int depth) {
+    for (const XmlElement* own : at.all("joint")) parts.joints.push_back({own, {pose, childclass}});
+    for (const XmlElement* own : at.all("geom")) parts.shapes.push_back({own, {pose, childclass}});
+    if (const XmlElement* own = at.first("inertial")) {
+      parts.inertial = own;
+      parts.inertial_frame = pose;
+    }
+    for (const XmlElement* own : at.all("frame")) gather(*own, pose * pose_of(*own, childclass), own->get("childclass", childclass), parts, depth + 1);
+  }
+
+  struct Single {
+    std::string name, type;
+    int line = 0;
+    Vec at{}, axis{};
+    std::optional<std::array<double, 2>> range;
+    double reference = 0;
+  };
+
+  Single single(const XmlElement& at, const Pose& pose, const std::string& childclass) const {
+    Single own;
+    own.type = value(at, "type", childclass).value_or("hinge");
+    own.name = at.get("name", "");
+    own.line = at.line;
+    own.at = pose * vector(at, "pos", {}, childclass);
+    const Vec axis = vector(at, "axis", {0, 0, 1}, childclass);
+    if (!(norm(axis) > 1e-9)) refuse(at, "the axis of a joint has no direction", "write such as axis=\"0 0 1\"");
+    own.axis = pose.turned * unit(axis);
+    if (own.type == "free") refuse(at, "joint " + own.name + " leaves its body free", "fix its base: take the free joint out");
+    if (own.type != "hinge" && own.type != "slide" && own.type != "ball") refuse(at, "joint " + own.name + " is of type '" + own.type + "'", "use hinge, slide or ball");
+    const bool turns = own.type == "hinge";
+    if (const auto text = value(at, "ref", childclass)) own.reference = numbers(at, "ref", *text, 1, 1).front() * (turns ? angle(1) : 1);
+    const std::string limited = value(at, "limited", childclass).value_or("auto");
+    if (const auto text = value(at, "range", childclass); text && own.type != "ball") {
+      const auto v = numbers(at, "range", *text, 2, 2);
+      const double unit = turns ? angle(1) : 1;
+      if (v[0] < v[1] && (limited == "true" || (limited == "auto" && limits_by_range_))) own.range = std::array<double, 2>{unit * v[0] - own.reference, unit * v[1] - own.reference};
+    }
+    return own;
+  }
+
+  int add(SourceKind kind, const Single& own, int from, int to) {
+    SourceJoint joint;
+    joint.name = own.name;
+    joint.line = own.line;
+    joint.kind = kind;
+    joint.from = from;
+    joint.to = to;
+    place(joint, own.at, own.axis);
+    joint.range = own.range;
+    s_.joints.push_back(std::move(joint));
+    return static_cast<int>(s_.joints.size()) - 1;
+  }
+
+  void join(const XmlElement& at, const Body& own, const Parts& parts) {
+    const int parent = bodies_[static_cast<std::size_t>(own.parent)].link;
+    std::vector<Single> list;
+    for (const auto& [element, frame] : parts.joints) {
+      list.push_back(single(*element, frame.first, frame.second));
+      if (list.back().name.empty()) list.back().name = own.name + (parts.joints.size() > 1 ? "_" + std::to_string(list.size()) : "");
+    }
+    if (list.empty()) {
+      Single weld;
+      weld.name = own.name + "_weld";
+      weld.line = at.line;
+      weld.at = own.pose.at;
+      weld.axis = {0, 0, 1};
+      add(SourceKind::fixed, weld, parent, own.link);
+      return;
+    }
+    const auto across = [&](std::size_t i, std::size_t j) { return std::abs(dot(list[i].axis, list[j].axis)) < 1e-9 && distance(list[i].at, list[j].at) < 1e-9; };
+    const bool hinges = std::all_of(list.begin(), list.end(), [](const Single& one) { return one.type == "hinge"; });
+    if (hinges && list.size() == 2 && across(0, 1)) {
+      const int joint = add(SourceKind::universal, list[0], parent, own.link);
+      s_.joints.back().on_to.frame = frame_along(list[1].axis);
+      s_.joints.back().range.reset();
+      s_.note("hinges " + list[0].name + " and " + list[1].name + " of body " + own.name + " are one universal joint");
+      for (const Single& one : list) tree_.push_back({one.name, one.type, {joint}, one.reference});
+      return;
+    }
+    if (hinges && list.size() == 3 && across(0, 1) && across(0, 2) && across(1, 2)) {
+      const int joint = add(SourceKind::spherical, list[0], parent, own.link);
+      s_.joints.back().range.reset();
+      s_.note("the three hinges of body " + own.name + " are one ball");
+      for (const Single& one : list) tree_.push_back({one.name, one.type, {joint}, one.reference});
+      return;
+    }
+    int from = parent;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      int to = own.link;
+      if (i + 1 < list.size()) {
+        s_.links.push_back({own.name + "_part" + std::to_string(i + 1), at.line, 0, {}, {}, false, true});
+        to = static_cast<int>(s_.links.size()) - 1;
+      }
+      const SourceKind kind = list[i].type == "hinge" ? SourceKind::revolute : list[i].type == "slide" ? SourceKind::prismatic : SourceKind::spherical;
+      tree_.push_back({list[i].name, list[i].type, {add(kind, list[i], from, to)}, list[i].reference});
+      // The axes of a ball are those of its body, for a posture that turns it.
+      if (kind == SourceKind::spherical) s_.joints.back().on_from.frame = s_.joints.back().on_to.frame = own.pose.turned;
+      from = to;
+    }
+  }
+
+  // --- masses
+
+  void weigh(const XmlElement& at, const Body& own, const Parts& parts) {
+    SourceLink& link = s_.links[static_cast<std::size_t>(own.link)];
+    if (parts.inertial != nullptr && from_shapes_ != "true") {
+      const XmlElement& inertial = *parts.inertial;
+      const Pose frame = parts.inertial_frame * Pose{orientation(inertial, "main"), vector(inertial, "pos", {}, "main")};
+      link.mass = numbers(inertial, "mass", inertial.get("mass", "0"), 1, 1).front();
+      if (link.mass < 0) refuse(inertial, "the mass of body " + own.name + " is negative", "write 0 or more");
+      link.centre = frame.at;
+      Tensor tensor;
+      if (const auto text = inertial.get("fullinertia")) {
+        const auto v = numbers(inertial, "fullinertia", *text, 6, 6);
+        tensor = {v[0], v[1], v[2], v[3], v[4], v[5]};
+      } else if (const auto diagonal = inertial.get("diaginertia")) {
+        const auto v = numbers(inertial, "diaginertia", *diagonal, 3, 3);
+        tensor = {v[0], v[1], v[2], 0, 0, 0};
+      }
+      link.inertia = turned(frame.turned, tensor);
+      return;
+    }
+    if (from_shapes_ == "false") return;
+    bool known = false;
+    for (const auto& [element, frame] : parts.shapes) known = shape(*element, frame.first, frame.second, link) || known;
+    if (!known) without_mass_.push_back(own.name);
+    (void)at;
+  }
+
+  /// Adds the mass of a shape, uniform. False where it has none that is known.
+  bool shape(const XmlElement& at, const Pose& pose, const std::string& childclass, SourceLink& link) const {
+    const std::string type = value(at, "type", childclass).value_or("sphere");
+    std::vector<double> size;
+    if (const auto text = value(at, "size", childclass)) size = numbers(at, "size", *text, 1, 3);
+    Pose frame = pose * pose_of(at, childclass);
+    double half = size.size() > 1 ? size[1] : 0;
+    if (const auto text = value(at, "fromto", childclass)) {
+      const auto v = numbers(at, "fromto", *text, 6, 6);
+      const Vec a = pose * Vec{v[0], v[1], v[2]}, b = pose * Vec{v[3], v[4], v[5]};
+      frame = {frame_along(unit(b - a)), 0.5 * (a + b)};
+      half = distance(a, b) / 2;
+    }
+    const double r = size.empty() ? 0 : std::abs(size[0]), pi = std::numbers::pi;
+    double volume = 0;
+    Tensor unit_inertia;  // of mass 1
+    const auto box = [](double x, double y, double z) { return Tensor{(y * y + z * z) / 3, (x * x + z * z) / 3, (x * x + y * y) / 3, 0, 0, 0}; };
+    if (type == "sphere") {
+      volume = 4 * pi / 3 * r * r * r;
+      unit_inertia = {0.4 * r * r, 0.4 * r * r, 0.4 * r * r, 0, 0, 0};
+    } else if (type == "box" && (size.size() == 3 || (size.size() > 1 && at.has("fromto")))) {
+      const double y = size.size() == 3 ? size[1] : r, z = size.size() == 3 ? size[2] : half;
+      volume = 8 * r * y * z;
+      unit_inertia = box(r, y, z);
+    } else if (type == "ellipsoid" && size.size() == 3) {
+      volume = 4 * pi / 3 * size[0] * size[1] * size[2];
+      const auto q = [&](std::size_t i, std::size_t j) { return (size[i] * size[i] + size[j] * size[j]) / 5; };
+      unit_inertia = {q(1, 2), q(0, 2), q(0, 1), 0, 0, 0};
+    } else if (type == "cylinder" || type == "capsule") {
+      const double barrel = pi * r * r * 2 * half, across = r * r / 4 + half * half / 3;
+      volume = barrel;
+      unit_inertia = {across, across, r * r / 2, 0, 0, 0};
+      if (type == "capsule") {
+        // Two half balls at the ends: of mass m_s in all, with 0.4 r² each about its own centre, shifted by h and 3r/8.
+        const double ball = 4 * pi / 3 * r * r * r, whole = barrel + ball, m_b = whole > 0 ? barrel / whole : 0, m_s = 1 - m_b;
+        const double ends = 0.4 * r * r + half * half + 0.75 * half * r;
+        unit_inertia = {m_b * across + m_s * ends, m_b * across + m_s * ends, m_b * r * r / 2 + m_s * 0.4 * r * r, 0, 0, 0};
+        volume = whole;
+      }
+    } else {
+      return false;
+    }
+    double mass = 0;
+    if (const auto text = value(at, "mass", childclass))
+      mass = numbers(at, "mass", *text, 1, 1).front();
+    else
+      mass = volume * numbers(at, "density", value(at, "density", childclass).value_or("1000"), 1, 1).front();
+    if (!(mass > 0)) return mass == 0;
+    Tensor own = turned(frame.turned, unit_inertia);
+    own = {mass * own.xx, mass * own.yy, mass * own.zz, mass * own.xy, mass * own.xz, mass * own.yz};
+    const Vec before = link.centre.value_or(frame.at);
+    const double sum = link.mass + mass;
+    const Vec centre = (1 / sum) * (link.mass * before + mass * frame.at);
+    link.inertia = link.inertia.value_or(Tensor{}) + point_inertia(link.mass, before - centre) + own + point_inertia(mass, frame.at - centre);
+    link.mass = sum;
+    link.centre = centre;
+    return true;
+  }
+
+  // --- loops, motors, posture
+
+  const Body& body_named(const XmlElement& at, const std::string& name) const {
+    for (const Body& own : bodies_)
+      if (own.name == name) return own;
+    refuse(at, "<" + at.name + "> names body '" + name + "', which is not there", "correct the name");
+  }
+
+  void equality(const XmlElement& at) {
+    int count = 0;
+    for (const XmlElement& child : at.children) {
+      child.read = true;
+      ++count;
+      const std::string name = child.get("name", child.name + std::to_string(count));
+      if (child.get("active", "true") == "false") {
+        s_.note("equality " + name + " is not active and was left out");
+        child.take_whole();
+        continue;
+      }
+      if (child.name != "connect" && child.name != "weld")
+        refuse(child, "equality " + name + " is a <" + child.name + ">", child.name == "joint" ? "joints that follow each other, as by gears, have no part here: close the loop that makes them follow" : "use connect or weld");
+      SourceJoint joint;
+      joint.name = name;
+      joint.line = child.line;
+      joint.kind = child.name == "weld" ? SourceKind::fixed : SourceKind::spherical;
+      if (child.has("site1") || child.has("site2")) {
+        const auto site = [&](const char* key) {
+          const auto found = sites_.find(child.get(key, ""));
+          if (found == sites_.end()) refuse(child, "equality " + name + " names site '" + child.get(key, "") + "', which is not there", "correct the name");
+          used_sites_.insert(found->first);
+          return found->second;
+        };
+        const auto a = site("site1"), b = site("site2");
+        joint.from = bodies_[static_cast<std::size_t>(a.first)].link;
+        joint.to = bodies_[static_cast<std::size_t>(b.first)].link;
+        joint.on_from = {a.second.at, a.second.turned};
+        joint.on_to = {b.second.at, b.second.turned};
+      } else {
+        const Body &a = body_named(child, child.get("body1", "")), &b = body_named(child, child.get("body2", "world"));
+        joint.from = a.link;
+        joint.to = b.link;
+        const auto anchor = numbers(child, "anchor", child.get("anchor", "0 0 0"), 3, 3);
+        const Vec local = {anchor[0], anchor[1], anchor[2]};
+        if (joint.kind == SourceKind::spherical) {
+          place(joint, a.pose * local, {0, 0, 1});
+        } else {
+          joint.on_to = {b.pose.at, b.pose.turned};
+          joint.on_from = joint.on_to;
+          if (const auto text = child.get("relpose")) {
+            const auto v = numbers(child, "relpose", *text, 7, 7);
+            if (v[3] != 0 || v[4] != 0 || v[5] != 0 || v[6] != 0) {
+              const Pose pose = a.pose * Pose{quaternion(v[3], v[4], v[5], v[6]), {v[0], v[1], v[2]}};
+              joint.on_from = {pose.at, pose.turned};
+            }
+          }
+        }
+      }
+      s_.joints.push_back(std::move(joint));
+    }
+  }
+
+  void actuators(const XmlElement& at) {
+    std::vector<std::string> others;
+    for (const XmlElement& child : at.children) {
+      child.read = true;
+      const std::string name = child.get("name", child.name);
+      const std::string target = child.get("joint", child.get("jointinparent", ""));
+      if (target.empty()) {
+        others.push_back(name);
+        continue;
+      }
+      const auto found = std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& own) { return own.name == target; });
+      if (found == tree_.end()) refuse(child, "actuator " + name + " drives joint '" + target + "', which is not there", "correct the name");
+      SourceJoint& joint = s_.joints[static_cast<std::size_t>(found->joints.front())];
+      if (joint.kind != SourceKind::revolute && joint.kind != SourceKind::prismatic) refuse(child, "actuator " + name + " drives joint " + target + ", which has several axes here", "drive a hinge or a slide alone");
+      joint.actuated = true;
+    }
+    if (!others.empty()) s_.note("left out, since they drive no joint: actuators " + enumerated(others));
+  }
+
+  void keyframe(const XmlElement& at) {
+    const XmlElement* key = at.first("key");
+    if (key == nullptr) return;
+    (void)key->get("name");
+    const auto text = key->get("qpos");
+    if (!text) return;
+    std::size_t wanted = 0;
+    for (const TreeJoint& own : tree_) wanted += own.type == "ball" ? 4 : 1;
+    const auto q = numbers(*key, "qpos", *text, wanted, wanted);
+    s_.note("the posture is that of keyframe " + key->get("name", "1"));
+    std::size_t at_q = 0;
+    for (const TreeJoint& own : tree_) {
+      const SourceJoint joint = s_.joints[static_cast<std::size_t>(own.joints.front())];
+      Rotation r;
+      Vec shift{};
+      if (own.type == "ball") {
+        const Rotation& frame = joint.on_from.frame;
+        r = frame * quaternion(q[at_q], q[at_q + 1], q[at_q + 2], q[at_q + 3]) * frame.transposed();
+        at_q += 4;
+      } else {
+        const double value = q[at_q++] - own.reference;
+        if (own.type == "slide")
+          shift = value * joint.axis();
+        else
+          r = turn(joint.axis(), value);
+      }
+      if (joint.kind == SourceKind::universal || (joint.kind == SourceKind::spherical && own.type == "hinge")) {
+        s_.note("the keyframe's value of " + own.name + " was left out: it is part of a joint of several axes");
+        continue;
+      }
+      for (const int link : below(joint.to)) move_link(s_, link, joint.at(), shift, r);
+      // The side on the parent stays where it is; it is the child that moves.
+    }
+  }
+
+  /// A link and all that hang on it in the tree.
+  std::vector<int> below(int link) const {
+    std::vector<int> found = {link};
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      for (const TreeJoint& own : tree_)
+        for (const int j : own.joints)
+          if (s_.joints[static_cast<std::size_t>(j)].from == found[i]) found.push_back(s_.joints[static_cast<std::size_t>(j)].to);
+      for (const SourceJoint& joint : s_.joints)
+        if (joint.kind == SourceKind::fixed && joint.from == found[i] && joint.name.ends_with("_weld") && std::find(found.begin(), found.end(), joint.to) == found.end()) found.push_back(joint.to);
+      if (found.size() > 10000) break;
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+
+  std::string file_;
+  XmlElement root_;
+  Source s_;
+  bool degrees_ = true, limits_by_range_ = true;
+  std::string order_ = "xyz", from_shapes_ = "auto";
+  std::map<std::string, std::map<std::string, std::vector<const XmlElement*>>> classes_;
+  std::vector<Body> bodies_;
+  std::vector<TreeJoint> tree_;
+  std::map<std::string, std::pair<int, Pose>> sites_;
+  std::set<std::string> used_sites_;
+  std::vector<std::string> without_mass_;
+};
+
+}  // namespace
+
+bool is_mjcf(std::string_view text) { return is_xml_of(text, "mujoco"); }
+
+Source read_mjcf(const SourceText& text) { return Reader(text).read(); }
+
+}  // namespace clearloci::mechanism::imports

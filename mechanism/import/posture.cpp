@@ -1,0 +1,463 @@
+// The posture in which all joints of a source meet. Unknown are the motions of the links, six numbers each; a joint says
+// that points are one, axes parallel, or frames turned alike. Levenberg-Marquardt finds the zero nearest to the posture
+// of the file: (JᵀJ + λ) d = -Jᵀ r.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/errors.hpp"
+#include "mechanism/import/common.hpp"
+
+namespace clearloci::mechanism::imports {
+namespace {
+
+constexpr std::size_t freedoms = 6;
+constexpr double met = 1e-11;  ///< residual, in sizes of the source and in rad: joints meet to double precision
+
+struct Column {
+  int link;
+  Vec arm;  ///< from the link's centre
+};
+
+class Constraints {
+ public:
+  explicit Constraints(const Source& source) : source_(source), scale_(1 / std::max(size_of(source), 1e-300)) {
+    centres_.resize(source.links.size());
+    std::vector<std::size_t> counts(source.links.size());
+    for (const SourceJoint& joint : source.joints) {
+      if (joint.dropped) continue;
+      for (const auto& [link, side] : {std::pair{joint.from, &joint.on_from}, std::pair{joint.to, &joint.on_to}}) {
+        if (link == ground_link) continue;
+        centres_[index(link)] = centres_[index(link)] + side->at;
+        ++counts[index(link)];
+      }
+    }
+    for (std::size_t i = 0; i < centres_.size(); ++i)
+      if (counts[i] > 0) centres_[i] = (1 / static_cast<double>(counts[i])) * centres_[i];
+  }
+
+  std::size_t columns() const { return freedoms * source_.links.size(); }
+  const Vec& centre(int link) const { return centres_[index(link)]; }
+
+  /// Appends values (and slopes where asked) of one joint.
+  void add(const SourceJoint& j, std::vector<double>& values, Rows* rows) const {
+    using Kind = SourceKind;
+    const bool meets = j.kind == Kind::revolute || j.kind == Kind::spherical || j.kind == Kind::universal ||
+                       j.kind == Kind::fixed;
+    if (meets) add_meeting(j, values, rows);
+    if (j.kind == Kind::prismatic || j.kind == Kind::cylindrical) add_line(j, values, rows);
+    if (j.kind == Kind::revolute || j.kind == Kind::cylindrical)
+      add_parallel(j, {&j.on_from.frame.z}, {&j.on_to.frame.z}, values, rows);
+    if (j.kind == Kind::prismatic || j.kind == Kind::fixed)
+      add_parallel(j, {&j.on_from.frame.x, &j.on_from.frame.y, &j.on_from.frame.z},
+                   {&j.on_to.frame.x, &j.on_to.frame.y, &j.on_to.frame.z}, values, rows);
+    if (j.kind == Kind::universal) add_square(j, values, rows);
+  }
+
+  /// d/dt of the place of a side and of a direction of it, per unit of each freedom of its link.
+  Vec moved(int link, const Vec& at, std::size_t freedom) const {
+    Vec e{};
+    e[freedom % 3] = 1;
+    // Lengths in sizes: a velocity of 1 is a size, so that columns of turning are alike.
+    return freedom < 3 ? e : scale_ * cross(e, at - centre(link));
+  }
+  static Vec turned(const Vec& direction, std::size_t freedom) {
+    if (freedom < 3) return {};
+    Vec e{};
+    e[freedom - 3] = 1;
+    return cross(e, direction);
+  }
+
+  double scale() const { return scale_; }
+
+ private:
+  static std::size_t index(int link) { return static_cast<std::size_t>(link); }
+
+  Rows* start(Rows* rows, std::size_t count) const {
+    if (rows != nullptr) rows->resize(rows->size() + count, std::vector<double>(columns()));
+    return rows;
+  }
+
+  void add_meeting(const SourceJoint& j, std::vector<double>& values, Rows* rows) const {
+    const Vec gap = scale_ * (j.on_from.at - j.on_to.at);
+    for (std::size_t i = 0; i < 3; ++i) values.push_back(gap[i]);
+    if (start(rows, 3) == nullptr) return;
+    each_freedom(j, [&](std::size_t column, std::size_t freedom, bool from) {
+      const Vec d = from ? moved(j.from, j.on_from.at, freedom) : -moved(j.to, j.on_to.at, freedom);
+      for (std::size_t i = 0; i < 3; ++i) (*rows)[rows->size() - 3 + i][column] += d[i];
+    });
+  }
+
+  /// The point of `to` is on the line of `from`: z × gap = 0.
+  void add_line(const SourceJoint& j, std::vector<double>& values, Rows* rows) const {
+    const Vec& z = j.on_from.frame.z;
+    const Vec gap = scale_ * (j.on_to.at - j.on_from.at), off = cross(z, gap);
+    for (std::size_t i = 0; i < 3; ++i) values.push_back(off[i]);
+    if (start(rows, 3) == nullptr) return;
+    each_freedom(j, [&](std::size_t column, std::size_t freedom, bool from) {
+      const Vec d = from ? cross(turned(z, freedom), gap) - cross(z, moved(j.from, j.on_from.at, freedom))
+                         : cross(z, moved(j.to, j.on_to.at, freedom));
+      for (std::size_t i = 0; i < 3; ++i) (*rows)[rows->size() - 3 + i][column] += d[i];
+    });
+  }
+
+  void add_parallel(const SourceJoint& j, const std::vector<const Vec*>& of_from, const std::vector<const Vec*>& of_to,
+                    std::vector<double>& values, Rows* rows) const {
+    // Cross products are 0 for opposite directions too: what is turned apart by more than a right angle (of three axes:
+    // 1 + 2 cos < 1) is pushed together by the difference of the axis that is farthest off.
+    double together = 0;
+    std::size_t farthest = 0;
+    Vec off{};
+    for (std::size_t a = 0; a < of_from.size(); ++a) {
+      together += dot(*of_from[a], *of_to[a]);
+      off = off + cross(*of_from[a], *of_to[a]);
+      if (dot(*of_from[a], *of_to[a]) < dot(*of_from[farthest], *of_to[farthest])) farthest = a;
+    }
+    const bool flipped = together < (of_from.size() == 1 ? 0 : 1);
+    if (flipped) off = *of_from[farthest] - *of_to[farthest];
+    for (std::size_t i = 0; i < 3; ++i) values.push_back(off[i]);
+    if (start(rows, 3) == nullptr) return;
+    each_freedom(j, [&](std::size_t column, std::size_t freedom, bool from) {
+      Vec d{};
+      for (std::size_t a = 0; a < of_from.size(); ++a) {
+        if (flipped && a == farthest)
+          d = d + (from ? turned(*of_from[a], freedom) : -turned(*of_to[a], freedom));
+        if (!flipped)
+          d = d + (from ? cross(turned(*of_from[a], freedom), *of_to[a]) : cross(*of_from[a], turned(*of_to[a], freedom)));
+      }
+      for (std::size_t i = 0; i < 3; ++i) (*rows)[rows->size() - 3 + i][column] += d[i];
+    });
+  }
+
+  /// The two axes of a universal joint are at a right angle.
+  void add_square(const SourceJoint& j, std::vector<double>& values, Rows* rows) const {
+    values.push_back(dot(j.on_from.frame.z, j.on_to.frame.z));
+    if (start(rows, 1) == nullptr) return;
+    each_freedom(j, [&](std::size_t column, std::size_t freedom, bool from) {
+      rows->back()[column] += from ? dot(turned(j.on_from.frame.z, freedom), j.on_to.frame.z)
+                                   : dot(j.on_from.frame.z, turned(j.on_to.frame.z, freedom));
+    });
+  }
+
+  template <typename Do>
+  void each_freedom(const SourceJoint& j, const Do& one) const {
+    for (const bool from : {true, false}) {
+      const int link = from ? j.from : j.to;
+      if (link == ground_link) continue;
+      for (std::size_t f = 0; f < freedoms; ++f) one(freedoms * index(link) + f, f, from);
+    }
+  }
+
+  const Source& source_;
+  double scale_;
+  std::vector<Vec> centres_;
+};
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return std::isfinite(most) ? most : std::numeric_limits<double>::infinity();
+}
+
+double squares(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
+}
+
+std::vector<double> values_of(const Source& source) {
+  const Constraints constraints(source);
+  std::vector<double> values;
+  for (const SourceJoint& joint : source.joints)
+    if (!joint.dropped) constraints.add(joint, values, nullptr);
+  return values;
+}
+
+/// Cholesky of a symmetric positive matrix, in place; false where it is not.
+bool solve(Rows& a, std::vector<double>& b) {
+  const std::size_t n = b.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = a[i][j];
+      for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
+      if (i != j) {
+        a[i][j] = sum / a[j][j];
+      } else {
+        if (!(sum > 0)) return false;
+        a[i][i] = std::sqrt(sum);
+      }
+    }
+    double sum = b[i];
+    for (std::size_t k = 0; k < i; ++k) sum -= a[i][k] * b[k];
+    b[i] = sum / a[i][i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k][i] * b[k];
+    b[i] /= a[i][i];
+  }
+  return true;
+}
+
+Source moved_by(const Source& source, const Constraints& constraints, const std::vector<double>& step) {
+  Source moved = source;
+  const double size = 1 / constraints.scale();
+  for (std::size_t l = 0; l < source.links.size(); ++l) {
+    if (source.links[l].dropped) continue;
+    const double* d = &step[freedoms * l];
+    const Vec angles = {d[3], d[4], d[5]};
+    const double angle = norm(angles);
+    move_link(moved, static_cast<int>(l), constraints.centre(static_cast<int>(l)), {size * d[0], size * d[1], size * d[2]},
+              angle > 0 ? turn((1 / angle) * angles, angle) : Rotation{});
+  }
+  return moved;
+}
+
+/// The zero that is reached from here, or the best that was found. `work`: multiplications that may still be done.
+Source descend(Source source, double& work) {
+  double damping = 1e-6;
+  double cost = squares(values_of(source));
+  constexpr int most_steps = 200;
+  for (int step = 0; step < most_steps && cost > met * met && work > 0; ++step) {
+    const Constraints constraints(source);
+    std::vector<double> values;
+    Rows rows;
+    for (const SourceJoint& joint : source.joints)
+      if (!joint.dropped) constraints.add(joint, values, &rows);
+    const std::size_t n = constraints.columns();
+    Rows normal(n, std::vector<double>(n));
+    std::vector<double> right(n);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (std::size_t i = 0; i < n; ++i) {
+        if (rows[r][i] == 0) continue;
+        right[i] -= rows[r][i] * values[r];
+        for (std::size_t j = 0; j <= i; ++j) normal[i][j] += rows[r][i] * rows[r][j];
+      }
+    const double size = static_cast<double>(n);
+    work -= static_cast<double>(rows.size()) * size * size / 2;
+    bool better = false;
+    for (; damping < 1e6 && !better; damping *= better ? 1 : 10) {
+      work -= size * size * size / 3;
+      Rows damped = normal;
+      for (std::size_t i = 0; i < n; ++i) damped[i][i] += damping;
+      std::vector<double> way = right;
+      if (!solve(damped, way)) continue;
+      Source next = moved_by(source, constraints, way);
+      const double next_cost = squares(values_of(next));
+      if (!(next_cost < cost)) continue;
+      source = std::move(next);
+      cost = next_cost;
+      better = true;
+    }
+    if (!better) break;
+    damping = std::max(damping / 30, 1e-14);
+  }
+  return source;
+}
+
+/// A reproducible sequence: an open posture is looked for from places spread over turns (splitmix64).
+class Spread {
+ public:
+  double next() {
+    state_ += 0x9e3779b97f4a7c15ULL;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53 * 2 - 1;
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
+Source spread_out(const Source& source, Spread& spread) {
+  const Constraints constraints(source);
+  std::vector<double> step(constraints.columns());
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] = spread.next() * (i % freedoms < 3 ? 1 : 3);
+  return moved_by(source, constraints, step);
+}
+
+/// Turns legs to their positive side; false where a guide is beyond its range.
+bool within_ranges(Source& source) {
+  bool within = true;
+  for (SourceJoint& joint : source.joints) {
+    if (joint.dropped || !joint.range || !joint.range_is_distance) continue;
+    double apart = dot(joint.axis(), joint.on_to.at - joint.on_from.at);
+    if (joint.either_way && apart < 0) {
+      const Rotation back = turn(joint.on_from.frame.x, std::acos(-1.0));
+      joint.on_from.frame = back * joint.on_from.frame;
+      joint.on_to.frame = back * joint.on_to.frame;
+      apart = -apart;
+    }
+    within = within && apart >= (*joint.range)[0] && apart <= (*joint.range)[1];
+  }
+  return within;
+}
+
+}  // namespace
+
+void move_link(Source& source, int link, const Vec& centre, const Vec& shift, const Rotation& r) {
+  const auto place_of = [&](Vec& at) { at = centre + shift + r * (at - centre); };
+  for (SourceJoint& joint : source.joints) {
+    for (auto [own, side] : {std::pair{joint.from, &joint.on_from}, std::pair{joint.to, &joint.on_to}}) {
+      if (own != link) continue;
+      place_of(side->at);
+      side->frame = r * side->frame;
+    }
+    if (joint.from == link && joint.along) {
+      place_of(joint.along->first);
+      place_of(joint.along->second);
+    }
+  }
+  for (SourcePoint& point : source.points)
+    if (point.link == link) place_of(point.at);
+  for (SourceLoad& load : source.loads)
+    if (load.link == link) {
+      place_of(load.at);
+      if (load.turns) load.force = r * load.force;
+    }
+  for (SourceSpring& spring : source.springs)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (spring.links[i] == link) place_of(spring.at[i]);
+  SourceLink& own = source.links[static_cast<std::size_t>(link)];
+  if (own.centre) place_of(*own.centre);
+  if (own.inertia) own.inertia = imports::turned(r, *own.inertia);
+}
+
+double size_of(const Source& source) {
+  std::vector<Vec> places;
+  for (const SourceJoint& joint : source.joints)
+    if (!joint.dropped) {
+      places.push_back(joint.on_from.at);
+      places.push_back(joint.on_to.at);
+    }
+  for (const SourcePoint& point : source.points) places.push_back(point.at);
+  if (places.empty()) return 0;
+  Vec low = places.front(), high = low;
+  for (const Vec& at : places)
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], at[i]);
+      high[i] = std::max(high[i], at[i]);
+    }
+  return distance(low, high);
+}
+
+Rows constraint_rows(const Source& source) {
+  const Constraints constraints(source);
+  std::vector<double> values;
+  Rows rows;
+  for (const SourceJoint& joint : source.joints)
+    if (!joint.dropped) constraints.add(joint, values, &rows);
+  return rows;
+}
+
+std::vector<double> motor_row(const Source& source, const SourceJoint& joint) {
+  const Constraints constraints(source);
+  std::vector<double> row(constraints.columns());
+  const Vec& z = joint.axis();
+  for (const bool from : {true, false}) {
+    const int link = from ? joint.from : joint.to;
+    if (link == ground_link) continue;
+    for (std::size_t f = 0; f < freedoms; ++f) {
+      const bool slides = joint.kind == SourceKind::prismatic || joint.kind == SourceKind::cylindrical;
+      const double along = slides ? dot(z, constraints.moved(link, joint.at(), f)) : f < 3 ? 0 : z[f - 3];
+      row[freedoms * static_cast<std::size_t>(link) + f] += from ? -along : along;
+    }
+  }
+  return row;
+}
+
+bool RowSpace::add(std::vector<double> row) {
+  constexpr double nothing = 1e-8;  // of the row: what is left of one that depends on the others
+  const double size = largest(row);
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const double factor = row[pivots_[r]];
+    if (factor != 0)
+      for (std::size_t c = 0; c < row.size(); ++c) row[c] -= factor * rows_[r][c];
+  }
+  std::size_t pivot = 0;
+  for (std::size_t c = 1; c < row.size(); ++c)
+    if (std::abs(row[c]) > std::abs(row[pivot])) pivot = c;
+  if (row.empty() || !(std::abs(row[pivot]) > nothing * size)) return false;
+  const double factor = row[pivot];
+  for (double& entry : row) entry /= factor;
+  rows_.push_back(std::move(row));
+  pivots_.push_back(pivot);
+  return true;
+}
+
+void close_posture(Source& source, const std::string& file) {
+  const auto refuse = [&](const Source& found) {
+    const Constraints constraints(found);
+    const SourceJoint* worst = nullptr;
+    double most = -1;
+    for (const SourceJoint& joint : found.joints) {
+      if (joint.dropped) continue;
+      std::vector<double> values;
+      constraints.add(joint, values, nullptr);
+      if (largest(values) > most) {
+        most = largest(values);
+        worst = &joint;
+      }
+    }
+    const std::string apart = worst == nullptr ? "" : shortest_decimal(distance(worst->on_from.at, worst->on_to.at), 1e-6 / constraints.scale());
+    throw core::InputError(
+        {file, worst == nullptr ? 0 : worst->line},
+        "the links do not close: joint " + (worst == nullptr ? "" : worst->name) + " between " +
+            (worst == nullptr ? "" : link_words(found, worst->from) + " and " + link_words(found, worst->to)) +
+            " stays " + apart + " " + source.unit + " apart" + (source.open_posture ? "" : " near the file's posture"),
+        "correct the lengths, or the posture of the file");
+  };
+  const std::vector<double> before = values_of(source);
+  if (largest(before) <= met) return;
+  constexpr double rounding = 1e-6;  // of the size: what digits that were cut off leave, as in files of CAD programs
+  if (!source.open_posture && largest(before) <= rounding) {
+    source.note("joints meet within " + shortest_decimal(largest(before) * size_of(source), 1e-12 * size_of(source)) + " " + source.unit +
+                " in the file: each was put where its first link has it");
+    for (SourceJoint& joint : source.joints) {
+      if (!joint.slides()) joint.on_to.at = joint.on_from.at;
+      if (joint.kind != SourceKind::universal) joint.on_to.frame = joint.on_from.frame;
+    }
+    return;
+  }
+  const Source start = source;
+  double work = 1e9;  // a second
+  if (!source.open_posture) {
+    source = descend(std::move(source), work);
+    if (!(largest(values_of(source)) <= 100 * met)) refuse(source);
+    double moved = 0;
+    for (std::size_t j = 0; j < source.joints.size(); ++j)
+      moved = std::max(moved, distance(source.joints[j].on_from.at, start.joints[j].on_from.at));
+    if (moved > 1e-9 * size_of(source))
+      source.note("the loops do not close in the file's posture: they were closed near it, and joints moved by " +
+                  shortest_decimal(moved, 0.005 * moved) + " " + source.unit + " at most");
+    return;
+  }
+  Spread spread;
+  constexpr int most_starts = 40;
+  Source best = source;
+  std::optional<Source> beyond;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_starts && work > 0; ++i) {
+    Source found = descend(spread_out(start, spread), work);
+    const double left = largest(values_of(found));
+    if (left < least) {
+      least = left;
+      best = found;
+    }
+    if (!(left <= 100 * met)) continue;
+    if (!within_ranges(found)) {
+      if (!beyond) beyond = std::move(found);
+      continue;
+    }
+    source = std::move(found);
+    source.note("the file has no posture: one in which all joints meet was found; there may be other assemblies");
+    return;
+  }
+  if (!beyond) refuse(best);
+  source = std::move(*beyond);
+  source.note("the file has no posture: one in which all joints meet was found, but not one in which all guides are within their ranges");
+}
+
+}  // namespace clearloci::mechanism::imports

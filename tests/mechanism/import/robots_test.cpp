@@ -1,0 +1,177 @@
+// URDF, SDF and MJCF: poses, loops, masses, planes.
+#include <random>
+
+#include "mechanism/import/geometry.hpp"
+#include "tests/mechanism/import/imported.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+TEST(Urdf, ClosesALoopThatIsOpenInTheFile) {
+  const Imported own = imported("urdf/open_posture.urdf");
+  EXPECT_TRUE(has_note(own, "the loops do not close in the file's posture"));
+  const auto at = places(own);
+  EXPECT_NEAR(apart(at.at("motor_A"), at.at("B")), 0.05, 3e-10);
+  EXPECT_NEAR(apart(at.at("B"), at.at("loop_end")), std::hypot(0.09, 0.05), 3e-10);
+  EXPECT_NEAR(apart(at.at("D"), at.at("loop_end")), std::hypot(0.02, 0.09), 3e-8);  // seven digits of the file
+  EXPECT_NEAR(at.at("D")[0], 0.1, 1e-12);
+}
+
+TEST(Urdf, PutsDigitsThatWereCutOffTogether) {
+  const Imported own = imported("urdf/four_bar.urdf");
+  EXPECT_TRUE(has_note(own, "joints meet within"));
+  EXPECT_EQ(places(own).at("loop_end"), (std::vector<double>{0.12, 0.09}));
+}
+
+/// Half a radian to both sides of the drawn 53.13 degrees.
+TEST(Urdf, KeepsLimits) {
+  const std::string range = section(imported("urdf/limits.urdf"), "workspace").at("theta");
+  const double drawn = std::atan2(4, 3) * 180 / std::acos(-1.0), half = 0.5 * 180 / std::acos(-1.0);
+  const std::size_t bracket = range.find('['), comma = range.find(',');
+  // Seen along -y, what turns about -y turns anticlockwise.
+  EXPECT_NEAR(std::stod(range.substr(bracket + 1)), drawn - half, 1e-6);
+  EXPECT_NEAR(std::stod(range.substr(comma + 1)), drawn + half, 1e-6);
+}
+
+TEST(Urdf, TakesTransmissionsForMotorsAndALeafForTheTool) {
+  const Imported own = imported("urdf/serial_arm.urdf");
+  EXPECT_EQ(mechanism_of(own).coordinates.size(), 2U);
+  EXPECT_NE(own.text.find("end_effector: {link: fore, at: tool}"), std::string::npos);
+  EXPECT_TRUE(has_note(own, "<actuator> in <transmission> (2)"));
+}
+
+TEST(Urdf, RefusesByName) {
+  EXPECT_NE(refusal_of("<robot name='r'>\n<link name='a'/>\n<link name='b'/>\n</robot>").find("links a and b have no parent"), std::string::npos);
+  EXPECT_NE(refusal_of("<robot name='r'>\n<link name='a'/>\n<joint name='j' type='planar'/></robot>").find("source:3: joint j is of type 'planar'"), std::string::npos);
+  EXPECT_NE(refusal_of("<robot name='r'><xacro:macro/></robot>").find("macro of xacro"), std::string::npos);
+  EXPECT_NE(refusal_of("<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child link='c'/></joint></robot>").find("names link 'c'"), std::string::npos);
+}
+
+TEST(Urdf, RefusesALoopOfUnknownFrames) {
+  ImportOptions options;
+  options.side = "closed_loop: [[end, nowhere]]\ntype: ['3d']\n";
+  options.side_file = "loops.yaml";
+  try {
+    (void)import_text(bytes_of(path_of("urdf/four_bar.urdf")), "robot.urdf", options);
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("loops.yaml:1:"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("nowhere"), std::string::npos);
+  }
+}
+
+/// A four-bar that no turning of its links closes: refused by the joint, with the distance.
+TEST(Urdf, SaysByHowMuchALoopStaysOpen) {
+  std::string text = bytes_of(path_of("urdf/four_bar.urdf"));
+  const std::size_t at = text.find("xyz=\"0.1 0 0\"");
+  text.replace(at, 13, "xyz=\"0.4 0 0\"");
+  ImportOptions options;
+  options.side = "closed_loop: [[end, foot]]\ntype: ['3d']\n";
+  try {
+    (void)import_text(text, "robot.urdf", options);
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("joint loop_end between link coupler and link rocker stays"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Mjcf, MakesAPinOfTwoBalls) {
+  const Imported own = imported("mjcf/pin_of_two_connects.xml");
+  EXPECT_TRUE(has_note(own, "balls C and C2 between link coupler and link rocker are one pin"));
+  EXPECT_EQ(own.text.find("spatial"), std::string::npos);
+}
+
+/// A ball of 1000 kg/m^3 at (0.12, 0.09), welded to a rocker of 0.5 kg at (0.1, 0): Steiner.
+TEST(Mjcf, AddsTheMassesOfWeldedBodies) {
+  const Imported own = imported("mjcf/weld.xml");
+  const double ball = 4000 * std::acos(-1.0) / 3 * 1e-9, rocker = 0.5, mass = ball + rocker;
+  const double x = (ball * 0.12 + rocker * 0.1) / mass, y = ball * 0.09 / mass;
+  const double inertia = 0.4 * ball * 1e-6 + ball * (std::pow(0.12 - x, 2) + std::pow(0.09 - y, 2)) +
+                         rocker * (0.01 * 0.01 + 0.02 * 0.02) / 3 + rocker * (std::pow(0.1 - x, 2) + y * y);
+  const std::string link = section(own, "links").at("tip");
+  EXPECT_NEAR(std::stod(link.substr(link.find("mass: ") + 6)), mass, 1e-11);
+  EXPECT_NEAR(std::stod(link.substr(link.find("inertia: ") + 9)), inertia, 1e-13);
+  EXPECT_NEAR(places(own).at("G_tip")[0], x, 2e-10);
+  EXPECT_NEAR(places(own).at("G_tip")[1], y, 2e-10);
+}
+
+/// A cylinder of aluminium by its default class.
+TEST(Mjcf, ReadsDefaultClasses) {
+  const Imported own = imported("mjcf/defaults.xml");
+  const double pi = std::acos(-1.0), mass = 2700 * pi * 1e-4 * 0.3;
+  const std::string link = section(own, "links").at("a");
+  EXPECT_NEAR(std::stod(link.substr(link.find("mass: ") + 6)), mass, 1e-11);
+  EXPECT_NEAR(std::stod(link.substr(link.find("inertia: ") + 9)), mass * (1e-4 / 4 + 0.0225 / 3), 1e-13);
+  EXPECT_TRUE(has_note(own, "damping of <joint> (2)"));
+  EXPECT_NE(section(own, "workspace").at("theta2").find("57.295779513 deg"), std::string::npos);
+}
+
+TEST(Mjcf, TakesTheKeyframeForThePosture) {
+  const Imported own = imported("mjcf/keyframe_and_degrees.xml");
+  EXPECT_TRUE(has_note(own, "the posture is that of keyframe home"));
+  EXPECT_NEAR(apart(places(own).at("A"), places(own).at("B")), 0.05, 3e-10);
+  EXPECT_GT(std::abs(places(own).at("B")[0] - 0.03), 1e-3);
+}
+
+/// A capsule between two places has the moment of inertia of a cylinder and two half balls.
+TEST(Mjcf, KnowsTheInertiaOfACapsule) {
+  const std::string text =
+      "<mujoco><worldbody><body name='a'><joint name='A' axis='0 1 0'/><geom type='capsule' fromto='0 0 0 1 0 0' size='0.1'/>"
+      "<site name='tip' pos='1 0 0'/></body></worldbody></mujoco>";
+  const std::string link = section(import_text(text, "m.xml"), "links").at("a");
+  // By slices: the cylinder, and balls whose halves sit at its ends.
+  const double pi = std::acos(-1.0), r = 0.1, h = 0.5;
+  double mass = 0, inertia = 0;
+  constexpr int slices = 200000;
+  for (int i = 0; i < slices; ++i) {
+    const double z = (h + r) * (2 * (i + 0.5) / slices - 1), over = std::max(0.0, std::abs(z) - h);
+    const double radius = r * r - over * over, m = 1000 * pi * radius * 2 * (h + r) / slices;
+    mass += m;
+    inertia += m * (radius / 4 + z * z);
+  }
+  EXPECT_NEAR(std::stod(link.substr(link.find("mass: ") + 6)), mass, 1e-6 * mass);
+  EXPECT_NEAR(std::stod(link.substr(link.find("inertia: ") + 9)), inertia, 1e-6 * inertia);
+}
+
+TEST(Mjcf, MakesAUniversalJointOfTwoHinges) {
+  const std::string text =
+      "<mujoco><worldbody><body name='a'><joint name='p' axis='1 0 0'/><joint name='q' axis='0 1 0'/>"
+      "<body name='b' pos='0 0 1'><joint name='r' axis='1 0 0'/></body></body></worldbody></mujoco>";
+  const Imported own = import_text(text, "m.xml");
+  EXPECT_NE(section(own, "joints").at("p").find("universal: [ground, a], at: p, axes: [[1, 0, 0], [0, 1, 0]]"), std::string::npos);
+}
+
+/// However the model is turned and shifted, the plane is found, and distances stay.
+TEST(Sdf, FindsThePlaneHoweverItLies) {
+  const std::string text = bytes_of(path_of("sdf/four_bar_1_11.sdf"));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> turn(-3, 3);
+  for (int i = 0; i < 30; ++i) {
+    std::ostringstream pose;
+    pose.precision(17);
+    pose << "<frame name=\"tilt\"><pose>" << turn(random) << " " << turn(random) << " " << turn(random) << " " << turn(random)
+         << " " << turn(random) << " " << turn(random) << "</pose></frame>";
+    std::string own = text;
+    const std::size_t at = own.find("<frame name=\"tilt\">"), end = own.find("</frame>", at) + 8;
+    own.replace(at, end - at, pose.str());
+    const std::size_t axis = own.find("<xyz expressed_in=\"__model__\">0 -1 0</xyz>");
+    own.replace(axis, 42, "<xyz expressed_in=\"tilt\">0 0 1</xyz>");
+    const Imported found = import_text(own, "m.sdf");
+    EXPECT_EQ(found.text.find("spatial"), std::string::npos) << own;
+    const auto p = places(found);
+    ASSERT_EQ(p.size(), 4U) << found.text;
+    EXPECT_NEAR(apart(p.at("A"), p.at("B")), 0.05, 1e-9);
+    EXPECT_NEAR(apart(p.at("B"), p.at("C")), std::hypot(0.09, 0.05), 1e-9);
+    EXPECT_NEAR(apart(p.at("C"), p.at("D")), std::hypot(0.02, 0.09), 1e-9);
+    EXPECT_NEAR(apart(p.at("A"), p.at("D")), 0.1, 1e-9);
+  }
+}
+
+TEST(Sdf, RefusesByName) {
+  EXPECT_NE(refusal_of("<sdf version='2.0'><model name='m'/></sdf>").find("the SDF version is '2.0'"), std::string::npos);
+  EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><include/></model></sdf>").find("includes another file"), std::string::npos);
+  EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><link name='a'><pose relative_to='b'/></link></model></sdf>").find("refers to 'b'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism

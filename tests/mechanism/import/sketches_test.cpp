@@ -1,0 +1,74 @@
+// DXF, Pyslvs and CUIK.
+#include "tests/mechanism/import/imported.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+TEST(Dxf, MakesLinksOfLayersAndPinsOfCircles) {
+  const Imported own = imported("dxf/four_bar_r2000.dxf");
+  const auto joints = section(own, "joints");
+  EXPECT_EQ(joints.at("P1").substr(0, 54), "{revolute: [ground, crank], at: P1, actuated: true, cl");
+  EXPECT_EQ(joints.at("P2").substr(0, 36), "{revolute: [crank, coupler], at: P2,");
+  EXPECT_NE(own.text.find("end_effector: {link: coupler, at: P5}"), std::string::npos);
+}
+
+TEST(Dxf, ReadsR12WithItsPolylines) {
+  const Imported own = imported("dxf/four_bar_r12.dxf");
+  EXPECT_TRUE(has_note(own, "mm were taken"));
+  EXPECT_TRUE(has_note(own, "left out: TEXT (1)"));
+  EXPECT_EQ(places(own), places(imported("dxf/inches.dxf")));
+  EXPECT_NE(imported("dxf/inches.dxf").text.find("units: {length: in}"), std::string::npos);
+}
+
+TEST(Dxf, RefusesWhatIsBroken) {
+  EXPECT_NE(refusal_of("AutoCAD Binary DXF\r\n").find("is a binary one"), std::string::npos);
+  EXPECT_NE(refusal_of("0\nSECTION\n2\nENTITIES\nx\nLINE\n").find("source:5: 'x' is no group code"), std::string::npos);
+  EXPECT_NE(refusal_of("0\nSECTION\n2\nENTITIES\n0\nLINE\n8\na\n10\nzero\n0\nENDSEC\n0\nEOF\n").find("source:10: 'zero' is no number"), std::string::npos);
+}
+
+TEST(Pyslvs, ReadsPinsSlotsAndGuides) {
+  EXPECT_EQ(section(imported("pyslvs/pin_in_a_slot.txt"), "joints").at("P2_slot"), "{prismatic: [ground, block_P2], at: P2, axis: [1, 0]}");
+  EXPECT_EQ(section(imported("pyslvs/guide.txt"), "joints").at("P3"), "{prismatic: [L3, L2], at: P1, axis: [-1, 1]}");
+  EXPECT_NE(imported("pyslvs/crank_rocker.txt").text.find("end_effector: {link: L2, at: P3}"), std::string::npos);
+}
+
+TEST(Pyslvs, RefusesByPlace) {
+  EXPECT_NE(refusal_of("M[J[Q, P[0, 0], L[a]]]").find("source:1:"), std::string::npos);
+  EXPECT_NE(refusal_of("M[J[Q, P[0, 0], L[a]]]").find("'Q' is no type of joint"), std::string::npos);
+  EXPECT_NE(refusal_of("M[J[R, P[0, x], L[a]]]").find("a number is missing"), std::string::npos);
+  EXPECT_NE(refusal_of("M[J[R, P[0, 0]]]").find("joint P0 has no place P[..] or no links"), std::string::npos);
+}
+
+/// The posture is found; the lengths are those of the expressions.
+TEST(Cuik, FindsAPostureInWhichAllJointsMeet) {
+  const Imported own = imported("cuik/four_bar.world");
+  EXPECT_TRUE(has_note(own, "the file has no posture"));
+  const auto at = places(own);
+  EXPECT_NEAR(apart(at.at("r1"), at.at("r2")), 0.75, 3e-9);
+  EXPECT_NEAR(apart(at.at("r2"), at.at("r3")), 1.2, 3e-9);
+  EXPECT_NEAR(apart(at.at("r3"), at.at("r4")), 1, 3e-9);
+  EXPECT_NEAR(apart(at.at("r1"), at.at("r4")), 1.25, 3e-9);
+  EXPECT_EQ(own.text, imported("cuik/four_bar.world").text);
+}
+
+/// Six legs: each as long as its range says, from the base to the plate, whose own distances are 1 and the root of 2.
+TEST(Cuik, FindsAPlatformOnLegs) {
+  const Imported own = imported("cuik/legs.world");
+  const auto at = places(own);
+  EXPECT_NEAR(apart(at.at("leg1_b"), at.at("leg2_b")), 1, 5e-9);
+  EXPECT_NEAR(apart(at.at("leg1_b"), at.at("leg3_b")), 1, 5e-9);
+  EXPECT_NEAR(apart(at.at("leg2_b"), at.at("leg3_b")), std::sqrt(2), 5e-9);
+  const double leg = apart(at.at("leg1_a"), at.at("leg1_b"));
+  EXPECT_GT(leg, 0.5);
+  EXPECT_LT(leg, 1.5);
+  EXPECT_EQ(section(own, "workspace").at("s1"), "{stroke: [0.5, 1.5], of: leg1}");
+}
+
+TEST(Cuik, RefusesByLine) {
+  const std::string text = "[LINKS]\n a\n[JOINTS]\n REVOLUTE: a (0,0,0)+(0,1,0)\n b (0,0,length)+(0,1,0)\n";
+  EXPECT_NE(refusal_of(text).find("source:5: 'length' is no constant"), std::string::npos) << refusal_of(text);
+  EXPECT_NE(refusal_of("[LINKS]\n a\n[JOINTS]\n IN_PATCH: a b").find("keeps a point in a patch"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clearloci::mechanism
