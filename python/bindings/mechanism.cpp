@@ -99,13 +99,16 @@ py::object sketch_of(const Model& model, const std::optional<std::map<std::strin
   const auto pose = sample_pose(model, sides);
   if (!pose) return py::none();
   const Sketch sketch = sketch_pose(model, *pose, sides);
-  py::list links, slides, joints;
+  py::list links, slides, springs, joints;
   for (const SketchLink& own : sketch.links) links.append(array_of(Polyline(own.points)));
   for (const SketchSlide& own : sketch.slides) slides.append(array_of(Polyline{own.from, own.to}));
+  for (const SketchSpring& own : sketch.springs)
+    if (!own.torsion) springs.append(array_of(Polyline{own.from, own.to}));
   for (const SketchJoint& own : sketch.joints)
     joints.append(py::dict(py::arg("name") = own.name, py::arg("at") = place_of(own.at),
                            py::arg("on_ground") = own.on_ground, py::arg("actuated") = own.actuated));
-  py::dict all(py::arg("links") = links, py::arg("slides") = slides, py::arg("joints") = joints);
+  py::dict all(py::arg("links") = links, py::arg("slides") = slides, py::arg("springs") = springs,
+               py::arg("joints") = joints);
   if (sketch.end_effector)
     all["end_effector"] = py::make_tuple(sketch.end_effector->name, place_of(sketch.end_effector->at));
   return all;

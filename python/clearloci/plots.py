@@ -56,7 +56,7 @@ def _axes(ax: Axes | None, plane: _Plane) -> Axes:
 def _new_axes() -> Axes:
     import matplotlib.pyplot as plt
 
-    return plt.subplots(layout="constrained")[1]  # room for a legend beside the plot
+    return plt.subplots()[1]
 
 
 def _legend(ax: Axes, beside: bool) -> None:
@@ -64,7 +64,10 @@ def _legend(ax: Axes, beside: bool) -> None:
     if not ax.get_legend_handles_labels()[0]:
         return
     if beside:
-        ax.legend(fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5))
+        legend = ax.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.01, 0.5))
+        ax.figure.draw_without_rendering()  # from now on the legend has a size
+        taken = legend.get_window_extent().width / ax.figure.bbox.width
+        ax.figure.subplots_adjust(right=max(0.3, 0.96 - taken))
     else:
         ax.legend(fontsize="small", loc="best")
 
@@ -93,12 +96,13 @@ def _plot_curves(curves: list[Any], ax: Axes, plane: _Plane, mode: dict[str, str
             named.add(label)
 
 
-def _plot_mechanism(model: Model, ax: Axes, plane: _Plane, mode: dict[str, str] | None) -> None:
+def _plot_mechanism(model: Model, ax: Axes, plane: _Plane, mode: dict[str, str] | None) -> np.ndarray:
     """Where the coordinates are the place of the end effector: the links in a pose of this working mode. Motors are filled,
-    pins of the ground have a bar below them."""
+    pins of the ground have a bar below them. Returns the places that it takes, none where it is not drawn."""
     sketch = model._handle.sketch(mode)
     if sketch is None:
-        return
+        return np.empty((0, 2))
+    places = [plane(line) for kind in ("links", "slides", "springs") for line in sketch[kind]]
     for link in sketch["links"]:
         corners = plane(link)
         if len(corners) > 2:
@@ -107,6 +111,8 @@ def _plot_mechanism(model: Model, ax: Axes, plane: _Plane, mode: dict[str, str] 
             ax.plot(*corners.T, color="0.45", linewidth=3, alpha=0.6, solid_capstyle="round", zorder=2.5)
     for slide in sketch["slides"]:
         ax.plot(*plane(slide).T, color="0.45", linewidth=5, alpha=0.3, solid_capstyle="butt", zorder=2.5)
+    for spring in sketch["springs"]:
+        ax.plot(*plane(_zigzag(spring)).T, color="0.25", linewidth=0.9, zorder=2.4)
     for joint in sketch["joints"]:
         at = plane(joint["at"])
         colour = "0.25" if joint["actuated"] else "white"
@@ -116,6 +122,15 @@ def _plot_mechanism(model: Model, ax: Axes, plane: _Plane, mode: dict[str, str] 
     if "end_effector" in sketch:
         name, at = sketch["end_effector"]
         ax.annotate(name, plane(at), xytext=(6, 6), textcoords="offset points", zorder=2.7)
+    return np.concatenate(places)
+
+
+def _zigzag(ends: np.ndarray, turns: int = 8) -> np.ndarray:
+    """A spring between two points, straight at its ends."""
+    way = ends[1] - ends[0]
+    along = np.concatenate(([0], np.linspace(0.2, 0.8, 2 * turns + 1), [1]))
+    beside = np.concatenate(([0, 0], [0.05 * (-1) ** k for k in range(2 * turns - 1)], [0, 0]))
+    return ends[0] + np.outer(along, way) + np.outer(beside, [-way[1], way[0]])
 
 
 def plot_loci(loci: Loci, ax: Axes | None, working_mode: dict[str, str] | None) -> Axes:
@@ -135,13 +150,19 @@ def plot_loci(loci: Loci, ax: Axes | None, working_mode: dict[str, str] | None) 
             label = f"isolated: {', '.join(point.vanishing)}"
             ax.plot(*plane(point.at), "o", color="black", fillstyle="none", label=None if label in named else label)
             named.add(label)
-    _plot_mechanism(loci.model, ax, plane, mode)
-    _finish(ax, plane, loci.box, beside)
+    _finish(ax, plane, loci.box, _plot_mechanism(loci.model, ax, plane, mode), beside)
     return ax
 
 
-def _finish(ax: Axes, plane: _Plane, box: list[tuple[float, float]], beside: bool) -> None:
-    lower, upper = plane(np.array(box).T)
+def _finish(ax: Axes, plane: _Plane, box: list[tuple[float, float]], drawn: np.ndarray, beside: bool) -> None:
+    """The box, with a dashed border and room around it where the mechanism stands out of it, and the legend."""
+    corners = plane(np.array(box).T)
+    lower, upper = np.min([corners[0], *drawn], axis=0), np.max([corners[1], *drawn], axis=0)
+    if np.any(lower < corners[0]) or np.any(upper > corners[1]):
+        (x0, y0), (x1, y1) = corners
+        ax.plot([x0, x1, x1, x0, x0], [y0, y0, y1, y1, y0], color="0.6", linewidth=0.7, linestyle=":", zorder=0.5)
+        room = 0.05 * (upper - lower)
+        lower, upper = lower - room, upper + room
     ax.set_xlim(lower[0], upper[0])
     ax.set_ylim(lower[1], upper[1])
     _legend(ax, beside)
@@ -157,8 +178,7 @@ def plot_zones(zones: Zones, ax: Axes | None, working_mode: dict[str, str] | Non
         _fill(ax, rings, color=f"C{number % 10}", alpha=0.35, zorder=0)
         ax.annotate(zone.id, plane(zone.sample), ha="center", va="center", zorder=3)
     _plot_curves(zones.curves, ax, plane, mode)
-    _plot_mechanism(zones.model, ax, plane, mode)
-    _finish(ax, plane, zones.box, beside)
+    _finish(ax, plane, zones.box, _plot_mechanism(zones.model, ax, plane, mode), beside)
     return ax
 
 

@@ -106,7 +106,7 @@ def test_plots_speak_in_the_units_of_the_file():
     model = cl.read(EXAMPLES / "minitaur_leg.yaml")
     assert model.units == {"length": "mm", "angle": "deg", "force": "N"}
     ax = model.zones().plot()
-    assert ax.get_xlabel() == "x (mm)" and ax.get_xlim() == pytest.approx((-200, 200))
+    assert ax.get_xlabel() == "x (mm)" and 200 <= ax.get_xlim()[1] < 300  # with room for the motors above the box
     assert max(abs(line.get_xdata()).max() for line in ax.lines) > 100
     assert model.errors((8, 8), worst_case=False).plot("dalpha").get_xlim()[1] == pytest.approx(200, rel=0.2)
     plt.close("all")

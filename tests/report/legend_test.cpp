@@ -6,6 +6,7 @@
 #include "report/label_places.hpp"
 #include "report/plot.hpp"
 #include "report/study_words.hpp"
+#include "report/surface_groups.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -52,6 +53,29 @@ TEST(Legend, NoEntryIsThereTwice) {
   ASSERT_EQ(groups.curves.size(), 2U);
   EXPECT_EQ(ids_of(groups.curves[0]), "c1, c2");
   EXPECT_EQ(ids_of(groups.curves[1]), "c3");
+}
+
+TEST(Legend, ReasonsThatSeveralSurfacesShareAreToldOnce) {
+  core::LocusMap map;
+  const auto add = [&](const std::string& id, const std::string& joint, const std::string& cause) {
+    core::LocusSurface own;
+    own.id = id;
+    own.kind = LocusKind::backlash;
+    own.vanishing = {{joint, Quantity::F, 1}};
+    own.factor = unreadable + id;
+    own.cause = cause;
+    map.surfaces.push_back(std::move(own));
+  };
+  add("s1", "S1", "");
+  add("s2", "S2", "");
+  add("s3", "S3", "the load parallel to S3");
+  std::vector<SurfaceGroup> groups = group_surfaces(map);
+  ASSERT_EQ(groups.size(), 3U);
+  const std::vector<std::string> remarks = tell_shared_reasons(groups);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks.front(), "s1, s2: the loads do no work in the motion that the joint alone drives");
+  EXPECT_EQ(groups[0].why + groups[1].why, "");
+  EXPECT_EQ(groups[2].why, "the load parallel to S3");
 }
 
 TEST(Legend, OfManyIdsTheEndsAreTold) {

@@ -63,7 +63,7 @@ export class Space {
   resize(width: number, height: number): void {
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height);
-    const half = 1.15;
+    const half = 1.32; // of the box and the numbers beside it
     const wide = Math.max(1, width / height);
     const high = Math.max(1, height / width);
     [this.camera.left, this.camera.right, this.camera.top, this.camera.bottom] = [-half * wide, half * wide, half * high, -half * high];
