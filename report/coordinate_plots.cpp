@@ -256,7 +256,10 @@ class ModePlots {
 
 std::vector<NamedPlot> coordinate_plots(const core::Errors& errors, const core::ModeErrors& mode) {
   const ModePlots plots(errors, mode);
-  return {{"error", plots.error()}, {"take-up", plots.take_up()}, {"reactions", plots.reactions()}};
+  std::vector<NamedPlot> all = {
+      {"error", plots.error()}, {"take-up", plots.take_up()}, {"reactions", plots.reactions()}};
+  std::erase_if(all, [](const NamedPlot& own) { return own.plot.panels.empty(); });
+  return all;
 }
 
 }  // namespace clearloci::report

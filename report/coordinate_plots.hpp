@@ -9,7 +9,7 @@
 
 namespace clearloci::report {
 
-/// error, take-up, reactions of a mode, over the coordinate.
+/// error, take-up, reactions of a mode, over the coordinate; those of which there is something to draw.
 std::vector<NamedPlot> coordinate_plots(const core::Errors& errors, const core::ModeErrors& mode);
 
 }  // namespace clearloci::report

@@ -19,22 +19,23 @@ std::string file_name(const std::string& stem, const core::Errors& errors, const
   return stem + (errors.modes.size() > 1 ? "-" + mode_slug(errors.loci.tower, mode.mode) : "") + ending;
 }
 
-/// The values of all fields of the answer that are to be compared with this one.
-std::vector<double> like(const core::Errors& errors, const core::Field& field) {
-  std::vector<double> values;
-  for (const core::ModeErrors& mode : errors.modes)
-    for (const core::Field& other : mode.map.fields)
-      if (other.unit == field.unit && other.is_signed == field.is_signed)
-        values.insert(values.end(), other.values.begin(), other.values.end());
-  return values;
-}
-
 /// A map over two coordinates and the loci to be drawn over it.
 struct Plane {
   core::FieldMap map;
   core::LocusMap loci;
   std::string name = {};  ///< "-z12" where slices are named
+  const core::ModeErrors* mode = nullptr;
 };
+
+/// The values of all fields that are to be compared with this one.
+std::vector<double> like(const std::vector<Plane>& planes, const core::Field& field) {
+  std::vector<double> values;
+  for (const Plane& plane : planes)
+    for (const core::Field& other : plane.map.fields)
+      if (other.unit == field.unit && other.is_signed == field.is_signed)
+        values.insert(values.end(), other.values.begin(), other.values.end());
+  return values;
+}
 
 Plane sliced(const core::Errors& errors, const core::FieldMap& map, const core::FieldSlice& slice) {
   const std::size_t across = slice.across;
@@ -54,14 +55,17 @@ Plane sliced(const core::Errors& errors, const core::FieldMap& map, const core::
   return plane;
 }
 
-std::vector<Plane> planes_of(const ErrorSheet& sheet, const core::FieldMap& map) {
-  if (map.dimension() < 3) return {{map, sheet.errors.loci}};
-  if (sheet.slices.empty()) return {sliced(sheet.errors, map, {2, map.axes[2].size() / 2})};
+std::vector<Plane> planes_of(const ErrorSheet& sheet, const core::ModeErrors& mode) {
+  const core::FieldMap& map = mode.map;
   std::vector<Plane> planes;
+  if (map.dimension() < 3) planes.push_back({map, sheet.errors.loci});
+  if (map.dimension() == 3 && sheet.slices.empty())
+    planes.push_back(sliced(sheet.errors, map, {2, map.axes[2].size() / 2}));
   for (const core::FieldSlice& slice : sheet.slices) {
     planes.push_back(sliced(sheet.errors, map, slice));
     planes.back().name = "-" + map.coordinates[slice.across] + std::to_string(slice.layer);
   }
+  for (Plane& plane : planes) plane.mode = &mode;
   return planes;
 }
 
@@ -101,16 +105,17 @@ Files error_vti(const ErrorSheet& sheet) {
 Files error_pictures(const ErrorSheet& sheet, PictureFormat format) {
   const core::Errors& errors = sheet.errors;
   if (!errors.modes.empty() && errors.modes.front().map.dimension() == 1) return plots(errors, format);
-  Files files;
+  std::vector<Plane> planes;
   for (const core::ModeErrors& mode : errors.modes)
-    for (const Plane& plane : planes_of(sheet, mode.map))
-      for (std::size_t f = 0; f < plane.map.fields.size(); ++f) {
-        const core::Field& field = plane.map.fields[f];
-        std::string name = field.name;
-        std::replace(name.begin(), name.end(), '_', '-');
-        files.push_back({file_name("error-" + name, errors, mode, plane.name + ending_of(format)),
-                         field_picture(plane.loci, mode.mode, plane.map, field, format, like(errors, field))});
-      }
+    for (Plane& plane : planes_of(sheet, mode)) planes.push_back(std::move(plane));
+  Files files;
+  for (const Plane& plane : planes)
+    for (const core::Field& field : plane.map.fields) {
+      std::string name = field.name;
+      std::replace(name.begin(), name.end(), '_', '-');
+      files.push_back({file_name("error-" + name, errors, *plane.mode, plane.name + ending_of(format)),
+                       field_picture(plane.loci, plane.mode->mode, plane.map, field, format, like(planes, field))});
+    }
   return files;
 }
 

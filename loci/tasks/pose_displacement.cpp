@@ -85,6 +85,8 @@ class Displacement {
   const std::vector<PoseTakeUp>& take_ups_;
 };
 
+constexpr long part_of_a_bound = 10;
+
 double root_above(double square) { return std::sqrt(std::max(0.0, square)) * (1 + 0x1p-50); }
 
 template <class Cell, class Form>
@@ -109,6 +111,8 @@ class DisplacementSearch {
       if (found_.cells >= effort_.most_cells) found_.out_of_cells = true;
       if (effort_.deadline && std::chrono::steady_clock::now() >= *effort_.deadline) found_.out_of_time = true;
       if (found_.out_of_cells || found_.out_of_time || found_.met > allowed_) break;
+      // Where the verdict is known, a closer bound is worth a part of the cells.
+      if (open_.top().most <= allowed_ && found_.cells >= effort_.most_cells / part_of_a_bound) break;
       left = std::max(left, step());
     }
     found_.most = std::max(left, open_.empty() ? 0.0 : open_.top().most);
