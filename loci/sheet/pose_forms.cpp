@@ -64,6 +64,13 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run(const PoseChart& chart, c
 }
 
 template <class Form>
+typename PoseForms<Form>::Outcome PoseForms<Form>::put(const Pose& at, std::span<const Form> unknowns) {
+  const core::PoseProgram::Block& block = program_->blocks.front();
+  for (std::size_t k = 0; k < unknowns.size(); ++k) (*this)[block.unknowns[k]] = unknowns[k];
+  return run_steps(0, block.end, {at, {}}, {}, nullptr);
+}
+
+template <class Form>
 typename PoseForms<Form>::Outcome PoseForms<Form>::run_steps(int from, int to, const PoseChart& chart,
                                                              const PoseBox& box, std::vector<Form>* boundaries) {
   const auto in_doubt = [&](const Form& form) {
