@@ -157,6 +157,8 @@ bool PoseForms<Form>::contracts(const std::vector<int>& jacobian, const std::vec
                                 std::vector<double>& rest) {
   const std::size_t n = radius.size();
   std::array<double, Form::noises> spreads{};
+  std::vector<double> error(n * n);
+  const double roundings = 1 + static_cast<double>(n + 8) * 0x1p-51;
   bool inside = true;
   for (std::size_t i = 0; i < n; ++i) {
     double beside = 0;
@@ -167,11 +169,20 @@ bool PoseForms<Form>::contracts(const std::vector<int>& jacobian, const std::vec
         if (const Form& entry = (*this)[jacobian[j * n + k]]; entry.c != 0 || entry.radius() > 0)
           sum.add(-inverse[i * n + j], entry);
       const Form e = sum.result();
-      beside += e.magnitude() * radius[k];
+      error[i * n + k] = e.magnitude();
+      beside += error[i * n + k] * radius[k];
       for (std::size_t p = 0; p < Form::noises; ++p) spreads[p] += std::abs(e.a[p]);
     }
-    rest[i] = beside * (1 + static_cast<double>(n + 8) * 0x1p-51);
+    rest[i] = beside * roundings;
     inside = inside && (moved[i].magnitude() + rest[i]) * (1 + 0x1p-50) < radius[i];
+  }
+  // The solution is in what D was mapped to: once more from there.
+  std::vector<double> mapped(n);
+  for (std::size_t k = 0; k < n; ++k) mapped[k] = (moved[k].magnitude() + rest[k]) * (1 + 0x1p-50);
+  for (std::size_t i = 0; inside && i < n; ++i) {
+    double beside = 0;
+    for (std::size_t k = 0; k < n; ++k) beside += error[i * n + k] * mapped[k];
+    rest[i] = beside * roundings;
   }
   doubt_ = Form();
   doubt_.a = spreads;
@@ -186,8 +197,8 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
                                                             const std::vector<int>& equations, const Put& put,
                                                             std::vector<Form>& middle, std::vector<Form>& result,
                                                             std::vector<Unique>& unique) {
-  constexpr int iterations = 3;     // orders of the cell that u_0 holds
-  constexpr double finest = 1e-11;  // of the unknowns' size: far above what rounding leaves of a solution
+  constexpr int iterations = 3;      // orders of the cell that u_0 holds
+  constexpr double finest = 2.5e-9;  // of the unknowns' size: above what rounding leaves of a solution near its end
   constexpr std::array<double, 4> widths = {64, 8, 2, 1.25};
   const std::size_t n = middle.size();
   std::vector<Form> moved(n);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/pose_program.hpp"
-#include "loci/numbers/affine.hpp"
+#include "loci/numbers/numbers.hpp"
 #include "loci/sheet/pose_chart.hpp"
 
 namespace clearloci::loci::pose {
