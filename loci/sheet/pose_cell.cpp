@@ -112,8 +112,7 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
       break;
   }
   // The sheet's solution is the one that the cell has.
-  double size = 0;
-  for (const double own : starts) size = std::max(size, std::abs(own));
+  const double size = core::size_of(statics_->program, starts);
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const auto& [middle, radius] = forms_.unique()[k];
     if (!(std::abs(middle.c - starts[k]) + core::BlockSheet::accuracy * size < radius))

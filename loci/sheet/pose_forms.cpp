@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pose_values.hpp"
 #include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::pose {
@@ -203,8 +204,9 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
   const std::size_t n = middle.size();
   std::vector<Form> moved(n);
   std::vector<double> inverse(n * n), radius(n, 0.0), rest(n);
-  double size = 0;
-  for (const Form& own : middle) size = std::max(size, std::abs(own.c));
+  std::vector<double> centres;
+  for (const Form& own : middle) centres.push_back(own.c);
+  const double size = core::size_of(*program_, centres);
   for (int step = 0; step <= iterations; ++step) {
     if (put(middle, radius) != Outcome::complete) return Outcome::in_doubt;
     if (step == 0) {
@@ -290,7 +292,10 @@ bool PoseForms<Form>::turn(double q, std::span<const double> start, std::size_t 
   coordinate_ = &coordinate;
   turned_.clear();
   const Outcome outcome = krawczyk(jacobian, block.equations, put, middle, result, turned_);
-  if (outcome == Outcome::complete) (void)put(result, std::vector<double>(n, 0.0));
+  if (outcome == Outcome::complete) {
+    (void)put(result, std::vector<double>(n, 0.0));
+    turned_coordinate_ = result[k];
+  }
   coordinate_ = nullptr;
   return outcome == Outcome::complete;
 }
