@@ -14,8 +14,10 @@
 #include "core/errors.hpp"
 #include "core/rational.hpp"
 #include "core/shown_units.hpp"
+#include "loci/sheet/sheet.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/fits.hpp"
+#include "mechanism/group_closing.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/written_unit.hpp"
@@ -390,6 +392,37 @@ std::vector<core::Rational> exact(const std::vector<double>& at) {
 
 }  // namespace
 
+namespace {
+
+/// Of every assembly of a group in a working mode: it is that of a posture at this very pose.
+void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                    const PoseRequest& request, std::vector<ModePose>& modes) {
+  std::vector<double> pose;
+  for (const core::Rational& own : at) pose.push_back(core::to_double(own));
+  loci::pose::AllSolutions all;
+  const auto box = mechanism.groups.size() == 1 ? mechanism::group_reach(mechanism, pose) : std::nullopt;
+  if (box) all = loci::pose::all_solutions(mechanism::group_program(mechanism, request.working_mode), pose, *box);
+  const mechanism::Group& group = mechanism.groups.front();
+  if (all.found.empty()) {
+    modes.push_back(solve_in(mechanism, at, request));
+    if (!all.complete) modes.back().working_mode.emplace_back(group.name, "that of its posture, others are not told");
+    return;
+  }
+  mechanism::Mechanism own = mechanism;
+  own.near = at;
+  for (std::size_t i = 0; i < all.found.size(); ++i) {
+    std::size_t k = 0;
+    for (auto& place : own.groups.front().near)
+      for (std::size_t c = 0; c < mechanism::dimension(mechanism); ++c) place[c] = core::Rational(all.found[i][k++]);
+    modes.push_back(solve_in(own, at, request));
+    modes.back().working_mode.emplace_back(group.name, "assembly " + std::to_string(i + 1) + " of " +
+                                                           std::to_string(all.found.size()) +
+                                                           (all.complete ? "" : " or more"));
+  }
+}
+
+}  // namespace
+
 PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                                 const PoseRequest& request) {
   require_values(mechanism, at.size());
@@ -398,7 +431,10 @@ PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std
   PoseRequest own = request;
   for (const DyadSides& sides : requested_modes(mechanism, {.all_working_modes = true})) {
     own.working_mode = sides;
-    all.modes.push_back(solve_in(mechanism, at, own));
+    if (mechanism.groups.empty())
+      all.modes.push_back(solve_in(mechanism, at, own));
+    else
+      add_assemblies(mechanism, at, own, all.modes);
   }
   return all;
 }

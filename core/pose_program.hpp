@@ -46,6 +46,7 @@ struct PoseProgram {
     std::vector<int> equations;  ///< as many steps, zero
     std::vector<int> jacobian;   ///< row after row
     std::vector<int> rates;      ///< over one coordinate: the derivatives of the equations by it; else empty
+    double size = 0;             ///< of lengths among its equations: what rounding is measured by
     std::vector<double> near;    ///< the unknowns of the posture whose sheet is meant, at the pose `near`
   };
   std::vector<Step> steps;

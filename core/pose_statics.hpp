@@ -32,8 +32,8 @@ struct PoseDemand {
 
 /// Which solutions of a program's blocks are meant, over a box of poses: those of one sheet, on which J is regular.
 struct BlockSheet {
-  /// Of the largest unknown: a solution is proven so near to what `start` tells.
-  static constexpr double accuracy = 1e-12;
+  /// Of size_of: a solution is proven so near to what `start` tells.
+  static constexpr double accuracy = 2e-9;
   enum class Cover { all, some, none };
   /// At a pose that the sheet is proven to cover; nothing elsewhere.
   BlockStart start = {};

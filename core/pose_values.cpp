@@ -50,6 +50,13 @@ bool solve_dense(std::vector<double>& a, std::span<double> b, int* sign) {
   return true;
 }
 
+double size_of(const PoseProgram& program, std::span<const double> unknowns) {
+  double size = 0;
+  for (const PoseProgram::Block& own : program.blocks) size = std::max(size, own.size);
+  for (const double own : unknowns) size = std::max(size, std::abs(own));
+  return size;
+}
+
 PoseValues::PoseValues(const PoseProgram& program) : program_(program), registers_(program.steps.size(), 0.0) {
   for (std::size_t i = 0; i < registers_.size(); ++i) {
     const PoseProgram::Step& own = program.steps[i];

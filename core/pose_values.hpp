@@ -52,6 +52,9 @@ class PoseValues {
   double moved_ = 0, contraction_ = 0;
 };
 
+/// What the unknowns' accuracy is measured by: the largest of them and of the blocks' lengths.
+double size_of(const PoseProgram& program, std::span<const double> unknowns);
+
 /// x with A x = b, by Gauss's elimination with partial pivoting; A and b are used up. `sign`: that of det A. False
 /// where A is singular to rounding.
 bool solve_dense(std::vector<double>& a, std::span<double> b, int* sign = nullptr);

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/pose_values.hpp"
 #include "mechanism/dependence.hpp"
 #include "mechanism/pose_steps.hpp"
+#include "mechanism/posture_sample.hpp"
 
 namespace clearloci::mechanism {
 
 struct GroupClosing::Program {
   core::PoseProgram program;
+  std::size_t unknowns = 0;
   std::vector<int> wanted;  ///< the lengths of the last group's distances
   std::optional<core::PoseValues> values;
 };
@@ -28,12 +31,21 @@ GroupClosing::GroupClosing(const Mechanism& mechanism, const std::vector<int>& s
   std::vector<int*> results;
   for (int& own : program_->wanted) results.push_back(&own);
   program_->program = program_of(mechanism, points.algebra().builder(), results);
+  program_->unknowns = group_unknowns(mechanism);
   program_->values.emplace(program_->program);
 }
 
 std::optional<std::vector<double>> GroupClosing::at(std::span<const double> pose) {
   if (!program_->values) return std::vector<double>{};
   return program_->values->followed(pose);
+}
+
+std::optional<std::vector<double>> GroupClosing::lengths(std::span<const double> pose) {
+  core::PoseValues& values = *program_->values;
+  (void)values.put(pose, std::vector<double>(program_->unknowns, 1.0));
+  std::vector<double> lengths;
+  for (const int own : program_->wanted) lengths.push_back(std::abs(values[own]));
+  return lengths;
 }
 
 GroupClosing::Posture GroupClosing::posture() {
@@ -65,6 +77,59 @@ GroupClosing::Posture GroupClosing::posture() {
   const Dependence dependence = dependence_of(by_unknown);
   if (dependence.rank < n) result.dependent.assign(dependence.columns.begin(), dependence.columns.end());
   return result;
+}
+
+core::PoseProgram group_program(const Mechanism& mechanism, const std::vector<int>& sides) {
+  PosePoints points(mechanism, sides, PoseSteps(mechanism));
+  return program_of(mechanism, points.algebra().builder(), {});
+}
+
+std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& mechanism,
+                                                              const std::vector<double>& pose) {
+  const Group& group = mechanism.groups.back();
+  const auto known = sample_points(mechanism, pose);  // those before the group have their places, whatever it does
+  GroupClosing closing(mechanism, working_mode(mechanism));
+  const std::optional<std::vector<double>> lengths = closing.lengths(pose);
+  if (!lengths) return std::nullopt;
+  const std::size_t count = static_cast<std::size_t>(group.last - group.first) + 1;
+  std::vector<std::array<double, 2>> box;
+  const double far = std::numeric_limits<double>::infinity();
+  // From every known point the shortest ways along lengths; what has no length of its own has no bound.
+  std::vector<std::vector<double>> low(count, std::vector<double>(3, -far)), high(count, std::vector<double>(3, far));
+  const auto narrow = [&](PointIndex to, PointIndex from, double length) {
+    const auto t = static_cast<std::size_t>(to - group.first);
+    bool changed = false;
+    for (std::size_t c = 0; c < dimension(mechanism); ++c) {
+      double a, b;
+      if (from >= group.first && from <= group.last) {
+        a = low[static_cast<std::size_t>(from - group.first)][c];
+        b = high[static_cast<std::size_t>(from - group.first)][c];
+      } else {
+        const auto& at = known[static_cast<std::size_t>(from)];
+        if (!at) return false;
+        a = b = (*at)[c];
+      }
+      const double slack = 1e-9 * (length + std::abs(a) + std::abs(b));
+      if (std::isfinite(a) && a - length - slack > low[t][c] + slack) low[t][c] = a - length - slack, changed = true;
+      if (std::isfinite(b) && b + length + slack < high[t][c] - slack) high[t][c] = b + length + slack, changed = true;
+    }
+    return changed;
+  };
+  bool again = true;
+  for (int round = 0; again && round < 64; ++round) {
+    again = false;
+    for (std::size_t i = 0; i < group.distances.size(); ++i) {
+      const Group::Distance& own = group.distances[i];
+      for (const auto& [to, from] : {std::pair(own.first, own.second), std::pair(own.second, own.first)})
+        if (to >= group.first && to <= group.last) again = narrow(to, from, (*lengths)[i]) || again;
+    }
+  }
+  for (std::size_t k = 0; k < group.count; ++k)
+    for (std::size_t c = 0; c < dimension(mechanism); ++c) {
+      if (!std::isfinite(low[k][c]) || !std::isfinite(high[k][c])) return std::nullopt;
+      box.push_back({low[k][c], high[k][c]});
+    }
+  return box;
 }
 
 std::size_t group_unknowns(const Mechanism& mechanism) {

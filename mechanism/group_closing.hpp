@@ -2,12 +2,14 @@
 // (core/pose_values.hpp). No result rests on it: others prove, or improve by means of their own, what it finds.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/pose_program.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::mechanism {
@@ -23,6 +25,9 @@ class GroupClosing {
   /// The coordinates of the groups' points, m, one after another; nothing where the assembly does not reach the pose.
   std::optional<std::vector<double>> at(std::span<const double> pose);
 
+  /// Of the last group's distances at a pose, m, whether it closes there or not.
+  std::optional<std::vector<double>> lengths(std::span<const double> pose);
+
   /// How the last group's equations are met by its posture, and where Newton's iteration leads from there.
   struct Posture {
     std::optional<std::vector<double>> closed;  ///< as at(); nothing where it leads nowhere
@@ -36,6 +41,14 @@ class GroupClosing {
   struct Program;
   std::unique_ptr<Program> program_;
 };
+
+/// The points as steps, with the groups as blocks.
+core::PoseProgram group_program(const Mechanism& mechanism, const std::vector<int>& sides);
+
+/// Where the unknowns of the last group can be at a pose: its points are no farther from known ones than the lengths
+/// between them add up to. Nothing where known points are not placed.
+std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& mechanism,
+                                                              const std::vector<double>& pose);
 
 /// How many unknowns the groups have together.
 std::size_t group_unknowns(const Mechanism& mechanism);

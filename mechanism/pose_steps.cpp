@@ -1,6 +1,7 @@
 #include "mechanism/pose_steps.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
@@ -17,8 +18,8 @@ PoseSteps::PoseSteps(const Mechanism& mechanism) : m_(mechanism) {
 
 int PoseSteps::symbol(const std::string& name) {
   if (const auto known = symbols_.find(name); known != symbols_.end()) return known->second;
-  const auto own = std::find_if(m_.parameters.begin(), m_.parameters.end(),
-                                [&](const Parameter& p) { return p.name == name; });
+  const auto own =
+      std::find_if(m_.parameters.begin(), m_.parameters.end(), [&](const Parameter& p) { return p.name == name; });
   core::ensure(own != m_.parameters.end(), "a symbol is a coordinate or a parameter");
   // A parameter whose value is rational is that number, whatever roots it was written with.
   const int step = own->exact ? builder_.constant(own->value) : core::interpret(own->expression, *this);
@@ -51,7 +52,13 @@ void PoseSteps::close(std::size_t group, const std::vector<int>& equations) {
     for (const int equation : equations)
       block.rates.push_back(builder_.derivative(equation, symbols_.at(m_.coordinates.front().name)));
   for (const std::array<Rational, 3>& place : m_.groups[group].near)
-    for (std::size_t i = 0; i < dimension(m_); ++i) block.near.push_back(core::to_double(place[i]));
+    for (std::size_t i = 0; i < dimension(m_); ++i) {
+      block.near.push_back(core::to_double(place[i]));
+      block.size = std::max(block.size, std::abs(block.near.back()));
+    }
+  for (const Group::Distance& own : m_.groups[group].distances)
+    if (const int length = core::interpret(own.length, *this); builder_.is_number(length))
+      block.size = std::max(block.size, core::to_double(builder_.number(length)));
 }
 
 core::PoseProgram program_of(const Mechanism& mechanism, const core::PoseProgramBuilder& builder,

@@ -148,8 +148,7 @@ class Growth {
     const Pose pose = chart_.at(at);
     if (!values_.close(pose, unknowns)) return std::nullopt;
     if (forms_.run({pose, {}}, {}, unknowns) != PoseForms<Form>::Outcome::complete) return std::nullopt;
-    double size = 0;
-    for (const double own : unknowns) size = std::max(size, std::abs(own));
+    const double size = core::size_of(program_, unknowns);
     std::size_t k = 0;
     for (const core::PoseProgram::Block& block : program_.blocks)
       for (const int step : block.unknowns) {
@@ -161,8 +160,7 @@ class Growth {
 
   /// Whether a proven solution at parameters of a cell is the only one that it has there.
   bool holds(const Node& cell, const std::vector<double>& at, const BlockUnknowns& unknowns) const {
-    double size = 0;
-    for (const double own : unknowns) size = std::max(size, std::abs(own));
+    const double size = core::size_of(program_, unknowns);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const auto& [middle, radius] = cell.unique[k];
       if (!(std::abs(value(middle, cell.box, at) - unknowns[k]) + 2 * BlockSheet::accuracy * size < radius))
@@ -221,12 +219,15 @@ class Growth {
 
   /// Whether the sheet, which covers what lies before a cell (`side` -1) or behind it, goes on there as a curve in q
   /// and u on which det J has another sign a little farther on: then it vanishes between the two, at a dead centre.
-  bool turns_back(const SheetEnd& end, int side) {
+  bool turns_back(SheetEnd& end, int side) {
     const core::PoseProgram::Block& block = program_.blocks.front();
     if (block.rates.empty()) return false;
     const double width = end.upper - end.lower, edge = side < 0 ? end.lower : end.upper;
     const auto at = [&](double apart) { return solution({edge + side * apart}); };
-    const std::optional<BlockUnknowns> last = at(width);
+    // Next to the end itself rounding leaves no proof of a solution.
+    std::optional<BlockUnknowns> last;
+    constexpr double nearby = 1e-9;
+    for (double apart = width; !last && apart < nearby * (box_[0][1] - box_[0][0]); apart *= 8) last = at(apart);
     if (!last) return false;
     const std::size_t n = block.unknowns.size();
     for (const double part : {1e-4, 1e-6, 1e-8}) {
@@ -237,7 +238,10 @@ class Growth {
       for (std::size_t j = 0; j < n; ++j)
         if (std::abs((*last)[j] - (*first)[j]) > std::abs((*last)[k] - (*first)[k])) k = j;
       const double half = std::abs((*last)[k] - (*first)[k]);
-      if (half > 0 && is_curve_with_two_signs(edge, edge + side * apart, *first, *last, k, half)) return true;
+      if (!(half > 0) || !is_curve_with_two_signs(edge, edge + side * apart, *first, *last, k, half)) continue;
+      (side < 0 ? end.upper : end.lower) =
+          side < 0 ? std::max(end.upper, farthest_[1]) : std::min(end.lower, farthest_[0]);
+      return true;
     }
     return false;
   }
@@ -248,6 +252,7 @@ class Growth {
     const std::span<const double> start(last.data(), n);
     if (!forms_.turn(q, start, k, half)) return false;
     const std::vector<typename PoseForms<Form>::Unique> curve = forms_.turned();
+    farthest_ = {forms_.turned_coordinate().lower(), forms_.turned_coordinate().upper()};
     const double way = first[k] < last[k] ? -1 : 1;
     // Where the first solution is on the curve, and what lies as far on the other side.
     BlockUnknowns other(n);
@@ -352,6 +357,7 @@ class Growth {
   std::deque<int> queue_;
   long cells_ = 0;
   bool out_of_effort_ = false, differs_ = false;
+  std::array<double, 2> farthest_{};  ///< that the curve looked at last leads along q
 };
 
 /// The solution at the other end of the straight way between two poses, on which J is regular.

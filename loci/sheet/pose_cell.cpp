@@ -112,8 +112,7 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
       break;
   }
   // The sheet's solution is the one that the cell has.
-  double size = 0;
-  for (const double own : starts) size = std::max(size, std::abs(own));
+  const double size = core::size_of(statics_->program, starts);
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const auto& [middle, radius] = forms_.unique()[k];
     if (!(std::abs(middle.c - starts[k]) + core::BlockSheet::accuracy * size < radius))
@@ -233,7 +232,7 @@ Form PoseCellOf<Form>::sum_of(const core::LinearRow& row, std::size_t load) cons
   double beyond = 0;
   for (const core::LinearRow::Term& term : row.terms) {
     const auto j = static_cast<std::size_t>(term.unknown);
-    const Form& factor = registers_[static_cast<std::size_t>(term.step)];
+    const Form& factor = forms_[term.step];
     add_step(sum, solution_[load][j], term.step);
     sum.add(1, factor * moved_[load][j]);
     beyond += factor.magnitude() * rest_[load][j];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/pose_values.hpp"
 #include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::pose {
@@ -61,6 +62,13 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run(const PoseChart& chart, c
     first += block.unknowns.size();
   }
   return run_steps(done, static_cast<int>(registers_.size()), chart, box, boundaries);
+}
+
+template <class Form>
+typename PoseForms<Form>::Outcome PoseForms<Form>::put(const Pose& at, std::span<const Form> unknowns) {
+  const core::PoseProgram::Block& block = program_->blocks.front();
+  for (std::size_t k = 0; k < unknowns.size(); ++k) (*this)[block.unknowns[k]] = unknowns[k];
+  return run_steps(0, block.end, {at, {}}, {}, nullptr);
 }
 
 template <class Form>
@@ -150,6 +158,8 @@ bool PoseForms<Form>::contracts(const std::vector<int>& jacobian, const std::vec
                                 std::vector<double>& rest) {
   const std::size_t n = radius.size();
   std::array<double, Form::noises> spreads{};
+  std::vector<double> error(n * n);
+  const double roundings = 1 + static_cast<double>(n + 8) * 0x1p-51;
   bool inside = true;
   for (std::size_t i = 0; i < n; ++i) {
     double beside = 0;
@@ -160,11 +170,20 @@ bool PoseForms<Form>::contracts(const std::vector<int>& jacobian, const std::vec
         if (const Form& entry = (*this)[jacobian[j * n + k]]; entry.c != 0 || entry.radius() > 0)
           sum.add(-inverse[i * n + j], entry);
       const Form e = sum.result();
-      beside += e.magnitude() * radius[k];
+      error[i * n + k] = e.magnitude();
+      beside += error[i * n + k] * radius[k];
       for (std::size_t p = 0; p < Form::noises; ++p) spreads[p] += std::abs(e.a[p]);
     }
-    rest[i] = beside * (1 + static_cast<double>(n + 8) * 0x1p-51);
+    rest[i] = beside * roundings;
     inside = inside && (moved[i].magnitude() + rest[i]) * (1 + 0x1p-50) < radius[i];
+  }
+  // The solution is in what D was mapped to: once more from there.
+  std::vector<double> mapped(n);
+  for (std::size_t k = 0; k < n; ++k) mapped[k] = (moved[k].magnitude() + rest[k]) * (1 + 0x1p-50);
+  for (std::size_t i = 0; inside && i < n; ++i) {
+    double beside = 0;
+    for (std::size_t k = 0; k < n; ++k) beside += error[i * n + k] * mapped[k];
+    rest[i] = beside * roundings;
   }
   doubt_ = Form();
   doubt_.a = spreads;
@@ -179,14 +198,15 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
                                                             const std::vector<int>& equations, const Put& put,
                                                             std::vector<Form>& middle, std::vector<Form>& result,
                                                             std::vector<Unique>& unique) {
-  constexpr int iterations = 3;     // orders of the cell that u_0 holds
-  constexpr double finest = 1e-11;  // of the unknowns' size: far above what rounding leaves of a solution
+  constexpr int iterations = 3;      // orders of the cell that u_0 holds
+  constexpr double finest = 2.5e-9;  // of the unknowns' size: above what rounding leaves of a solution near its end
   constexpr std::array<double, 4> widths = {64, 8, 2, 1.25};
   const std::size_t n = middle.size();
   std::vector<Form> moved(n);
   std::vector<double> inverse(n * n), radius(n, 0.0), rest(n);
-  double size = 0;
-  for (const Form& own : middle) size = std::max(size, std::abs(own.c));
+  std::vector<double> centres;
+  for (const Form& own : middle) centres.push_back(own.c);
+  const double size = core::size_of(*program_, centres);
   for (int step = 0; step <= iterations; ++step) {
     if (put(middle, radius) != Outcome::complete) return Outcome::in_doubt;
     if (step == 0) {
@@ -272,7 +292,10 @@ bool PoseForms<Form>::turn(double q, std::span<const double> start, std::size_t 
   coordinate_ = &coordinate;
   turned_.clear();
   const Outcome outcome = krawczyk(jacobian, block.equations, put, middle, result, turned_);
-  if (outcome == Outcome::complete) (void)put(result, std::vector<double>(n, 0.0));
+  if (outcome == Outcome::complete) {
+    (void)put(result, std::vector<double>(n, 0.0));
+    turned_coordinate_ = result[k];
+  }
   coordinate_ = nullptr;
   return outcome == Outcome::complete;
 }

@@ -36,6 +36,8 @@ class PoseForms {
   /// run.
   Outcome run(const PoseChart& chart, const PoseBox& box, std::span<const double> starts = {},
               std::vector<Form>* boundaries = nullptr);
+  /// The steps up to the end of the first block, with these unknowns, at a single pose.
+  Outcome put(const Pose& at, std::span<const Form> unknowns);
   /// Of the last run in doubt: what may vanish. Where a block is at its dead centre, how far J varies.
   const Form& doubt() const { return doubt_; }
 
@@ -45,6 +47,7 @@ class PoseForms {
   bool turn(double q, std::span<const double> start, std::size_t k, double half);
   /// In the place of unknown k that of q.
   const std::vector<Unique>& turned() const { return turned_; }
+  const Form& turned_coordinate() const { return turned_coordinate_; }
   /// The sign of det J of the first block, over all that the registers enclose; 0: it may vanish.
   int orientation() const;
 
@@ -69,7 +72,7 @@ class PoseForms {
   std::vector<char> varies_;  ///< registers that do with the pose; the others are numbers
   std::vector<Unique> unique_, turned_;
   const Form* coordinate_ = nullptr;  ///< in the place of a chart's
-  Form doubt_;
+  Form doubt_, turned_coordinate_;
 };
 
 extern template class PoseForms<Affine>;

@@ -11,6 +11,7 @@
 #include "loci/sheet/lifted_cell.hpp"
 #include "loci/sheet/patch.hpp"
 #include "loci/sheet/plane_cell.hpp"
+#include "loci/sheet/all_solutions.hpp"
 #include "loci/sheet/block_sheet.hpp"
 #include "loci/sheet/pose_cell.hpp"
 #include "loci/sheet/pose_chart.hpp"

@@ -125,8 +125,9 @@ void PlanarGroups::add_moving_guides(std::vector<Held>& held) const {
   const double close = 1e-12 * d_.size / core::to_double(d_.unit);
   for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) {
     const Joint& joint = d_.mechanism.joints[j];
+    if (!traits(joint).slides || joint.from == ground || joint.to == ground) continue;
     const auto axis = drawn_axis(static_cast<JointIndex>(j));
-    if (!traits(joint).slides || !axis || joint.from == ground || joint.to == ground) continue;
+    if (!axis) continue;
     if (orientation(joint.from) != nullptr || orientation(joint.to) != nullptr || !d_.at(joint.at).is_exact) continue;
     for (const LinkIndex guide : {joint.from, joint.to}) {
       std::vector<PointIndex> on_line;

@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"group: [B, C, E]", "group: []", 10, "has no points"},
                     Mistake{"B: [0.052, 0.295], ", "", 12, "'B' is missing"},
                     Mistake{"at: {phi: 123.289 deg}, ", "", 12, "'at' is missing"},
-                    Mistake{"E-H: 0.8", "E-H: 8", 12, "does not close: E-H is 0.80"},
+                    Mistake{"E-H: 0.8", "E-H: 8", 12, "does not close: E-H is 0.79979 m in it and has to be 8 m"},
                     Mistake{"B: [0.052, 0.295]", "B: [0.5, -0.7]", 12, "does not close"},
                     Mistake{"E-H: 0.8", "A-E: 0.9", 12, "group hip"}));
 

@@ -15,15 +15,15 @@ using core::PoseProgram;
 using core::PoseProgramBuilder;
 using Cover = core::BlockSheet::Cover;
 
-/// u^2 + |q|^2 = 1 over n coordinates, from u = 1 at q = 0.
+/// (u - 3)^2 + |q|^2 = 1 over n coordinates, from u = 4 at q = 0.
 PoseProgram sphere(int n) {
   PoseProgramBuilder b;
   int square = b.constant(-1);
   for (int c = 0; c < n; ++c) square = b.add(square, b.square(b.coordinate(c)));
-  const int u = b.unknown(0, 0), g = b.add(b.square(u), square);
+  const int u = b.unknown(0, 0), g = b.add(b.square(b.subtract(u, b.constant(3))), square);
   b.close(0, {g});
   b.block(0).name = "ball";
-  b.block(0).near = {1};
+  b.block(0).near = {4};
   if (n == 1) b.block(0).rates = {b.derivative(g, b.coordinate(0))};
   int last = b.multiply(u, u);
   PoseProgram program = b.program({&last});
@@ -42,13 +42,13 @@ TEST(BlockSheet, OverOneCoordinateEndsAtItsDeadCentres) {
     const double at = end.lower < 0 ? -1 : 1;
     EXPECT_LE(end.lower, at);
     EXPECT_GE(end.upper, at);
-    EXPECT_LT(end.upper - end.lower, 1e-11);
+    EXPECT_LT(end.upper - end.lower, 1e-10);
     EXPECT_TRUE(end.proven);
   }
   for (const double q : {-0.999999, -0.5, 0.0, 0.25, 0.9999999999}) {
     const auto u = found.sheet.start(std::vector{q});
     ASSERT_TRUE(u) << q;
-    EXPECT_NEAR(u->front(), std::sqrt((1 - q) * (1 + q)), 1e-12);
+    EXPECT_NEAR(u->front(), 3 + std::sqrt((1 - q) * (1 + q)), 1e-10);
   }
   EXPECT_FALSE(found.sheet.start(std::vector{1.0000001}));
   EXPECT_EQ(found.sheet.cover(std::vector{-0.5}, std::vector{0.5}), Cover::all);
@@ -82,13 +82,13 @@ TEST(BlockSheet, OverMoreCoordinatesCoversTheInsideAlone) {
       }
       const auto u = found.sheet.start(q);
       if (u) {
-        EXPECT_NEAR(u->front(), std::sqrt(1 - square), 1e-10);
+        EXPECT_NEAR(u->front(), 3 + std::sqrt(1 - square), 1e-9);
       }
       if (square > 1) {
         EXPECT_FALSE(u);
       }
-      inside += square < 0.98 ? 1 : 0;
-      covered += square < 0.98 && u ? 1 : 0;
+      inside += square < (n == 2 ? 0.98 : 0.85) ? 1 : 0;
+      covered += square < (n == 2 ? 0.98 : 0.85) && u ? 1 : 0;
     }
     EXPECT_EQ(covered, inside) << n;
   }
@@ -100,6 +100,7 @@ TEST(BlockSheet, OfACuspIsNoFunctionWhereItsLayersMeet) {
   const int x = b.coordinate(0), y = b.coordinate(1), u = b.unknown(0, 0);
   b.close(0, {b.add(b.add(b.multiply(u, b.square(u)), b.multiply(x, u)), y)});
   b.block(0).name = "cusp";
+  b.block(0).size = 1;
   b.block(0).near = {0};
   int last = b.square(u);
   PoseProgram program = b.program({&last});
@@ -126,12 +127,12 @@ TEST(PoseForms, EncloseAnUnknownToThirdOrder) {
   PoseForms<Affine> forms(program);
   double before = 0;
   for (const double half : {0.04, 0.02, 0.01}) {
-    const std::vector<double> start = {std::sqrt(1 - 0.25)};
+    const std::vector<double> start = {3 + std::sqrt(1 - 0.25)};
     ASSERT_EQ(forms.run({{0.5}, {{1}}}, {{-half, half}}, start), PoseForms<Affine>::Outcome::complete);
     const Affine& u = forms[program.blocks.front().unknowns.front()];
     for (const double e : {-1.0, -0.3, 0.6, 1.0}) {
       const double q = 0.5 + half * e, value = u.c + u.a[0] * e + u.b[0] * e * e;
-      EXPECT_LE(std::abs(value - std::sqrt(1 - q * q)), u.r);
+      EXPECT_LE(std::abs(value - 3 - std::sqrt(1 - q * q)), u.r);
     }
     if (before > 0) {
       EXPECT_LT(u.r, before / 5);
@@ -139,8 +140,8 @@ TEST(PoseForms, EncloseAnUnknownToThirdOrder) {
     before = u.r;
   }
   // No solution, and none that is alone.
-  EXPECT_NE(forms.run({{1.5}, {{1}}}, {{-0.1, 0.1}}, std::vector{0.5}), PoseForms<Affine>::Outcome::complete);
-  EXPECT_NE(forms.run({{1}, {{1}}}, {{-0.1, 0.1}}, std::vector{0.1}), PoseForms<Affine>::Outcome::complete);
+  EXPECT_NE(forms.run({{1.5}, {{1}}}, {{-0.1, 0.1}}, std::vector{3.5}), PoseForms<Affine>::Outcome::complete);
+  EXPECT_NE(forms.run({{1}, {{1}}}, {{-0.1, 0.1}}, std::vector{3.1}), PoseForms<Affine>::Outcome::complete);
 }
 
 TEST(PoseValues, FollowAnUnknownUpToItsDeadCentre) {
@@ -148,7 +149,7 @@ TEST(PoseValues, FollowAnUnknownUpToItsDeadCentre) {
   core::PoseValues values(program);
   const auto u = values.followed(std::vector{0.6, 0.7});
   ASSERT_TRUE(u);
-  EXPECT_NEAR(u->front(), std::sqrt(1 - 0.85), 1e-12);
+  EXPECT_NEAR(u->front(), 3 + std::sqrt(1 - 0.85), 1e-12);
   EXPECT_FALSE(values.followed(std::vector{0.8, 0.7}));
 }
 
