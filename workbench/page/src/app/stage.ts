@@ -11,6 +11,7 @@ import { Layer } from "../draw/surface";
 import { fit, moved, page, plane, zoomed, type Box, type Size, type View } from "../draw/view";
 import { h } from "./dom";
 import { crossingWords, drawFlash, drawPath, drawPoseCross, drawTask, drawWitness } from "./stage_drawing";
+import { Pull } from "./pull";
 import { noDemands } from "./state";
 import { drawnShape, handles, movedShape, withHandle, type DrawnKind } from "./task_text";
 import { nearestOnWay } from "./way";
@@ -18,7 +19,7 @@ import type { Workbench } from "./workbench";
 
 type Grip =
   | { kind: "pose" }
-  | { kind: "base"; name: string }
+  | { kind: "base" | "joint"; name: string }
   | { kind: "handle"; index: number }
   | { kind: "task"; from: Point }
   | { kind: "drawing"; from: Point }
@@ -46,7 +47,10 @@ export class Stage {
   onArmed: (kind: DrawnKind | undefined) => void = () => undefined;
   private flash: { curves: Curve[]; until: number } | undefined;
 
+  private readonly pull: Pull;
+
   constructor(private readonly bench: Workbench) {
+    this.pull = new Pull(bench);
     this.ground = new Layer(this.element, "loci");
     this.top = new Layer(this.element, "mechanism");
     new ResizeObserver(() => this.resize()).observe(this.element);
@@ -246,6 +250,13 @@ export class Stage {
       });
       if (base) return { kind: "base", name: base.name };
     }
+    if (this.sketch) {
+      const moving = bench.facts?.links.flatMap((link) => link.points).find((name) => {
+        const place = bench.pose?.posture[name];
+        return place && near([place[0] ?? 0, place[1] ?? 0], 11) && !bench.model.basePoints.some((one) => one.name === name);
+      });
+      if (moving !== undefined) return { kind: "joint", name: moving };
+    }
     if (task && !this.cycle && taskHit(task.shape, plane(view, at), 8 / view.scale[0])) return { kind: "task", from: plane(view, at) };
     return undefined;
   }
@@ -279,6 +290,8 @@ export class Stage {
         return this.cycle ? this.dragAlongCycle(to) : this.movePose([this.onGrid(to[0]), this.onGrid(to[1])], "drag-pose");
       case "base":
         return this.dragBase(this.grip.name, to);
+      case "joint":
+        return this.pull.towards(this.grip.name, to);
       case "drawing":
         return this.drawTask(this.grip.from, to);
       case "handle":
