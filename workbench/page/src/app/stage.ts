@@ -13,7 +13,7 @@ import { h } from "./dom";
 import { crossingWords, drawFlash, drawPath, drawPoseCross, drawTask, drawWitness } from "./stage_drawing";
 import { Pull } from "./pull";
 import { noDemands } from "./state";
-import { drawnShape, handles, movedShape, withHandle, type DrawnKind } from "./task_text";
+import { drawnShape, handles, movedShape, taskHit, withHandle, type DrawnKind } from "./task_text";
 import { nearestOnWay } from "./way";
 import type { Workbench } from "./workbench";
 
@@ -453,17 +453,3 @@ export class Stage {
 }
 
 const flashTime = 1500; // ms, long enough to read what lets go
-
-function taskHit(shape: import("./state").TaskShape, at: Point, reach: number): boolean {
-  if (shape.kind === "ranges") return false;
-  if (shape.kind === "circle") return Math.hypot(at[0] - shape.centre[0], at[1] - shape.centre[1]) <= shape.radius;
-  if (shape.kind === "box")
-    return at[0] >= shape.low[0] && at[0] <= shape.high[0] && at[1] >= shape.low[1] && at[1] <= shape.high[1];
-  return shape.points.some((point, k) => {
-    const next = shape.points[(k + 1) % shape.points.length];
-    if (!next || (shape.kind === "path" && k + 1 === shape.points.length)) return false;
-    const length = Math.hypot(next[0] - point[0], next[1] - point[1]) || 1;
-    const t = Math.min(1, Math.max(0, ((at[0] - point[0]) * (next[0] - point[0]) + (at[1] - point[1]) * (next[1] - point[1])) / length ** 2));
-    return Math.hypot(at[0] - point[0] - t * (next[0] - point[0]), at[1] - point[1] - t * (next[1] - point[1])) <= reach;
-  });
-}
