@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
-import { rest, shot, source } from "./program";
+import { onPage, rest, shot, source } from "./program";
 import { session } from "./session";
 import { Sheet } from "./sheet";
 
@@ -268,6 +268,33 @@ describe("a file", () => {
     expect(await sheet.said()).toEqual(["", ""]);
     expect(await saved(page)).toContain("springs:\n  - {links: [A1B1, ground], at: [B1, A2], stiffness: 1000, free_length: 0}\n");
     await expect.poll(() => legend(page)).toBeGreaterThan(0);
+  });
+
+  it("with constructions is moved by any of its points, on the sheet and among the loci", async () => {
+    const page = await start();
+    await give(page, "mine.yaml", original);
+    const sheet = new Sheet(page);
+    await sheet.press("Draw");
+    const where = async (name: string): Promise<[number, number]> => {
+      const places = JSON.parse((await page.locator(".sheet").getAttribute("data-points")) ?? "{}") as Record<string, [number, number]>;
+      return [(places[name]?.[0] ?? 0) * 1000, (places[name]?.[1] ?? 0) * 1000];
+    };
+    await sheet.take("select");
+    const before = await where("B1");
+    await sheet.drag(before, [before[0] - 60, before[1] + 40]);
+    const after = await where("B1");
+    expect(Math.hypot(after[0] - before[0], after[1] - before[1])).toBeGreaterThan(20);
+    expect(Math.hypot(after[0], after[1])).toBeCloseTo(500, 3); // still on its crank
+    expect(await saved(page)).toBe(original);
+    await sheet.press("Draw");
+    const [x, y] = await onPage(page, [after[0] / 1000, after[1] / 1000]);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 20, y + 30, { steps: 5 });
+    await page.mouse.up();
+    await rest(page);
+    await sheet.press("Draw");
+    expect(Math.hypot((await where("B1"))[0] - after[0], (await where("B1"))[1] - after[1])).toBeGreaterThan(5);
   });
 
   it("that is dropped is opened, and one of no known form is named", async () => {

@@ -152,7 +152,7 @@ describe("a trajectory", () => {
     await player.fill("0.3");
     await rest(page);
     expect(await image(page, "mechanism")).not.toBe(before);
-    await page.getByRole("button", { name: "Play" }).click();
+    await page.locator(".player").getByRole("button", { name: "Play" }).click();
     await expect.poll(async () => Number(await player.inputValue())).not.toBe(0.3);
     await page.getByRole("button", { name: "Pause" }).click();
     await shot(page, "trajectory");

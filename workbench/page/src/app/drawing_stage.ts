@@ -6,7 +6,7 @@ import { drawCurves, drawPoints, drawWorkspace, drawZones, shownOf } from "../dr
 import { boxAround, drawArrow, drawSketch } from "../draw/mechanism";
 import { Layer } from "../draw/surface";
 import { fit, moved, page, plane, zoomed, type Size, type View } from "../draw/view";
-import type { Drawing } from "../drawing/drawing";
+import { isWhole, type Drawing } from "../drawing/drawing";
 import type { Spot } from "../drawing/edit";
 import { elementOf, isThere, type Element } from "../drawing/element";
 import { arrowScale, elementAt, gripAt, type Grip } from "../drawing/grips";
@@ -17,6 +17,7 @@ import { tools } from "../drawing/tools/list";
 import { moveGrip, selectTool } from "../drawing/tools/select";
 import { forceOf, type Hand, type Tool } from "../drawing/tools/tool";
 import { h } from "./dom";
+import { Pull } from "./pull";
 import { drawPath } from "./stage_drawing";
 import type { Workbench } from "./workbench";
 
@@ -47,7 +48,10 @@ export class DrawingStage {
   /** Pixels a newton while an arrow is held. */
   private arrow: number | undefined;
 
+  private readonly pull: Pull;
+
   constructor(private readonly bench: Workbench) {
+    this.pull = new Pull(bench);
     this.ground = new Layer(this.canvas, "sheet-loci");
     this.top = new Layer(this.canvas, "sheet");
     new ResizeObserver(() => this.resize()).observe(this.canvas);
@@ -162,7 +166,8 @@ export class DrawingStage {
     const { theme } = bench;
     const sketch = bench.pose?.sketch;
     if (sketch && bench.playing) return drawSketch(context, view, sketch, theme);
-    if (sketch && this.closesElsewhere()) {
+    if (sketch && !isWhole(drawing)) drawSketch(context, view, sketch, theme);
+    else if (sketch && this.closesElsewhere()) {
       context.globalAlpha = 0.45;
       drawSketch(context, view, sketch, theme);
       context.globalAlpha = 1;
@@ -302,7 +307,7 @@ export class DrawingStage {
     const free = point !== undefined && to.point !== undefined ? snap({ ...this.drawing, points: [] }, plane(this.view, at), this.pixel, this.snapping) : to;
     const text = moveGrip(hold.grip, { ...this.hand(free), from: hold.from, element: hold.element });
     if (text !== undefined) this.bench.edit(text, `grip-${JSON.stringify(hold.grip)}`);
-    else if (point !== undefined) this.bench.movePoint(point, plane(this.view, at));
+    else if (point !== undefined && this.drawing.points.some((one) => one.name === point && !one.fixed)) this.pull.towards(point, plane(this.view, at));
   }
 
   private release(event: PointerEvent): void {

@@ -20,9 +20,9 @@ export class OnElement {
   private show(): void {
     const { selected, canvas } = this.stage;
     const held = canvas.dataset["grip"] !== undefined && canvas.dataset["grip"] !== "view";
-    this.element.hidden = selected === undefined;
-    if (!selected) {
-      this.built = "";
+    this.element.hidden = selected === undefined || held;
+    if (!selected || held) {
+      if (!selected) this.built = "";
       return;
     }
     this.put(selected);
@@ -31,7 +31,7 @@ export class OnElement {
     const fields = [...(name ? [name] : []), ...fieldsOf(drawing, selected)];
     const switches = switchesOf(drawing, selected);
     const now = JSON.stringify([selected, fields, switches, titleOf(drawing, selected)]);
-    if (now === this.built || (held && this.built !== "" && this.element.contains(document.activeElement))) return;
+    if (now === this.built) return;
     const typing = document.activeElement instanceof HTMLInputElement && this.element.contains(document.activeElement) ? document.activeElement.name : undefined;
     this.built = now;
     replace(

@@ -11,14 +11,15 @@ import { Layer } from "../draw/surface";
 import { fit, moved, page, plane, zoomed, type Box, type Size, type View } from "../draw/view";
 import { h } from "./dom";
 import { crossingWords, drawFlash, drawPath, drawPoseCross, drawTask, drawWitness } from "./stage_drawing";
+import { Pull } from "./pull";
 import { noDemands } from "./state";
-import { drawnShape, handles, movedShape, withHandle, type DrawnKind } from "./task_text";
+import { drawnShape, handles, movedShape, taskHit, withHandle, type DrawnKind } from "./task_text";
 import { nearestOnWay } from "./way";
 import type { Workbench } from "./workbench";
 
 type Grip =
   | { kind: "pose" }
-  | { kind: "base"; name: string }
+  | { kind: "base" | "joint"; name: string }
   | { kind: "handle"; index: number }
   | { kind: "task"; from: Point }
   | { kind: "drawing"; from: Point }
@@ -46,7 +47,10 @@ export class Stage {
   onArmed: (kind: DrawnKind | undefined) => void = () => undefined;
   private flash: { curves: Curve[]; until: number } | undefined;
 
+  private readonly pull: Pull;
+
   constructor(private readonly bench: Workbench) {
+    this.pull = new Pull(bench);
     this.ground = new Layer(this.element, "loci");
     this.top = new Layer(this.element, "mechanism");
     new ResizeObserver(() => this.resize()).observe(this.element);
@@ -246,6 +250,13 @@ export class Stage {
       });
       if (base) return { kind: "base", name: base.name };
     }
+    if (this.sketch) {
+      const moving = bench.facts?.links.flatMap((link) => link.points).find((name) => {
+        const place = bench.pose?.posture[name];
+        return place && near([place[0] ?? 0, place[1] ?? 0], 11) && !bench.model.basePoints.some((one) => one.name === name);
+      });
+      if (moving !== undefined) return { kind: "joint", name: moving };
+    }
     if (task && !this.cycle && taskHit(task.shape, plane(view, at), 8 / view.scale[0])) return { kind: "task", from: plane(view, at) };
     return undefined;
   }
@@ -279,6 +290,8 @@ export class Stage {
         return this.cycle ? this.dragAlongCycle(to) : this.movePose([this.onGrid(to[0]), this.onGrid(to[1])], "drag-pose");
       case "base":
         return this.dragBase(this.grip.name, to);
+      case "joint":
+        return this.pull.towards(this.grip.name, to);
       case "drawing":
         return this.drawTask(this.grip.from, to);
       case "handle":
@@ -440,17 +453,3 @@ export class Stage {
 }
 
 const flashTime = 1500; // ms, long enough to read what lets go
-
-function taskHit(shape: import("./state").TaskShape, at: Point, reach: number): boolean {
-  if (shape.kind === "ranges") return false;
-  if (shape.kind === "circle") return Math.hypot(at[0] - shape.centre[0], at[1] - shape.centre[1]) <= shape.radius;
-  if (shape.kind === "box")
-    return at[0] >= shape.low[0] && at[0] <= shape.high[0] && at[1] >= shape.low[1] && at[1] <= shape.high[1];
-  return shape.points.some((point, k) => {
-    const next = shape.points[(k + 1) % shape.points.length];
-    if (!next || (shape.kind === "path" && k + 1 === shape.points.length)) return false;
-    const length = Math.hypot(next[0] - point[0], next[1] - point[1]) || 1;
-    const t = Math.min(1, Math.max(0, ((at[0] - point[0]) * (next[0] - point[0]) + (at[1] - point[1]) * (next[1] - point[1])) / length ** 2));
-    return Math.hypot(at[0] - point[0] - t * (next[0] - point[0]), at[1] - point[1] - t * (next[1] - point[1])) <= reach;
-  });
-}

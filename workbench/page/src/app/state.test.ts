@@ -1,5 +1,8 @@
 import { describe, expect, it } from "vitest";
+import type { Picture } from "../data/answers";
 import { fromHash, toHash } from "./address";
+import { alongPlay, passed } from "./play";
+import { stepTowards } from "./pull";
 import { freshState, History, noDemands, type TaskState } from "./state";
 import { handles, movedShape, outline, taskText, withHandle } from "./task_text";
 import { alongPath, signChanges } from "./way";
@@ -73,6 +76,32 @@ describe("tasks", () => {
     expect(withHandle(shape, 0, [5, 5])).toEqual({ kind: "box", low: [2, 1], high: [5, 5] }); // past the opposite corner
     expect(handles(shape)).toHaveLength(4);
     expect(outline(shape)).toHaveLength(5);
+  });
+});
+
+describe("a pull", () => {
+  it("brings the point there where two coordinates move it, and nearest where one does", () => {
+    const step = stepTowards([0, 0], [3, 4], [[2, 0], [0, 4]]);
+    expect(step[0]).toBeCloseTo(1.5, 2);
+    expect(step[1]).toBeCloseTo(1, 2);
+    expect(stepTowards([0, 0], [3, 4], [[1, 0]])[0]).toBeCloseTo(3, 2);
+    expect(stepTowards([0, 0], [3, 4], [[0, 0]])).toEqual([0]);
+    // Of many coordinates those move that do most.
+    expect(stepTowards([0, 0], [1, 0], [[1, 0], [1e-6, 0], [0, 1]]).map((one) => Math.round(one * 100) / 100)).toEqual([1, 0, 0]);
+  });
+});
+
+describe("a cycle that plays", () => {
+  const picture = { point_groups: [{ points: [0, 1] }], loci: { isolated_points: [{ at: [1], kind: "contact-loss", vanishing: [{ joint: "A", quantity: "f" }] }, { at: [2], kind: "workspace-boundary", vanishing: [] }] } } as unknown as Picture;
+  it("goes round a full turn, and else there and back", () => {
+    expect([0, 0.25, 1.25].map((part) => alongPlay(0, 4, true, part))).toEqual([0, 1, 1]);
+    expect([0, 0.25, 0.5, 0.75, 1].map((part) => alongPlay(1, 3, false, part))).toEqual([1, 2, 3, 2, 1]);
+  });
+  it("says what it passes, either way, and once", () => {
+    expect(passed(picture, [0.5], [1])).toEqual(["f_A"]);
+    expect(passed(picture, [1], [1.5])).toEqual([]);
+    expect(passed(picture, [3], [0])).toEqual(["f_A"]);
+    expect(passed(picture, [1.5], [3])).toEqual([]);
   });
 });
 

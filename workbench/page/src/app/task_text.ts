@@ -124,3 +124,18 @@ export function drawnShape(kind: DrawnKind, from: [number, number], to: [number,
       return from[0] === to[0] && from[1] === to[1] ? undefined : { kind, points: [from, to] };
   }
 }
+
+/** Whether a place is in a task, or on its line within `reach`. */
+export function taskHit(shape: TaskShape, at: readonly [number, number], reach: number): boolean {
+  if (shape.kind === "ranges") return false;
+  if (shape.kind === "circle") return Math.hypot(at[0] - shape.centre[0], at[1] - shape.centre[1]) <= shape.radius;
+  if (shape.kind === "box")
+    return at[0] >= shape.low[0] && at[0] <= shape.high[0] && at[1] >= shape.low[1] && at[1] <= shape.high[1];
+  return shape.points.some((point, k) => {
+    const next = shape.points[(k + 1) % shape.points.length];
+    if (!next || (shape.kind === "path" && k + 1 === shape.points.length)) return false;
+    const length = Math.hypot(next[0] - point[0], next[1] - point[1]) || 1;
+    const t = Math.min(1, Math.max(0, ((at[0] - point[0]) * (next[0] - point[0]) + (at[1] - point[1]) * (next[1] - point[1])) / length ** 2));
+    return Math.hypot(at[0] - point[0] - t * (next[0] - point[0]), at[1] - point[1] - t * (next[1] - point[1])) <= reach;
+  });
+}

@@ -7,7 +7,6 @@ import { missingIn, type Missing } from "../drawing/missing";
 import { toHash } from "./address";
 import { ask, AskingError, Following, type Fault } from "./asking";
 import { freshState, History, type State, type TaskState } from "./state";
-import { nearestOnWay } from "./way";
 import { taskText } from "./task_text";
 import type { Units } from "../data/units";
 
@@ -177,11 +176,11 @@ export class Workbench {
     this.follow(before);
   }
 
-  /** Another text of what is drawn: shown in the posture that is drawn, if it says one. */
+  /** Another text; on the sheet the pose is that of the posture that is drawn, if it says one. */
   edit(text: string, gesture?: string): void {
     if (text === this.state.text) return;
     const drawing = drawingOf(text, this.pose?.posture);
-    const at = drawnPose(drawing) ?? this.state.at;
+    const at = (this.state.drawing ? drawnPose(drawing) : undefined) ?? this.state.at;
     const joints = this.state.joints?.filter((name) => drawing.joints.some((one) => one.name === name));
     this.change({ text, at, mode: this.state.mode && drawing.coordinates.length === this.coordinates.length ? this.state.mode : undefined, joints: joints?.length ? joints : undefined }, gesture);
   }
@@ -202,15 +201,6 @@ export class Workbench {
   setValue(id: string, value: string, gesture?: string): void {
     const one = this.adjustable(id);
     if (one && value.trim() !== "") this.change({ text: this.model.writeNumber(one.path, value.trim()).text }, gesture, id);
-  }
-
-  /** A moving point of a mechanism with constructions is dragged: the pose follows, where the end effector's place says it. */
-  movePoint(name: string, to: readonly [number, number]): void {
-    if (name !== this.facts?.end_effector.at) return;
-    if (this.coordinates.length === 1) {
-      const nearest = nearestOnWay(this.sweep?.coordinate ?? [], this.sweep?.answer.places ?? [], to);
-      if (nearest !== undefined) this.change({ at: [nearest] }, "drag-pose");
-    } else if (this.inPlace) this.change({ at: [...to] }, "drag-pose");
   }
 
   /** Asks for everything anew. */

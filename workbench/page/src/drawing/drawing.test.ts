@@ -102,6 +102,8 @@ loads:
     expect(crank.lines).toEqual(expect.arrayContaining(["  block: {points: [C]}", "  C: {revolute: [BC, block], at: C}", "  SC: {prismatic: [ground, block], at: C, axis: [1, 0]}"]));
     const lever = new Sheet().use("ground", [0, 0]).use("link", [0, 0], [30, 40]).use("ground", [0, -100]).use("link", [0, -100], [-60, 160]).use("slider", [30, 40], [-44, 90]);
     expect(lever.lines).toContain("  SB: {prismatic: [CD, block], at: B, axis: [C, D]}");
+    const yoke = new Sheet().use("ground", [0, 0]).use("link", [0, 0], [60, 80]).use("link", [60, 200], [60, -60]).use("slider", [60, 80], [60, 150]).use("slider", [60, -20], [160, -20]);
+    expect(yoke.lines).toEqual(expect.arrayContaining(["  SB: {prismatic: [CD, block], at: B, axis: [C, D]}", "  SE: {prismatic: [ground, CD], at: E, axis: [1, 0]}", "  CD: {points: [C, D, E]}"]));
     const legs = new Sheet().use("ground", [0, 0]).use("ground", [800, 0]).use("cylinder", [0, 0], [300, 400]).use("cylinder", [800, 0], [300, 400]);
     expect(legs.lines).toEqual(expect.arrayContaining(["  C: {revolute: [rod, rod_2], at: C}", "  SBC: {prismatic: [cylinder_2, rod_2], at: C, axis: [B, C], actuated: true}", "  SAC: {stroke: [250, 750], of: SAC}"]));
     expect(legs.drawing.coordinates.map((one) => one.name)).toEqual(["SAC", "SBC"]);

@@ -197,6 +197,12 @@ function coordinatesOf(reader: Reader, joints: DrawnJoint[], metres: number): Dr
 
 export const placeOf = (drawing: Drawing, point: string): Point | undefined => drawing.points.find((one) => one.name === point)?.at;
 
+/** Whether all of the mechanism stands here; of copies of a pattern and of points without a name only the program knows. */
+export function isWhole(drawing: Drawing): boolean {
+  const known = new Set(drawing.points.flatMap((one) => (one.at ? [one.name] : [])));
+  return !/^repeat:/m.test(drawing.text) && drawing.links.every((link) => link.points.length > 0 && link.points.every((name) => known.has(name))) && drawing.joints.every((joint) => known.has(joint.at) && (joint.type !== "prismatic" || joint.axis !== undefined));
+}
+
 export const carriers = (drawing: Drawing, point: string): DrawnLink[] => drawing.links.filter((link) => link.points.includes(point));
 
 /** Whether a point stands still: of no link, or pinned to the ground. */

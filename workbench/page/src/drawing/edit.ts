@@ -144,17 +144,30 @@ function joinedAt(drawing: Drawing, point: string, link: string): Set<string> {
   return found;
 }
 
+export type Along = { axis: [string, string] } | { link: string };
+
+function guideOf(drawing: Drawing, along: Along): { name: string; axis: [string, string] } | undefined {
+  if ("axis" in along) return { name: "ground", axis: along.axis };
+  const [a, b] = drawing.links.find((one) => one.name === along.link)?.points ?? [];
+  return a === undefined || b === undefined ? undefined : { name: along.link, axis: [a, b] };
+}
+
 /** A block pinned to a point that slides along a direction of the ground, or along another link. */
-export function addSlider(drawing: Drawing, point: string, along: { axis: [string, string] } | { link: string }): Edit {
+export function addSlider(drawing: Drawing, point: string, along: Along): Edit {
   const holder = carriers(drawing, point)[0];
-  if (!holder || isGround(drawing, point)) return undefined;
-  const guide = "link" in along ? drawing.links.find((one) => one.name === along.link) : undefined;
-  if ("link" in along && (!guide || guide.points.length < 2 || guide.points.includes(point))) return undefined;
-  const axis = "axis" in along ? along.axis : (guide?.points.slice(0, 2) as [string, string]);
+  const guide = guideOf(drawing, along);
+  if (!holder || !guide || isGround(drawing, point) || carriers(drawing, point).some((one) => one.name === guide.name)) return undefined;
   const [blocked, block] = addLinkOf(drawing, [point], "block");
   const made = addPin(blocked, point, holder.name, block);
-  const name = nextJoint(made, `S${point}`);
-  return insertEntry(made.text, ["joints"], name, `{prismatic: [${guide?.name ?? "ground"}, ${block}], at: ${point}, axis: ${pair(axis)}}`);
+  return insertEntry(made.text, ["joints"], nextJoint(made, `S${point}`), `{prismatic: [${guide.name}, ${block}], at: ${point}, axis: ${pair(guide.axis)}}`);
+}
+
+/** A link that slides itself, and does not turn on its guide: along a direction of the ground, or along another link. */
+export function addGuide(drawing: Drawing, link: string, spot: Spot, along: Along): Edit {
+  const guide = guideOf(drawing, along);
+  if (guide === undefined || guide.name === link) return undefined;
+  const [placed, name] = withPoint(drawing, { ...spot, link });
+  return insertEntry(placed.text, ["joints"], nextJoint(placed, `S${name}`), `{prismatic: [${guide.name}, ${link}], at: ${name}, axis: ${pair(guide.axis)}}`);
 }
 
 /** A cylinder at one spot and its rod at the other, which a motor pushes out. */
