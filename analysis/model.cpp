@@ -47,8 +47,7 @@ namespace {
 std::shared_ptr<const Model::Content> content_of(mechanism::ModelText own, std::string file,
                                                  const std::vector<Model::Value>& values) {
   mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(own.text, file, values), own.notes);
-  auto shared =
-      std::make_shared<const SharedDesign>(std::move(own.text), std::move(file), std::move(own.notes), read);
+  auto shared = std::make_shared<const SharedDesign>(std::move(own.text), std::move(file), std::move(own.notes), read);
   return std::make_shared<const Model::Content>(Model::Content{std::move(shared), values, std::move(read), false});
 }
 
@@ -73,8 +72,7 @@ Model Model::with(const std::vector<Value>& values) const {
   for (const Value& old : content_->values)
     if (std::none_of(values.begin(), values.end(), [&](const Value& v) { return v.first == old.first; }))
       all.push_back(old);
-  mechanism::Mechanism own =
-      with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
+  mechanism::Mechanism own = with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
   return Model(std::make_shared<const Content>(Content{content_->shared, std::move(all), std::move(own), true}));
 }
 

@@ -20,8 +20,8 @@ struct ImportRequest {
 };
 
 struct ImportedFile {
-  std::string text;    ///< a mechanism file in the drawn form
-  std::string format;  ///< "PMKS+"; empty of a mechanism file, which comes back as it is
+  std::string text;                ///< a mechanism file in the drawn form
+  std::string format;              ///< "PMKS+"; empty of a mechanism file, which comes back as it is
   std::vector<std::string> notes;  ///< what was interpreted, and what was left out
 };
 
