@@ -44,18 +44,17 @@ const symbolic::LocusFamily& SharedDesign::family() const {
 
 namespace {
 
-std::shared_ptr<const Model::Content> content_of(mechanism::ModelText own, std::string file,
-                                                 const std::vector<Model::Value>& values) {
-  mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(own.text, file, values), own.notes);
-  auto shared = std::make_shared<const SharedDesign>(std::move(own.text), std::move(file), std::move(own.notes), read);
+std::shared_ptr<const Model::Content> content_of(mechanism::ModelText own, const std::vector<Model::Value>& values) {
+  mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(own.text, own.file, values), own.notes);
+  auto shared =
+      std::make_shared<const SharedDesign>(std::move(own.text), std::move(own.file), std::move(own.notes), read);
   return std::make_shared<const Model::Content>(Model::Content{std::move(shared), values, std::move(read), false});
 }
 
 }  // namespace
 
 Model Model::parse(std::string text, std::string file, const std::vector<Value>& values) {
-  mechanism::ModelText own = mechanism::model_text(text, file);
-  return Model(content_of(std::move(own), std::move(file), values));
+  return Model(content_of(mechanism::model_text(std::move(text), std::move(file)), values));
 }
 
 Model Model::Content::of(mechanism::Mechanism own) {
@@ -64,7 +63,7 @@ Model Model::Content::of(mechanism::Mechanism own) {
 }
 
 Model Model::read(const std::string& path, const std::vector<Value>& values) {
-  return Model(content_of(mechanism::read_model_text(path), path, values));
+  return Model(content_of(mechanism::read_model_text(path), values));
 }
 
 Model Model::with(const std::vector<Value>& values) const {

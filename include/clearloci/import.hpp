@@ -14,9 +14,9 @@
 namespace clearloci {
 
 struct ImportRequest {
-  std::string clearance;  ///< radial, of joints of which the file says none: "20e-6" m, "30 um"; empty: 20e-6 m
-  std::string side;       ///< text of a second file that belongs to the first: the loops of a URDF
-  std::string side_file;  ///< its name, for messages
+  std::string clearance = {};  ///< radial, of joints of which the file says none: "20e-6" m, "30 um"; empty: 20e-6 m
+  std::string side = {};       ///< text of a second file that belongs to the first: the loops of a URDF
+  std::string side_file = {};  ///< its name, for messages
 };
 
 struct ImportedFile {

@@ -110,7 +110,7 @@ Imported import_text(const std::string& text, const std::string& file, const Imp
 
 Imported import_file(const std::string& path, ImportOptions options) {
   if (is_address(path)) {
-    Imported result = import_text(path, path, options);
+    Imported result = import_text(path, core::shortened(path, 60), options);
     if (result.format.empty())
       throw InputError({core::shortened(path, 60)}, "this address holds no mechanism",
                        "give an address of PMKS+, or the path of a file");
