@@ -9,7 +9,9 @@ mechanism::ImportOptions options_of(const ImportRequest& request) {
   return {request.clearance, request.side, request.side_file};
 }
 
-ImportedFile told(mechanism::Imported own) { return {std::move(own.text), std::move(own.format), std::move(own.notes)}; }
+ImportedFile told(mechanism::Imported own) {
+  return {std::move(own.text), std::move(own.format), std::move(own.notes)};
+}
 
 }  // namespace
 

@@ -44,19 +44,17 @@ const symbolic::LocusFamily& SharedDesign::family() const {
 
 namespace {
 
-std::shared_ptr<const Model::Content> content_of(mechanism::ModelText own, std::string file,
-                                                 const std::vector<Model::Value>& values) {
-  mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(own.text, file, values), own.notes);
+std::shared_ptr<const Model::Content> content_of(mechanism::ModelText own, const std::vector<Model::Value>& values) {
+  mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(own.text, own.file, values), own.notes);
   auto shared =
-      std::make_shared<const SharedDesign>(std::move(own.text), std::move(file), std::move(own.notes), read);
+      std::make_shared<const SharedDesign>(std::move(own.text), std::move(own.file), std::move(own.notes), read);
   return std::make_shared<const Model::Content>(Model::Content{std::move(shared), values, std::move(read), false});
 }
 
 }  // namespace
 
 Model Model::parse(std::string text, std::string file, const std::vector<Value>& values) {
-  mechanism::ModelText own = mechanism::model_text(text, file);
-  return Model(content_of(std::move(own), std::move(file), values));
+  return Model(content_of(mechanism::model_text(std::move(text), std::move(file)), values));
 }
 
 Model Model::Content::of(mechanism::Mechanism own) {
@@ -65,7 +63,7 @@ Model Model::Content::of(mechanism::Mechanism own) {
 }
 
 Model Model::read(const std::string& path, const std::vector<Value>& values) {
-  return Model(content_of(mechanism::read_model_text(path), path, values));
+  return Model(content_of(mechanism::read_model_text(path), values));
 }
 
 Model Model::with(const std::vector<Value>& values) const {
@@ -73,8 +71,7 @@ Model Model::with(const std::vector<Value>& values) const {
   for (const Value& old : content_->values)
     if (std::none_of(values.begin(), values.end(), [&](const Value& v) { return v.first == old.first; }))
       all.push_back(old);
-  mechanism::Mechanism own =
-      with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
+  mechanism::Mechanism own = with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
   return Model(std::make_shared<const Content>(Content{content_->shared, std::move(all), std::move(own), true}));
 }
 

@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "core/text.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/import/import.hpp"
 #include "mechanism/read.hpp"
 
 namespace clearloci::cli {
@@ -50,7 +51,9 @@ std::optional<int> whole_number(std::string_view text) {
 }  // namespace
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
-  command.add_option("MODEL", arguments.model, "The mechanism file (YAML)")->required()->type_name("FILE");
+  command.add_option("MODEL", arguments.model, "The mechanism file (YAML), or one that import reads")
+      ->required()
+      ->type_name("FILE");
   command
       .add_option("--set", arguments.overrides,
                   "Override a parameter of the file: name=value, in the unit of the file (repeatable)")
@@ -92,7 +95,8 @@ mechanism::Mechanism read_model(const CommonArguments& arguments) {
 std::filesystem::path output_folder(const CommonArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   // "...yaml" without its ending is "..", and out/.. no folder of its own.
-  const std::filesystem::path stem = std::filesystem::path(arguments.model).stem();
+  const std::filesystem::path stem =
+      mechanism::is_address(arguments.model) ? "address" : std::filesystem::path(arguments.model).stem();
   return std::filesystem::path("out") / (stem.empty() || stem == "." || stem == ".." ? "model" : stem);
 }
 

@@ -41,7 +41,8 @@ int run(const ImportCommand& arguments) {
     throw InputError({arguments.file, 0, 0}, "this is a mechanism file already, or in no format that is known",
                      fmt::format("name a file of {}", fmt::join(import_formats(), ", ")));
   const std::string name = arguments.output.empty() ? arguments.file : arguments.output;
-  if (const std::string why = hindrance(found, name); !why.empty()) found.notes.push_back("as it stands it is refused: " + core::message_line(why));
+  if (const std::string why = hindrance(found, name); !why.empty())
+    found.notes.push_back("as it stands it is refused: " + core::message_line(why));
   if (!arguments.output.empty()) report::write_atomically(arguments.output, found.text);
   if (arguments.json) {
     fmt::print("{}", report::json_text(nlohmann::ordered_json{
@@ -63,8 +64,9 @@ int run(const ImportCommand& arguments) {
 Command add_import_command(CLI::App& program) {
   auto arguments = std::make_shared<ImportCommand>();
   CLI::App* command = program.add_subcommand("import", "Write another program's file as a mechanism file");
-  command->add_option("file", arguments->file,
-                      "A file of PMKS+, Linkage, MJCF, URDF, SDF, DXF, pyslvs or CUIK; or an address of PMKS+, in quotes")
+  command
+      ->add_option("file", arguments->file,
+                   "A file of PMKS+, Linkage, MJCF, URDF, SDF, DXF, pyslvs or CUIK; or an address of PMKS+, in quotes")
       ->required();
   command->add_option("-o,--output", arguments->output, "File to write; without it the text is printed");
   command->add_option("--clearance", arguments->clearance,

@@ -58,7 +58,7 @@ Command add_view_command(CLI::App& program) {
       program.add_subcommand("view", "Open the workbench in a browser: draw, drag, and loci and zones follow");
   const auto arguments = std::make_shared<ViewCommand>();
   app->add_option("MODEL", arguments->common.model,
-                  "The mechanism file (YAML); without it, a gallery and an empty sheet")
+                  "The mechanism file (YAML), or one that import reads; without it, a gallery and an empty sheet")
       ->type_name("FILE");
   app->add_option("--set", arguments->common.overrides, "Override a parameter of the file: name=value (repeatable)")
       ->allow_extra_args(false)

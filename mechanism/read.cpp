@@ -156,19 +156,26 @@ std::string read_text(const std::string& path, const std::string& what, std::siz
   return text;
 }
 
-ModelText read_model_text(const std::string& path) {
-  Imported own = import_file(path);
-  return {std::move(own.text), std::move(own.notes)};
+namespace {
+
+/// Lines that errors name are those of the imported text.
+ModelText named(Imported own, const std::string& file) {
+  std::string name = own.format.empty() ? file : is_address(file) ? "the address, as imported" : file + ", as imported";
+  return {std::move(own.text), std::move(own.notes), std::move(name)};
 }
 
-ModelText model_text(const std::string& text, const std::string& file) {
-  Imported own = import_text(text, file);
-  return {std::move(own.text), std::move(own.notes)};
+}  // namespace
+
+ModelText read_model_text(const std::string& path) { return named(import_file(path), path); }
+
+ModelText model_text(std::string text, std::string file) {
+  if (import_format(text).empty()) return {std::move(text), {}, std::move(file)};
+  return named(import_text(text, file), file);
 }
 
 Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides) {
   const ModelText own = read_model_text(path);
-  Mechanism mechanism = parse_mechanism(own.text, path, overrides);
+  Mechanism mechanism = parse_mechanism(own.text, own.file, overrides);
   mechanism.notes.insert(mechanism.notes.begin(), own.notes.begin(), own.notes.end());
   return mechanism;
 }

@@ -17,9 +17,10 @@ using Override = std::pair<std::string, std::string>;
 struct ModelText {
   std::string text;
   std::vector<std::string> notes;  ///< what the import says
+  std::string file;                ///< the name that errors in the text show
 };
 ModelText read_model_text(const std::string& path);
-ModelText model_text(const std::string& text, const std::string& file);
+ModelText model_text(std::string text, std::string file);
 
 /// Throws core::InputError, with file, line, column, problem and mend, for whatever is wrong with the input. Of another
 /// program's file too, whose notes are the mechanism's.

@@ -14,14 +14,14 @@
 namespace clearloci {
 
 struct ImportRequest {
-  std::string clearance;  ///< radial, of joints of which the file says none: "20e-6" m, "30 um"; empty: 20e-6 m
-  std::string side;       ///< text of a second file that belongs to the first: the loops of a URDF
-  std::string side_file;  ///< its name, for messages
+  std::string clearance = {};  ///< radial, of joints of which the file says none: "20e-6" m, "30 um"; empty: 20e-6 m
+  std::string side = {};       ///< text of a second file that belongs to the first: the loops of a URDF
+  std::string side_file = {};  ///< its name, for messages
 };
 
 struct ImportedFile {
-  std::string text;    ///< a mechanism file in the drawn form
-  std::string format;  ///< "PMKS+"; empty of a mechanism file, which comes back as it is
+  std::string text;                ///< a mechanism file in the drawn form
+  std::string format;              ///< "PMKS+"; empty of a mechanism file, which comes back as it is
   std::vector<std::string> notes;  ///< what was interpreted, and what was left out
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rational.hpp"
 #include "mechanism/import/import.hpp"
 #include "mechanism/import/source.hpp"
 
@@ -26,7 +27,7 @@ class RowSpace {
   std::size_t rank() const { return rows_.size(); }
 
  private:
-  Rows rows_;                        ///< each 1 at its pivot
+  Rows rows_;  ///< each 1 at its pivot
   std::vector<std::size_t> pivots_;
 };
 
@@ -55,6 +56,8 @@ std::string write_drawn(Source& source, const std::string& file, const std::stri
 
 /// The shortest decimal within `tolerance` of a value: "0.25", "-3".
 std::string shortest_decimal(double value, double tolerance);
+/// A rational number as a decimal where it is one.
+std::string exact_decimal(const core::Rational& value);
 
 /// "A, B and C"; of many the first ones and how many more.
 std::string enumerated(const std::vector<std::string>& names);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -62,7 +62,9 @@ Section section_of(const std::string& text, const std::string& name) {
   std::size_t end = text.size();
   for (std::size_t i = text.find('\n', at); i != std::string::npos; i = text.find('\n', i + 1)) {
     const std::size_t first = text.find_first_not_of(" \t\r\n", i);
-    if (first != std::string::npos && text[first] == '[' && first + 1 < text.size() && std::isalpha(static_cast<unsigned char>(text[first + 1])) != 0 && text.find(']', first) != std::string::npos && text.find(',', first) > text.find(']', first)) {
+    if (first != std::string::npos && text[first] == '[' && first + 1 < text.size() &&
+        std::isalpha(static_cast<unsigned char>(text[first + 1])) != 0 && text.find(']', first) != std::string::npos &&
+        text.find(',', first) > text.find(']', first)) {
       end = first;
       break;
     }
@@ -81,7 +83,10 @@ class Parser {
   [[noreturn]] void refuse(const std::string& problem, const std::string& mend) const {
     throw InputError({file_, line()}, problem, mend);
   }
-  int line() const { return line_ + static_cast<int>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(at_, text_.size())), '\n')); }
+  int line() const {
+    return line_ + static_cast<int>(std::count(
+                       text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(at_, text_.size())), '\n'));
+  }
   void skip() {
     while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
   }
@@ -104,7 +109,8 @@ class Parser {
   std::string word() {
     skip();
     std::size_t end = at_;
-    while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_')) ++end;
+    while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_'))
+      ++end;
     std::string own = text_.substr(at_, end - at_);
     at_ = end;
     return own;
@@ -134,7 +140,8 @@ class Parser {
     Vec v{};
     for (std::size_t i = 0; i < 3; ++i) {
       v[i] = expression(1);
-      if (!std::isfinite(v[i]) || std::abs(v[i]) > 1e12) refuse("a coordinate of " + where + " is no finite number", "correct it");
+      if (!std::isfinite(v[i]) || std::abs(v[i]) > 1e12)
+        refuse("a coordinate of " + where + " is no finite number", "correct it");
       expect(i < 2 ? ',' : ')', where);
     }
     return v;
@@ -188,7 +195,8 @@ class Parser {
         if (last != digits) end = last == std::string::npos ? text_.size() : last;
       }
       double value = 0;
-      if (!number_of(std::string_view(text_).substr(at_, end - at_), value)) refuse("'" + text_.substr(at_, end - at_) + "' is no number", "correct it");
+      if (!number_of(std::string_view(text_).substr(at_, end - at_), value))
+        refuse("'" + text_.substr(at_, end - at_) + "' is no number", "correct it");
       at_ = end;
       return value;
     }
@@ -196,7 +204,9 @@ class Parser {
     if (name.empty()) refuse("a number or a name is missing in an expression", "correct it");
     if (peek() == '(') {
       using Function = double (*)(double);
-      static const std::map<std::string, Function> functions = {{"sin", std::sin}, {"cos", std::cos}, {"tan", std::tan}, {"sqrt", std::sqrt}, {"exp", std::exp}, {"log", std::log}, {"abs", std::fabs}, {"asin", std::asin}, {"acos", std::acos}, {"atan", std::atan}};
+      static const std::map<std::string, Function> functions = {
+          {"sin", std::sin}, {"cos", std::cos},  {"tan", std::tan},   {"sqrt", std::sqrt}, {"exp", std::exp},
+          {"log", std::log}, {"abs", std::fabs}, {"asin", std::asin}, {"acos", std::acos}, {"atan", std::atan}};
       const auto found = functions.find(lower(name));
       if (found != functions.end()) {
         expect('(', name);
@@ -224,7 +234,8 @@ class Reader {
   explicit Reader(const SourceText& given) : file_(given.file), text_(bare(given.text)) {}
 
   Source read() {
-    const Section constants = section_of(text_, "constants"), links = section_of(text_, "links"), joints = section_of(text_, "joints");
+    const Section constants = section_of(text_, "constants"), links = section_of(text_, "links"),
+                  joints = section_of(text_, "joints");
     if (constants.found) read_constants(constants);
     read_links(links);
     read_joints(joints);
@@ -233,7 +244,8 @@ class Reader {
     s_.note("the file has no masses and no loads");
     s_.note("link " + first_ + " is the first one and stands still; shapes, colours and obstacles were left out");
     std::string text;
-    for (const auto& [what, count] : left_) text += (text.empty() ? "" : ", ") + what + " (" + std::to_string(count) + ")";
+    for (const auto& [what, count] : left_)
+      text += (text.empty() ? "" : ", ") + what + " (" + std::to_string(count) + ")";
     if (!text.empty()) s_.note("left out of joints: " + text);
     return std::move(s_);
   }
@@ -255,7 +267,8 @@ class Reader {
   void read_links(const Section& section) {
     Parser p(file_, section, constants_);
     if (!p.done()) first_ = p.word();
-    if (first_.empty()) throw InputError({file_, section.line}, "the file has no [LINKS]", "name a world file of the CUIK suite");
+    if (first_.empty())
+      throw InputError({file_, section.line}, "the file has no [LINKS]", "name a world file of the CUIK suite");
     index_[first_] = ground_link;
   }
 
@@ -289,7 +302,9 @@ class Reader {
     while (!p.done()) {
       const int line = p.line();
       const std::string type = lower(p.word());
-      if (!is_type(type)) p.refuse("'" + type + "' is no type of joint of the CUIK suite", "write revolute, prismatic, spherical, universal, fix, sph_sph or sph_prs_sph");
+      if (!is_type(type))
+        p.refuse("'" + type + "' is no type of joint of the CUIK suite",
+                 "write revolute, prismatic, spherical, universal, fix, sph_sph or sph_prs_sph");
       std::string name = p.word();
       p.expect(':', "joint " + (name.empty() ? type : name));
       if (name.empty()) name = type.substr(0, 1) + std::to_string(++count_);
@@ -299,7 +314,8 @@ class Reader {
   }
 
   static bool is_type(const std::string& word) {
-    static const std::set<std::string> types = {"revolute", "prismatic", "spherical", "universal", "fix", "free", "sph_sph", "sph_prs_sph", "in_patch"};
+    static const std::set<std::string> types = {"revolute", "prismatic", "spherical",   "universal", "fix",
+                                                "free",     "sph_sph",   "sph_prs_sph", "in_patch"};
     return types.contains(word);
   }
 
@@ -320,7 +336,8 @@ class Reader {
     const std::string where = "joint " + name;
     const int from = link_named(p);
     Axis a, b;
-    if (type == "in_patch") p.refuse(where + " keeps a point in a patch", "leave it out, or write the joint that it stands for");
+    if (type == "in_patch")
+      p.refuse(where + " keeps a point in a patch", "leave it out, or write the joint that it stands for");
     if (type == "free") {
       (void)link_named(p);
       return;
@@ -369,7 +386,8 @@ class Reader {
     rod_.reset();
     const int link = new_link(own.name, own.line);
     add(SourceKind::spherical, own.name + "_a", own.line, own.from, link, {own.at_from, {0, 0, 1}}, {{}, {0, 0, 1}});
-    add(SourceKind::spherical, own.name + "_b", own.line, own.to, link, {own.at_to, {0, 0, 1}}, {{length, 0, 0}, {0, 0, 1}});
+    add(SourceKind::spherical, own.name + "_b", own.line, own.to, link, {own.at_to, {0, 0, 1}},
+        {{length, 0, 0}, {0, 0, 1}});
   }
 
   void leg(const std::string& name, int line, int from, int to, const Axis& a, const Axis& b) {
@@ -392,7 +410,8 @@ class Reader {
       p.expect('(', where);
       const double value = p.expression(1);
       p.expect(')', where);
-      if (!std::isfinite(value) || std::abs(value) > 1e12) p.refuse("a number of " + where + " is not finite", "correct it");
+      if (!std::isfinite(value) || std::abs(value) > 1e12)
+        p.refuse("a number of " + where + " is not finite", "correct it");
       Vec e{};
       e[static_cast<std::size_t>(step[1] - 'x')] = 1;
       pose = pose * (step[0] == 't' ? Pose{{}, value * e} : Pose{turn(e, value), {}});
@@ -421,7 +440,8 @@ class Reader {
         const double high = p.expression(1);
         p.expect(']', "the range of joint " + name);
         SourceJoint& own = s_.joints.back();
-        if (!s_.joints.empty() && own.kind == SourceKind::prismatic && low < high && std::isfinite(low) && std::isfinite(high)) {
+        if (!s_.joints.empty() && own.kind == SourceKind::prismatic && low < high && std::isfinite(low) &&
+            std::isfinite(high)) {
           own.range = std::array<double, 2>{low, high};
           own.range_is_distance = true;
         } else {
@@ -456,7 +476,9 @@ bool is_cuik(std::string_view text) {
     const std::size_t at = small.find(name);
     if (at == std::string::npos) return false;
     const std::size_t line = small.find_last_of('\n', at);
-    return trimmed(std::string_view(small).substr(line == std::string::npos ? 0 : line, at - (line == std::string::npos ? 0 : line))).empty();
+    return trimmed(std::string_view(small).substr(line == std::string::npos ? 0 : line,
+                                                  at - (line == std::string::npos ? 0 : line)))
+        .empty();
   };
   return text.find('[') != std::string_view::npos && has("[links]") && has("[joints]");
 }

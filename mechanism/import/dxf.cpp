@@ -54,7 +54,9 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void refuse(int line, const std::string& problem, const std::string& mend) const { throw InputError({file_, line}, problem, mend); }
+  [[noreturn]] void refuse(int line, const std::string& problem, const std::string& mend) const {
+    throw InputError({file_, line}, problem, mend);
+  }
 
   void split(const std::string& text) {
     if (text.starts_with(binary_start)) refuse(0, "the DXF file is a binary one", "write it as text: ASCII DXF");
@@ -74,7 +76,8 @@ class Reader {
       if (code.empty() && at >= text.size()) break;
       double number = 0;
       if (!number_of(code, number) || number != std::floor(number) || std::abs(number) > 10000)
-        refuse(line, "'" + std::string(code.substr(0, 20)) + "' is no group code of DXF", "write the file as DXF R12 or R2000, as text");
+        refuse(line, "'" + std::string(code.substr(0, 20)) + "' is no group code of DXF",
+               "write the file as DXF R12 or R2000, as text");
       if (!next(value)) refuse(line, "the DXF file ends within a pair", "write the file again");
       pairs_.push_back({static_cast<int>(number), std::string(value), line});
       if (pairs_.back().code == 0 && value == "EOF") break;
@@ -83,17 +86,22 @@ class Reader {
 
   double number(const Pair& own) const {
     double value = 0;
-    if (!number_of(own.value, value) || std::abs(value) > 1e12) refuse(own.line, "'" + own.value.substr(0, 30) + "' is no number", "write the DXF file again");
+    if (!number_of(own.value, value) || std::abs(value) > 1e12)
+      refuse(own.line, "'" + own.value.substr(0, 30) + "' is no number", "write the DXF file again");
     return value;
   }
 
   void header() {
     int unit = 0;
     for (std::size_t i = 0; i + 1 < pairs_.size(); ++i)
-      if (pairs_[i].code == 9 && pairs_[i].value == "$INSUNITS" && pairs_[i + 1].code == 70) unit = static_cast<int>(number(pairs_[i + 1]));
-    static const std::map<int, std::pair<const char*, double>> units = {{0, {"mm", 1}}, {1, {"in", 1}}, {2, {"in", 12}}, {4, {"mm", 1}}, {5, {"cm", 1}}, {6, {"m", 1}}};
+      if (pairs_[i].code == 9 && pairs_[i].value == "$INSUNITS" && pairs_[i + 1].code == 70)
+        unit = static_cast<int>(number(pairs_[i + 1]));
+    static const std::map<int, std::pair<const char*, double>> units = {{0, {"mm", 1}}, {1, {"in", 1}}, {2, {"in", 12}},
+                                                                        {4, {"mm", 1}}, {5, {"cm", 1}}, {6, {"m", 1}}};
     const auto found = units.find(unit);
-    if (found == units.end()) refuse(0, "the unit of the DXF file ($INSUNITS " + std::to_string(unit) + ") is not known here", "draw in mm, cm, m, in or ft");
+    if (found == units.end())
+      refuse(0, "the unit of the DXF file ($INSUNITS " + std::to_string(unit) + ") is not known here",
+             "draw in mm, cm, m, in or ft");
     s_.unit = found->second.first;
     scale_ = found->second.second;
     if (unit == 0) s_.note("the file has no unit of length ($INSUNITS): mm were taken");
@@ -115,7 +123,8 @@ class Reader {
         ++i;
         continue;
       }
-      if (own.value == "SECTION") inside = i + 1 < pairs_.size() && pairs_[i + 1].code == 2 && pairs_[i + 1].value == "ENTITIES";
+      if (own.value == "SECTION")
+        inside = i + 1 < pairs_.size() && pairs_[i + 1].code == 2 && pairs_[i + 1].value == "ENTITIES";
       if (own.value == "ENDSEC") inside = false;
       if (!inside || own.value == "SECTION") {
         ++i;
@@ -124,7 +133,8 @@ class Reader {
       i = entity(i);
     }
     std::string text;
-    for (const auto& [what, count] : others_) text += (text.empty() ? "" : ", ") + what + " (" + std::to_string(count) + ")";
+    for (const auto& [what, count] : others_)
+      text += (text.empty() ? "" : ", ") + what + " (" + std::to_string(count) + ")";
     if (!text.empty()) s_.note("left out: " + text);
   }
 
@@ -147,7 +157,8 @@ class Reader {
       if (type == "LWPOLYLINE" && own.code == 10) vertices.push_back({scale_ * number(own), 0, 0});
       if (type == "LWPOLYLINE" && own.code == 20 && !vertices.empty()) vertices.back()[1] = scale_ * number(own);
       if (own.code == 42 && number(own) != 0) bulges = true;
-      if (own.code == 10 || own.code == 20 || own.code == 30 || own.code == 11 || own.code == 21 || own.code == 31 || own.code == 40 || own.code == 70)
+      if (own.code == 10 || own.code == 20 || own.code == 30 || own.code == 11 || own.code == 21 || own.code == 31 ||
+          own.code == 40 || own.code == 70)
         values[own.code] = number(own);
     }
     const auto at = [&](int code) { return values.contains(code) ? values.at(code) : 0; };
@@ -196,7 +207,10 @@ class Reader {
     constexpr std::size_t most = 2000;
     std::size_t pieces = 0;
     for (const Layer& own : layers_) pieces += own.pieces.size();
-    if (pieces > most || circles_.size() > most) refuse(0, "the drawing has " + std::to_string(pieces) + " lines and " + std::to_string(circles_.size()) + " circles", "draw a line or two a link, and a circle a pin");
+    if (pieces > most || circles_.size() > most)
+      refuse(0,
+             "the drawing has " + std::to_string(pieces) + " lines and " + std::to_string(circles_.size()) + " circles",
+             "draw a line or two a link, and a circle a pin");
     std::map<std::string, int> index;
     for (const Layer& own : layers_) {
       if (lower(own.name) == "ground") continue;
@@ -210,7 +224,8 @@ class Reader {
     std::vector<const Circle*> pins;
     for (const Circle& own : circles_) {
       if (lower(own.layer) == "motor") motors.push_back(own.at);
-      const bool doubled = std::any_of(pins.begin(), pins.end(), [&](const Circle* other) { return distance(other->at, own.at) <= 1e-6 * size; });
+      const bool doubled = std::any_of(pins.begin(), pins.end(),
+                                       [&](const Circle* other) { return distance(other->at, own.at) <= 1e-6 * size; });
       if (!doubled) pins.push_back(&own);
     }
     std::vector<std::string> shared, off, alone;
@@ -237,7 +252,8 @@ class Reader {
         else
           links.push_back(index.at(layer.name));
       }
-      const bool motor = std::any_of(motors.begin(), motors.end(), [&](const Vec& at) { return distance(at, own->at) <= 1e-6 * size; });
+      const bool motor = std::any_of(motors.begin(), motors.end(),
+                                     [&](const Vec& at) { return distance(at, own->at) <= 1e-6 * size; });
       if (links.size() + (grounded ? 1 : 0) < 2) {
         if (links.empty())
           alone.push_back(name + " (line " + std::to_string(own->line) + ")");
@@ -263,7 +279,9 @@ class Reader {
     }
     if (!alone.empty()) s_.note("circles where no link is were left out: " + enumerated(alone));
     if (!off.empty()) s_.note("not quite at the centre of its circle, but taken to be: " + enumerated(off));
-    if (!shared.empty()) s_.note("more than two links meet at " + enumerated(shared) + ": all are pinned to the ground or to the first of them; other pairings share the forces differently");
+    if (!shared.empty())
+      s_.note("more than two links meet at " + enumerated(shared) +
+              ": all are pinned to the ground or to the first of them; other pairings share the forces differently");
     s_.note("a DXF file has no masses and no loads");
   }
 

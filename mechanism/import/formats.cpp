@@ -7,14 +7,10 @@ namespace clearloci::mechanism::imports {
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = {
-      {"PMKS+", "", is_pmks, read_pmks},
-      {"Linkage", "", is_linkage, read_linkage},
-      {"MJCF", "", is_mjcf, read_mjcf},
-      {"URDF", ".yaml", is_urdf, read_urdf},
-      {"SDF", "", is_sdf, read_sdf},
-      {"DXF", "", is_dxf, read_dxf},
-      {"pyslvs", "", is_pyslvs, read_pyslvs},
-      {"CUIK", "", is_cuik, read_cuik},
+      {"PMKS+", "", is_pmks, read_pmks},      {"Linkage", "", is_linkage, read_linkage},
+      {"MJCF", "", is_mjcf, read_mjcf},       {"URDF", ".yaml", is_urdf, read_urdf},
+      {"SDF", "", is_sdf, read_sdf},          {"DXF", "", is_dxf, read_dxf},
+      {"pyslvs", "", is_pyslvs, read_pyslvs}, {"CUIK", "", is_cuik, read_cuik},
   };
   return all;
 }

@@ -85,9 +85,7 @@ struct Pose {
 struct Tensor {
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 
-  Tensor operator+(const Tensor& o) const {
-    return {xx + o.xx, yy + o.yy, zz + o.zz, xy + o.xy, xz + o.xz, yz + o.yz};
-  }
+  Tensor operator+(const Tensor& o) const { return {xx + o.xx, yy + o.yy, zz + o.zz, xy + o.xy, xz + o.xz, yz + o.yz}; }
   Vec operator*(const Vec& v) const {
     return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2], xz * v[0] + yz * v[1] + zz * v[2]};
   }
@@ -102,8 +100,12 @@ inline Tensor turned(const Rotation& r, const Tensor& inertia) {
 
 /// Of a point mass at the way d from what the moments are about (Steiner).
 inline Tensor point_inertia(double mass, const Vec& d) {
-  return {mass * (d[1] * d[1] + d[2] * d[2]), mass * (d[0] * d[0] + d[2] * d[2]), mass * (d[0] * d[0] + d[1] * d[1]),
-          -mass * d[0] * d[1],                -mass * d[0] * d[2],                -mass * d[1] * d[2]};
+  return {mass * (d[1] * d[1] + d[2] * d[2]),
+          mass * (d[0] * d[0] + d[2] * d[2]),
+          mass * (d[0] * d[0] + d[1] * d[1]),
+          -mass * d[0] * d[1],
+          -mass * d[0] * d[2],
+          -mass * d[1] * d[2]};
 }
 
 }  // namespace clearloci::mechanism::imports

@@ -30,7 +30,8 @@ std::string clearance_of(const ImportOptions& options) {
     return given + " m";
   }
   const bool plain = std::all_of(given.begin(), given.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("+-*/. ^").find(c) != std::string_view::npos;
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("+-*/. ^").find(c) != std::string_view::npos;
   });
   if (!plain) throw InputError({}, "--clearance is '" + given + "'", "write a length such as 20e-6 or 20 um");
   return given;
@@ -43,8 +44,9 @@ void check_size(const imports::Source& source, const std::string& file, std::siz
   const auto joints = static_cast<std::size_t>(
       std::count_if(source.joints.begin(), source.joints.end(), [](const auto& joint) { return !joint.dropped; }));
   if (links > most || joints > 3 * most)
-    throw InputError({file}, "the " + std::string(source.format) + " file has " + std::to_string(links) +
-                                 " links that move and " + std::to_string(joints) + " joints",
+    throw InputError({file},
+                     "the " + std::string(source.format) + " file has " + std::to_string(links) +
+                         " links that move and " + std::to_string(joints) + " joints",
                      "take a part of it: a drawing may have 60 links");
 }
 
@@ -108,7 +110,7 @@ Imported import_text(const std::string& text, const std::string& file, const Imp
 
 Imported import_file(const std::string& path, ImportOptions options) {
   if (is_address(path)) {
-    Imported result = import_text(path, path, options);
+    Imported result = import_text(path, core::shortened(path, 60), options);
     if (result.format.empty())
       throw InputError({core::shortened(path, 60)}, "this address holds no mechanism",
                        "give an address of PMKS+, or the path of a file");

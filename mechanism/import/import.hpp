@@ -9,9 +9,10 @@
 namespace clearloci::mechanism {
 
 struct ImportOptions {
-  std::string clearance;  ///< radial, of joints of which the source says none; m, or with its unit; "" for the usual
-  std::string side;       ///< a second file that belongs to the first, such as the loops of a URDF; its text
-  std::string side_file;  ///< its name
+  std::string clearance =
+      {};                 ///< radial, of joints of which the source says none; m, or with its unit; "" for the usual
+  std::string side = {};  ///< a second file that belongs to the first, such as the loops of a URDF; its text
+  std::string side_file = {};  ///< its name
 };
 
 struct Imported {

@@ -24,9 +24,9 @@ struct Connector {
   Vec at{};
   bool anchor = false, input = false, draw = false, slider = false, drawing = false;
   double rpm = 0;
-  std::vector<int> limits;    ///< connectors by number
-  std::vector<int> links;     ///< of the source
-  int fastened_to = -2;       ///< a link
+  std::vector<int> limits;  ///< connectors by number
+  std::vector<int> links;   ///< of the source
+  int fastened_to = -2;     ///< a link
 };
 
 class Reader {
@@ -34,7 +34,8 @@ class Reader {
   explicit Reader(const SourceText& given) : file_(given.file), root_(parse_xml(given.text, given.file)) {}
 
   Source read() {
-    if (root_.name != "linkage2") throw InputError({file_, root_.line}, "the file has no <linkage2>", "save it in Linkage again");
+    if (root_.name != "linkage2")
+      throw InputError({file_, root_.line}, "the file has no <linkage2>", "save it in Linkage again");
     root_.read = true;
     s_.planar = true;
     program();
@@ -47,7 +48,8 @@ class Reader {
     fasten();
     if (!lone_.empty()) s_.note("left out, having one connector each: links " + enumerated(lone_));
     if (!drawings_.empty()) s_.note("left out, being drawings or measures: " + enumerated(drawings_));
-    if (const auto left = unread(root_); !left.empty()) s_.note("left out, having no part in the motion: " + enumerated_all(left));
+    if (const auto left = unread(root_); !left.empty())
+      s_.note("left out, having no part in the motion: " + enumerated_all(left));
     return std::move(s_);
   }
 
@@ -66,7 +68,8 @@ class Reader {
   int whole(const XmlElement& at, const char* attribute, int otherwise) const {
     const double value = number(at, attribute, otherwise);
     if (value != std::floor(value) || std::abs(value) > 4294967295.0)
-      throw InputError({file_, at.line}, std::string(attribute) + " of <" + at.name + "> is no whole number", "save the file in Linkage again");
+      throw InputError({file_, at.line}, std::string(attribute) + " of <" + at.name + "> is no whole number",
+                       "save the file in Linkage again");
     return static_cast<int>(std::clamp(value, -2147483647.0, 2147483647.0));
   }
   static bool flag(const XmlElement& at, const char* attribute) { return at.get(attribute, "") == "true"; }
@@ -89,7 +92,8 @@ class Reader {
 
   static std::string name_of(const XmlElement& at, const char* letter, int id) {
     const std::string name(trimmed(at.get("name", "")));
-    const bool says = std::any_of(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
+    const bool says =
+        std::any_of(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
     return says ? name : letter + std::to_string(id);
   }
 
@@ -106,13 +110,15 @@ class Reader {
     c.rpm = number(at, "rpm", 0);
     c.drawing = is_drawing(whole(at, "layer", 16)) || flag(at, "measurementelement");
     if (const double radius = number(at, "slideradius", 0); radius != 0 && c.slider && !c.drawing)
-      throw InputError({file_, at.line}, "connector " + c.name + " slides along an arc (slideradius)", "make its slot straight, or put a link from the centre of the arc in its place");
+      throw InputError({file_, at.line}, "connector " + c.name + " slides along an arc (slideradius)",
+                       "make its slot straight, or put a link from the centre of the arc in its place");
     for (const XmlElement* limit : at.all("slidelimit")) c.limits.push_back(whole(*limit, "id", -1));
     for (const char* key : {"fasten", "fastenlink"})
       if (at.has(key)) c.fastened_to = whole(at, key, -2);
     if (c.drawing) drawings_.push_back("connector " + c.name);
     if (!index_.emplace(c.id, connectors_.size()).second && !c.drawing)
-      throw InputError({file_, at.line}, "two connectors have the id " + std::to_string(c.id), "save the file in Linkage again");
+      throw InputError({file_, at.line}, "two connectors have the id " + std::to_string(c.id),
+                       "save the file in Linkage again");
     connectors_.push_back(std::move(c));
   }
 
@@ -131,7 +137,9 @@ class Reader {
       drawings_.push_back("link " + name);
       return;
     }
-    if (gear) throw InputError({file_, at.line}, "link " + name + " is a gear or a wheel of a chain, which have no part here", "replace it by a crank, or take it out");
+    if (gear)
+      throw InputError({file_, at.line}, "link " + name + " is a gear or a wheel of a chain, which have no part here",
+                       "replace it by a crank, or take it out");
     if (own.empty()) {
       s_.note("link " + name + " has no connectors and was left out");
       return;
@@ -156,7 +164,8 @@ class Reader {
     const int id = whole(at, "id", -1);
     const auto found = index_.find(id);
     if (found == index_.end())
-      throw InputError({file_, at.line}, "there is no connector with the id " + std::to_string(id), "save the file in Linkage again");
+      throw InputError({file_, at.line}, "there is no connector with the id " + std::to_string(id),
+                       "save the file in Linkage again");
     return static_cast<int>(found->second);
   }
 
@@ -171,14 +180,22 @@ class Reader {
     if (std::find(links.begin(), links.end(), link) == links.end()) links.push_back(link);
   }
 
-  void add_actuator(const XmlElement& at, const std::string& name, const std::vector<int>& own, double stroke, double cpm) {
-    if (own.size() != 2) throw InputError({file_, at.line}, "actuator " + name + " has " + std::to_string(own.size()) + " connectors", "give it two");
-    if (!(stroke > 0)) throw InputError({file_, at.line}, "actuator " + name + " has no throw", "give it one in Linkage");
+  void add_actuator(const XmlElement& at, const std::string& name, const std::vector<int>& own, double stroke,
+                    double cpm) {
+    if (own.size() != 2)
+      throw InputError({file_, at.line}, "actuator " + name + " has " + std::to_string(own.size()) + " connectors",
+                       "give it two");
+    if (!(stroke > 0))
+      throw InputError({file_, at.line}, "actuator " + name + " has no throw", "give it one in Linkage");
     const int body = add_link(name + "_body", at.line, {own[0]}), rod = add_link(name + "_rod", at.line, {own[1]});
-    const Vec a = connectors_[static_cast<std::size_t>(own[0])].at, b = connectors_[static_cast<std::size_t>(own[1])].at;
+    const Vec a = connectors_[static_cast<std::size_t>(own[0])].at,
+              b = connectors_[static_cast<std::size_t>(own[1])].at;
     const double length = distance(a, b), reach = scale_ * stroke;
-    if (!(length > 0)) throw InputError({file_, at.line}, "actuator " + name + " has no length", "draw it longer in Linkage");
-    if (cpm < 0 && reach >= length) throw InputError({file_, at.line}, "actuator " + name + " shrinks by more than its length", "give it a smaller throw, or a positive speed");
+    if (!(length > 0))
+      throw InputError({file_, at.line}, "actuator " + name + " has no length", "draw it longer in Linkage");
+    if (cpm < 0 && reach >= length)
+      throw InputError({file_, at.line}, "actuator " + name + " shrinks by more than its length",
+                       "give it a smaller throw, or a positive speed");
     SourceJoint guide;
     guide.name = name;
     guide.line = at.line;
@@ -226,15 +243,19 @@ class Reader {
         joint.actuated = true;
         if (c.rpm != 0) joint.speed = c.rpm * std::numbers::pi / 30;
       }
-      if (c.input && !driven) s_.note("connector " + c.name + " is an input between fewer than two links and drives nothing");
+      if (c.input && !driven)
+        s_.note("connector " + c.name + " is an input between fewer than two links and drives nothing");
       if (c.links.size() + (pinned ? 1 : 0) > 2) shared.push_back(c.name);
-      if (c.draw) s_.points.push_back({c.name, c.links.front(), c.at, true});
-      else if (c.links.size() == 1 && !pinned && !c.slider) s_.points.push_back({c.name, c.links.front(), c.at, false});
+      if (c.draw)
+        s_.points.push_back({c.name, c.links.front(), c.at, true});
+      else if (c.links.size() == 1 && !pinned && !c.slider)
+        s_.points.push_back({c.name, c.links.front(), c.at, false});
     }
     sliders();
     if (!alone.empty()) s_.note("left out, since no link has them: connectors " + enumerated(alone));
     if (!shared.empty())
-      s_.note("more than two links meet at " + enumerated(shared) + ": all are pinned to the ground or to the first of them; other pairings share the forces differently");
+      s_.note("more than two links meet at " + enumerated(shared) +
+              ": all are pinned to the ground or to the first of them; other pairings share the forces differently");
   }
 
   /// The link that has both ends of a slot; the ground where both are anchors and none has.
@@ -244,7 +265,10 @@ class Reader {
           std::find(c.links.begin(), c.links.end(), link) == c.links.end())
         return link;
     if (a.anchor && b.anchor) return ground_link;
-    throw InputError({file_, c.line}, "connector " + c.name + " slides between connectors " + a.name + " and " + b.name + ", which no link joins", "join them by a link in Linkage");
+    throw InputError(
+        {file_, c.line},
+        "connector " + c.name + " slides between connectors " + a.name + " and " + b.name + ", which no link joins",
+        "join them by a link in Linkage");
   }
 
   struct Slot {
@@ -258,16 +282,20 @@ class Reader {
     for (const Connector& c : connectors_) {
       if (c.drawing || !c.slider || (c.links.empty() && !c.anchor)) continue;
       if (c.limits.size() != 2 || !index_.contains(c.limits[0]) || !index_.contains(c.limits[1]))
-        throw InputError({file_, c.line}, "connector " + c.name + " slides, but not between two connectors", "give it two ends in Linkage");
+        throw InputError({file_, c.line}, "connector " + c.name + " slides, but not between two connectors",
+                         "give it two ends in Linkage");
       const Connector &a = connectors_[index_.at(c.limits[0])], &b = connectors_[index_.at(c.limits[1])];
-      if (!(distance(a.at, b.at) > 0)) throw InputError({file_, c.line}, "the slot of connector " + c.name + " has no length", "draw it longer in Linkage");
+      if (!(distance(a.at, b.at) > 0))
+        throw InputError({file_, c.line}, "the slot of connector " + c.name + " has no length",
+                         "draw it longer in Linkage");
       slots.push_back({&c, &a, &b, carrier_of(c, a, b), c.anchor ? ground_link : c.links.front()});
     }
     std::vector<bool> done(slots.size());
     for (std::size_t i = 0; i < slots.size(); ++i) {
       if (done[i]) continue;
       for (std::size_t j = i + 1; j < slots.size() && !done[i]; ++j)
-        if (!done[j] && slots[i].carrier == slots[j].carrier && slots[i].follower == slots[j].follower && in_line(slots[i], slots[j])) {
+        if (!done[j] && slots[i].carrier == slots[j].carrier && slots[i].follower == slots[j].follower &&
+            in_line(slots[i], slots[j])) {
           one_guide(slots[i], slots[j]);
           done[i] = done[j] = true;
         }
@@ -318,7 +346,9 @@ class Reader {
     };
     const auto linked = [&](int id, const std::string& what, int line) {
       const auto found = by_id_.find(id);
-      if (found == by_id_.end()) throw InputError({file_, line}, what + " is fastened to link " + std::to_string(id) + ", which is not there", "fasten it again in Linkage");
+      if (found == by_id_.end())
+        throw InputError({file_, line}, what + " is fastened to link " + std::to_string(id) + ", which is not there",
+                         "fasten it again in Linkage");
       return found->second;
     };
     for (const auto& [link, id] : fastened_links_) {
@@ -329,12 +359,16 @@ class Reader {
       const SourceLink& own = s_.links[static_cast<std::size_t>(link)];
       const auto found = index_.find(id);
       if (found == index_.end() || !connectors_[found->second].anchor)
-        throw InputError({file_, own.line}, "link " + own.name + " is fastened to connector " + std::to_string(id) + ", which is no anchor", "fasten it to a link");
+        throw InputError(
+            {file_, own.line},
+            "link " + own.name + " is fastened to connector " + std::to_string(id) + ", which is no anchor",
+            "fasten it to a link");
       weld(link, ground_link, "fastening_" + own.name, own.line, {});
     }
     for (const Connector& c : connectors_)
       if (!c.drawing && c.fastened_to != -2 && !c.links.empty())
-        weld(c.links.front(), linked(c.fastened_to, "connector " + c.name, c.line), "fastening_" + c.name, c.line, c.at);
+        weld(c.links.front(), linked(c.fastened_to, "connector " + c.name, c.line), "fastening_" + c.name, c.line,
+             c.at);
   }
 
   std::string file_;

@@ -52,8 +52,7 @@ std::string enumerated(const std::vector<std::string>& names) {
   constexpr std::size_t most = 8;
   std::string text;
   const std::size_t shown = std::min(names.size(), names.size() > most + 1 ? most : most + 1);
-  for (std::size_t i = 0; i < shown; ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   if (shown < names.size()) text += " and " + std::to_string(names.size() - shown) + " more";
   return text;
 }
@@ -130,7 +129,8 @@ bool join_pair(Source& source, std::size_t i, std::size_t j, double size) {
   };
   if (is_pin(a) && is_pin(b)) {
     if (norm(cross(a.axis(), b.axis())) > parallel) return weld("pins " + a.name + " and " + b.name + " cross");
-    if (from_line(b.at(), a.at(), a.axis()) > near * size) return weld("two pins, " + a.name + " and " + b.name + ", join them");
+    if (from_line(b.at(), a.at(), a.axis()) > near * size)
+      return weld("two pins, " + a.name + " and " + b.name + ", join them");
     return drop("pin " + b.name + " doubles " + a.name + " and was left out");
   }
   if (is_ball(a) && is_ball(b)) {
@@ -169,7 +169,8 @@ std::vector<Meeting> meetings(const Source& source, double size) {
     if (!is_pin(joint)) continue;
     Meeting own{joint.at(), joint.axis(), {joint.from, joint.to}, joint.name};
     for (auto other = found.begin(); other != found.end();) {
-      const bool shares = std::any_of(other->links.begin(), other->links.end(), [&](int l) { return own.links.contains(l); });
+      const bool shares =
+          std::any_of(other->links.begin(), other->links.end(), [&](int l) { return own.links.contains(l); });
       if (shares && norm(cross(other->axis, own.axis)) <= parallel &&
           norm(cross(own.axis, other->at - own.at)) <= near * size) {
         own.links.insert(other->links.begin(), other->links.end());
@@ -199,9 +200,11 @@ bool join_braced(Source& source, double size) {
     for (std::size_t j = 0; j < i; ++j) {
       if (norm(cross(all[i].axis, all[j].axis)) > parallel) continue;
       std::vector<int> shared;
-      std::set_intersection(all[i].links.begin(), all[i].links.end(), all[j].links.begin(), all[j].links.end(), std::back_inserter(shared));
+      std::set_intersection(all[i].links.begin(), all[i].links.end(), all[j].links.begin(), all[j].links.end(),
+                            std::back_inserter(shared));
       if (shared.size() > 1) {
-        source.note(link_words(source, shared[0]) + " and " + link_words(source, shared[1]) + " are one: two pins, " + all[j].name + " and " + all[i].name + ", join them");
+        source.note(link_words(source, shared[0]) + " and " + link_words(source, shared[1]) + " are one: two pins, " +
+                    all[j].name + " and " + all[i].name + ", join them");
         merge_all(source, {shared[0], shared[1]});
         return true;
       }
@@ -217,7 +220,8 @@ bool join_braced(Source& source, double size) {
         if (links.size() < 3 || std::abs(dot(area, all[i].axis)) <= near * size * size) continue;
         std::vector<std::string> names;
         for (const int link : links) names.push_back(link_words(source, link));
-        source.note(enumerated(names) + " are one: pins " + enumerated({all[k].name, all[j].name, all[i].name}) + " brace them");
+        source.note(enumerated(names) + " are one: pins " + enumerated({all[k].name, all[j].name, all[i].name}) +
+                    " brace them");
         merge_all(source, links);
         return true;
       }

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "mechanism/import/common.hpp"
 #include "mechanism/import/formats.hpp"
+#include "mechanism/import/mjcf_settings.hpp"
 #include "mechanism/import/xml.hpp"
 
 namespace clearloci::mechanism::imports {
@@ -30,18 +31,18 @@ struct Body {
   Pose pose;
 };
 
-class Reader {
+class Reader : private MjcfSettings {
  public:
-  explicit Reader(const SourceText& given) : file_(given.file), root_(parse_xml(given.text, given.file)) {}
+  explicit Reader(const SourceText& given) : MjcfSettings(given.file), root_(parse_xml(given.text, given.file)) {}
 
   Source read() {
     root_.read = true;
     s_.name = root_.get("model", "");
-    constexpr double g = 9.81;
-    s_.gravity = Vec{0, 0, -g};
-    if (const XmlElement* include = find(root_, "include")) refuse(*include, "the model includes another file", "put it in its place");
+    if (const XmlElement* include = find(root_, "include"))
+      refuse(*include, "the model includes another file", "put it in its place");
     for (const XmlElement* own : root_.all("compiler")) compiler(*own);
     for (const XmlElement* own : root_.all("option")) option(*own);
+    s_.gravity = gravity_;
     for (const XmlElement* own : root_.all("default")) defaults(*own, "main", {});
     bodies_.push_back({"world", ground_link, -1, {}});
     for (const XmlElement* own : root_.all("worldbody")) contents(*own, 0, {}, "main", 0);
@@ -57,13 +58,12 @@ class Reader {
       for (const std::string& word : left) text += (text.empty() ? "" : ", ") + word;
       s_.note("left out: " + text);
     }
-    if (!without_mass_.empty()) s_.note("no mass is known of " + enumerated(without_mass_) + ", whose shapes are meshes or have none");
+    if (!without_mass_.empty())
+      s_.note("no mass is known of " + enumerated(without_mass_) + ", whose shapes are meshes or have none");
     return std::move(s_);
   }
 
  private:
-  [[noreturn]] void refuse(const XmlElement& at, const std::string& problem, const std::string& mend) const { throw InputError({file_, at.line}, problem, mend); }
-
   static const XmlElement* find(const XmlElement& at, const std::string& name) {
     for (const XmlElement& child : at.children) {
       if (child.name == name) return &child;
@@ -71,98 +71,6 @@ class Reader {
     }
     return nullptr;
   }
-
-  // --- settings
-
-  void compiler(const XmlElement& at) {
-    degrees_ = at.get("angle", degrees_ ? "degree" : "radian") == "degree";
-    if (at.get("coordinate", "local") != "local") refuse(at, "the model has global coordinates", "write it with coordinate=\"local\"");
-    order_ = at.get("eulerseq", order_);
-    from_shapes_ = at.get("inertiafromgeom", from_shapes_);
-    limits_by_range_ = at.get("autolimits", "true") == "true";
-    if (order_.size() != 3 || order_.find_first_not_of("xyzXYZ") != std::string::npos) refuse(at, "eulerseq is '" + order_ + "'", "write such as xyz");
-  }
-
-  void option(const XmlElement& at) {
-    if (const auto text = at.get("gravity")) {
-      const auto v = numbers_of(*text, at, "gravity", file_, 3, 3);
-      s_.gravity = Vec{v[0], v[1], v[2]};
-    }
-  }
-
-  void defaults(const XmlElement& at, const std::string& name, std::map<std::string, std::vector<const XmlElement*>> outer) {
-    const std::string own = at.get("class", name);
-    for (const XmlElement& child : at.children) {
-      if (child.name == "default") continue;
-      child.read = true;
-      auto& chain = outer[child.name];
-      chain.insert(chain.begin(), &child);
-    }
-    classes_[own] = outer;
-    for (const XmlElement* child : at.all("default")) defaults(*child, "", outer);
-  }
-
-  /// What an element says itself, or its class.
-  std::optional<std::string> value(const XmlElement& at, const std::string& attribute, const std::string& childclass) const {
-    if (auto own = at.get(attribute)) return own;
-    const std::string name = at.get("class", childclass);
-    auto found = classes_.find(name);
-    if (found == classes_.end()) {
-      if (name != "main") refuse(at, "<" + at.name + "> is of class '" + name + "', which is not there", "add the default class");
-      return std::nullopt;
-    }
-    const auto chain = found->second.find(at.name);
-    if (chain == found->second.end()) return std::nullopt;
-    for (const XmlElement* own : chain->second)
-      if (auto text = own->get(attribute)) return text;
-    return std::nullopt;
-  }
-  std::vector<double> numbers(const XmlElement& at, const std::string& attribute, const std::string& text, std::size_t least, std::size_t most) const {
-    return numbers_of(text, at, attribute + " of <" + at.name + ">", file_, least, most);
-  }
-  Vec vector(const XmlElement& at, const std::string& attribute, const Vec& otherwise, const std::string& childclass) const {
-    const auto text = value(at, attribute, childclass);
-    if (!text) return otherwise;
-    const auto v = numbers(at, attribute, *text, 3, 3);
-    return {v[0], v[1], v[2]};
-  }
-  double angle(double v) const { return degrees_ ? v * std::numbers::pi / 180 : v; }
-
-  Rotation orientation(const XmlElement& at, const std::string& childclass) const {
-    if (const auto text = value(at, "quat", childclass)) {
-      const auto q = numbers(at, "quat", *text, 4, 4);
-      return quaternion(q[0], q[1], q[2], q[3]);
-    }
-    if (const auto text = value(at, "axisangle", childclass)) {
-      const auto v = numbers(at, "axisangle", *text, 4, 4);
-      return turn(unit({v[0], v[1], v[2]}), angle(v[3]));
-    }
-    if (const auto text = value(at, "euler", childclass)) {
-      const auto v = numbers(at, "euler", *text, 3, 3);
-      Rotation r;
-      for (std::size_t i = 0; i < 3; ++i) {
-        Vec e{};
-        const bool fixed = order_[i] >= 'X' && order_[i] <= 'Z';
-        e[static_cast<std::size_t>(order_[i] - (fixed ? 'X' : 'x'))] = 1;
-        r = fixed ? turn(e, angle(v[i])) * r : r * turn(e, angle(v[i]));
-      }
-      return r;
-    }
-    if (const auto text = value(at, "xyaxes", childclass)) {
-      const auto v = numbers(at, "xyaxes", *text, 6, 6);
-      const Vec x = unit({v[0], v[1], v[2]}), y = {v[3], v[4], v[5]};
-      const Vec straight = unit(y - dot(x, y) * x);
-      return {x, straight, cross(x, straight)};
-    }
-    if (const auto text = value(at, "zaxis", childclass)) {
-      const auto v = numbers(at, "zaxis", *text, 3, 3);
-      const Vec z = unit({v[0], v[1], v[2]}), way = cross({0, 0, 1}, z);
-      const double sine = norm(way);
-      return sine > 1e-12 ? turn((1 / sine) * way, std::atan2(sine, z[2])) : z[2] < 0 ? turn({1, 0, 0}, std::numbers::pi) : Rotation{};
-    }
-    return {};
-  }
-  Pose pose_of(const XmlElement& at, const std::string& childclass) const { return {orientation(at, childclass), vector(at, "pos", {}, childclass)}; }
 
   // --- bodies
 
@@ -175,14 +83,19 @@ class Reader {
 
   void contents(const XmlElement& at, int body, const Pose& pose, const std::string& childclass, int depth) {
     for (const char* unknown : {"composite", "flexcomp", "replicate", "attach", "include"})
-      if (const XmlElement* own = at.first(unknown)) refuse(*own, "<" + own->name + "> makes bodies that are not written", "write the bodies themselves");
-    if (const XmlElement* own = at.first("freejoint")) refuse(*own, "body " + bodies_[static_cast<std::size_t>(body)].name + " is free (freejoint)", "fix its base: take the free joint out");
+      if (const XmlElement* own = at.first(unknown))
+        refuse(*own, "<" + own->name + "> makes bodies that are not written", "write the bodies themselves");
+    if (const XmlElement* own = at.first("freejoint"))
+      refuse(*own, "body " + bodies_[static_cast<std::size_t>(body)].name + " is free (freejoint)",
+             "fix its base: take the free joint out");
     for (const XmlElement* own : at.all("site")) {
       const std::string name = own->get("name", "");
       if (!name.empty()) sites_[name] = {body, pose * pose_of(*own, childclass)};
     }
-    for (const XmlElement* own : at.all("frame")) contents(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
-    for (const XmlElement* own : at.all("body")) body_of(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
+    for (const XmlElement* own : at.all("frame"))
+      contents(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
+    for (const XmlElement* own : at.all("body"))
+      body_of(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
   }
 
   void body_of(const XmlElement& at, int parent, const Pose& pose, const std::string& childclass, int depth) {
@@ -190,7 +103,8 @@ class Reader {
     own.name = at.get("name", "body" + std::to_string(bodies_.size()));
     own.parent = parent;
     own.pose = pose;
-    if (at.get("mocap", "false") == "true") s_.note("body " + own.name + " is moved from outside (mocap); it stands still here");
+    if (at.get("mocap", "false") == "true")
+      s_.note("body " + own.name + " is moved from outside (mocap); it stands still here");
     s_.links.push_back({own.name, at.line, 0, {}, {}, false, false});
     own.link = static_cast<int>(s_.links.size()) - 1;
     const int index = static_cast<int>(bodies_.size());
@@ -210,7 +124,8 @@ class Reader {
       parts.inertial = own;
       parts.inertial_frame = pose;
     }
-    for (const XmlElement* own : at.all("frame")) gather(*own, pose * pose_of(*own, childclass), own->get("childclass", childclass), parts, depth + 1);
+    for (const XmlElement* own : at.all("frame"))
+      gather(*own, pose * pose_of(*own, childclass), own->get("childclass", childclass), parts, depth + 1);
   }
 
   struct Single {
@@ -230,15 +145,19 @@ class Reader {
     const Vec axis = vector(at, "axis", {0, 0, 1}, childclass);
     if (!(norm(axis) > 1e-9)) refuse(at, "the axis of a joint has no direction", "write such as axis=\"0 0 1\"");
     own.axis = pose.turned * unit(axis);
-    if (own.type == "free") refuse(at, "joint " + own.name + " leaves its body free", "fix its base: take the free joint out");
-    if (own.type != "hinge" && own.type != "slide" && own.type != "ball") refuse(at, "joint " + own.name + " is of type '" + own.type + "'", "use hinge, slide or ball");
+    if (own.type == "free")
+      refuse(at, "joint " + own.name + " leaves its body free", "fix its base: take the free joint out");
+    if (own.type != "hinge" && own.type != "slide" && own.type != "ball")
+      refuse(at, "joint " + own.name + " is of type '" + own.type + "'", "use hinge, slide or ball");
     const bool turns = own.type == "hinge";
-    if (const auto text = value(at, "ref", childclass)) own.reference = numbers(at, "ref", *text, 1, 1).front() * (turns ? angle(1) : 1);
+    if (const auto text = value(at, "ref", childclass))
+      own.reference = numbers(at, "ref", *text, 1, 1).front() * (turns ? angle(1) : 1);
     const std::string limited = value(at, "limited", childclass).value_or("auto");
     if (const auto text = value(at, "range", childclass); text && own.type != "ball") {
       const auto v = numbers(at, "range", *text, 2, 2);
       const double unit = turns ? angle(1) : 1;
-      if (v[0] < v[1] && (limited == "true" || (limited == "auto" && limits_by_range_))) own.range = std::array<double, 2>{unit * v[0] - own.reference, unit * v[1] - own.reference};
+      if (v[0] < v[1] && (limited == "true" || (limited == "auto" && limits_by_range_)))
+        own.range = std::array<double, 2>{unit * v[0] - own.reference, unit * v[1] - own.reference};
     }
     return own;
   }
@@ -261,7 +180,8 @@ class Reader {
     std::vector<Single> list;
     for (const auto& [element, frame] : parts.joints) {
       list.push_back(single(*element, frame.first, frame.second));
-      if (list.back().name.empty()) list.back().name = own.name + (parts.joints.size() > 1 ? "_" + std::to_string(list.size()) : "");
+      if (list.back().name.empty())
+        list.back().name = own.name + (parts.joints.size() > 1 ? "_" + std::to_string(list.size()) : "");
     }
     if (list.empty()) {
       Single weld;
@@ -272,7 +192,9 @@ class Reader {
       add(SourceKind::fixed, weld, parent, own.link);
       return;
     }
-    const auto across = [&](std::size_t i, std::size_t j) { return std::abs(dot(list[i].axis, list[j].axis)) < 1e-9 && distance(list[i].at, list[j].at) < 1e-9; };
+    const auto across = [&](std::size_t i, std::size_t j) {
+      return std::abs(dot(list[i].axis, list[j].axis)) < 1e-9 && distance(list[i].at, list[j].at) < 1e-9;
+    };
     const bool hinges = std::all_of(list.begin(), list.end(), [](const Single& one) { return one.type == "hinge"; });
     if (hinges && list.size() == 2 && across(0, 1)) {
       const int joint = add(SourceKind::universal, list[0], parent, own.link);
@@ -296,10 +218,13 @@ class Reader {
         s_.links.push_back({own.name + "_part" + std::to_string(i + 1), at.line, 0, {}, {}, false, true});
         to = static_cast<int>(s_.links.size()) - 1;
       }
-      const SourceKind kind = list[i].type == "hinge" ? SourceKind::revolute : list[i].type == "slide" ? SourceKind::prismatic : SourceKind::spherical;
+      const SourceKind kind = list[i].type == "hinge"   ? SourceKind::revolute
+                              : list[i].type == "slide" ? SourceKind::prismatic
+                                                        : SourceKind::spherical;
       tree_.push_back({list[i].name, list[i].type, {add(kind, list[i], from, to)}, list[i].reference});
       // The axes of a ball are those of its body, for a posture that turns it.
-      if (kind == SourceKind::spherical) s_.joints.back().on_from.frame = s_.joints.back().on_to.frame = own.pose.turned;
+      if (kind == SourceKind::spherical)
+        s_.joints.back().on_from.frame = s_.joints.back().on_to.frame = own.pose.turned;
       from = to;
     }
   }
@@ -310,7 +235,8 @@ class Reader {
     SourceLink& link = s_.links[static_cast<std::size_t>(own.link)];
     if (parts.inertial != nullptr && from_shapes_ != "true") {
       const XmlElement& inertial = *parts.inertial;
-      const Pose frame = parts.inertial_frame * Pose{orientation(inertial, "main"), vector(inertial, "pos", {}, "main")};
+      const Pose frame =
+          parts.inertial_frame * Pose{orientation(inertial, "main"), vector(inertial, "pos", {}, "main")};
       link.mass = numbers(inertial, "mass", inertial.get("mass", "0"), 1, 1).front();
       if (link.mass < 0) refuse(inertial, "the mass of body " + own.name + " is negative", "write 0 or more");
       link.centre = frame.at;
@@ -348,7 +274,9 @@ class Reader {
     const double r = size.empty() ? 0 : std::abs(size[0]), pi = std::numbers::pi;
     double volume = 0;
     Tensor unit_inertia;  // of mass 1
-    const auto box = [](double x, double y, double z) { return Tensor{(y * y + z * z) / 3, (x * x + z * z) / 3, (x * x + y * y) / 3, 0, 0, 0}; };
+    const auto box = [](double x, double y, double z) {
+      return Tensor{(y * y + z * z) / 3, (x * x + z * z) / 3, (x * x + y * y) / 3, 0, 0, 0};
+    };
     if (type == "sphere") {
       volume = 4 * pi / 3 * r * r * r;
       unit_inertia = {0.4 * r * r, 0.4 * r * r, 0.4 * r * r, 0, 0, 0};
@@ -366,9 +294,11 @@ class Reader {
       unit_inertia = {across, across, r * r / 2, 0, 0, 0};
       if (type == "capsule") {
         // Two half balls at the ends: of mass m_s in all, with 0.4 r² each about its own centre, shifted by h and 3r/8.
-        const double ball = 4 * pi / 3 * r * r * r, whole = barrel + ball, m_b = whole > 0 ? barrel / whole : 0, m_s = 1 - m_b;
+        const double ball = 4 * pi / 3 * r * r * r, whole = barrel + ball, m_b = whole > 0 ? barrel / whole : 0,
+                     m_s = 1 - m_b;
         const double ends = 0.4 * r * r + half * half + 0.75 * half * r;
-        unit_inertia = {m_b * across + m_s * ends, m_b * across + m_s * ends, m_b * r * r / 2 + m_s * 0.4 * r * r, 0, 0, 0};
+        unit_inertia = {
+            m_b * across + m_s * ends, m_b * across + m_s * ends, m_b * r * r / 2 + m_s * 0.4 * r * r, 0, 0, 0};
         volume = whole;
       }
     } else {
@@ -385,7 +315,8 @@ class Reader {
     const Vec before = link.centre.value_or(frame.at);
     const double sum = link.mass + mass;
     const Vec centre = (1 / sum) * (link.mass * before + mass * frame.at);
-    link.inertia = link.inertia.value_or(Tensor{}) + point_inertia(link.mass, before - centre) + own + point_inertia(mass, frame.at - centre);
+    link.inertia = link.inertia.value_or(Tensor{}) + point_inertia(link.mass, before - centre) + own +
+                   point_inertia(mass, frame.at - centre);
     link.mass = sum;
     link.centre = centre;
     return true;
@@ -411,7 +342,11 @@ class Reader {
         continue;
       }
       if (child.name != "connect" && child.name != "weld")
-        refuse(child, "equality " + name + " is a <" + child.name + ">", child.name == "joint" ? "joints that follow each other, as by gears, have no part here: close the loop that makes them follow" : "use connect or weld");
+        refuse(
+            child, "equality " + name + " is a <" + child.name + ">",
+            child.name == "joint"
+                ? "joints that follow each other, as by gears, have no part here: close the loop that makes them follow"
+                : "use connect or weld");
       SourceJoint joint;
       joint.name = name;
       joint.line = child.line;
@@ -419,7 +354,9 @@ class Reader {
       if (child.has("site1") || child.has("site2")) {
         const auto site = [&](const char* key) {
           const auto found = sites_.find(child.get(key, ""));
-          if (found == sites_.end()) refuse(child, "equality " + name + " names site '" + child.get(key, "") + "', which is not there", "correct the name");
+          if (found == sites_.end())
+            refuse(child, "equality " + name + " names site '" + child.get(key, "") + "', which is not there",
+                   "correct the name");
           used_sites_.insert(found->first);
           return found->second;
         };
@@ -462,10 +399,14 @@ class Reader {
         others.push_back(name);
         continue;
       }
-      const auto found = std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& own) { return own.name == target; });
-      if (found == tree_.end()) refuse(child, "actuator " + name + " drives joint '" + target + "', which is not there", "correct the name");
+      const auto found =
+          std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& own) { return own.name == target; });
+      if (found == tree_.end())
+        refuse(child, "actuator " + name + " drives joint '" + target + "', which is not there", "correct the name");
       SourceJoint& joint = s_.joints[static_cast<std::size_t>(found->joints.front())];
-      if (joint.kind != SourceKind::revolute && joint.kind != SourceKind::prismatic) refuse(child, "actuator " + name + " drives joint " + target + ", which has several axes here", "drive a hinge or a slide alone");
+      if (joint.kind != SourceKind::revolute && joint.kind != SourceKind::prismatic)
+        refuse(child, "actuator " + name + " drives joint " + target + ", which has several axes here",
+               "drive a hinge or a slide alone");
       joint.actuated = true;
     }
     if (!others.empty()) s_.note("left out, since they drive no joint: actuators " + enumerated(others));
@@ -512,9 +453,12 @@ class Reader {
     for (std::size_t i = 0; i < found.size(); ++i) {
       for (const TreeJoint& own : tree_)
         for (const int j : own.joints)
-          if (s_.joints[static_cast<std::size_t>(j)].from == found[i]) found.push_back(s_.joints[static_cast<std::size_t>(j)].to);
+          if (s_.joints[static_cast<std::size_t>(j)].from == found[i])
+            found.push_back(s_.joints[static_cast<std::size_t>(j)].to);
       for (const SourceJoint& joint : s_.joints)
-        if (joint.kind == SourceKind::fixed && joint.from == found[i] && joint.name.ends_with("_weld") && std::find(found.begin(), found.end(), joint.to) == found.end()) found.push_back(joint.to);
+        if (joint.kind == SourceKind::fixed && joint.from == found[i] && joint.name.ends_with("_weld") &&
+            std::find(found.begin(), found.end(), joint.to) == found.end())
+          found.push_back(joint.to);
       if (found.size() > 10000) break;
     }
     std::sort(found.begin(), found.end());
@@ -522,12 +466,8 @@ class Reader {
     return found;
   }
 
-  std::string file_;
   XmlElement root_;
   Source s_;
-  bool degrees_ = true, limits_by_range_ = true;
-  std::string order_ = "xyz", from_shapes_ = "auto";
-  std::map<std::string, std::map<std::string, std::vector<const XmlElement*>>> classes_;
   std::vector<Body> bodies_;
   std::vector<TreeJoint> tree_;
   std::map<std::string, std::pair<int, Pose>> sites_;

@@ -60,8 +60,8 @@ std::string axis_words(const Vec& v) {
   static const char* const names[] = {"x", "y", "z"};
   for (std::size_t i = 0; i < 3; ++i)
     if (std::abs(v[i]) > 1 - parallel) return (v[i] < 0 ? "-" : "") + std::string(names[i]);
-  return "(" + shortest_decimal(v[0], 1e-6) + ", " + shortest_decimal(v[1], 1e-6) + ", " + shortest_decimal(v[2], 1e-6) +
-         ")";
+  return "(" + shortest_decimal(v[0], 1e-6) + ", " + shortest_decimal(v[1], 1e-6) + ", " +
+         shortest_decimal(v[2], 1e-6) + ")";
 }
 
 void turn_joint(SourceJoint& joint, const Rotation& back) {
@@ -98,7 +98,8 @@ void go_planar(Source& source) {
     changed.push_back(joint.name);
   }
   if (!changed.empty())
-    source.note("in the plane " + enumerated(changed) + (changed.size() == 1 ? " is a pin or guide" : " are pins or guides"));
+    source.note("in the plane " + enumerated(changed) +
+                (changed.size() == 1 ? " is a pin or guide" : " are pins or guides"));
   for (SourceJoint& joint : source.joints) turn_joint(joint, back);
   for (SourcePoint& point : source.points) {
     point.at = back * point.at;

@@ -1,7 +1,7 @@
 // PMKS+ (Worcester Polytechnic Institute, github.com/PMKS-Web/PMKSWeb): an address, or what follows its question mark.
 // Sections end with a dot: flags, decimals, integers and enumerations of the settings; joints; links; forces; what is
-// selected; and, in newer ones, tagged references. Integers are written to base 64 with the digits below, a leading 0 is
-// a minus, decimals are integers over 1000. The last letter is the length of the rest, modulo 62.
+// selected; and, in newer ones, tagged references. Integers are written to base 64 with the digits below, a leading 0
+// is a minus, decimals are integers over 1000. The last letter is the length of the rest, modulo 62.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -72,14 +72,17 @@ class Reader {
 
  private:
   [[noreturn]] void refuse(std::size_t place, const std::string& problem, const std::string& mend) const {
-    throw InputError({file_.size() > 60 ? "the address" : file_, 1, base_ + static_cast<int>(place) + 1}, problem, mend);
+    throw InputError({file_.size() > 60 ? "the address" : file_, 1, base_ + static_cast<int>(place) + 1}, problem,
+                     mend);
   }
 
   void check_length() const {
     constexpr std::string_view letters = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
     if (text_.size() < 2 || text_.back() != letters[(text_.size() - 1) % letters.size()])
-      refuse(text_.empty() ? 0 : text_.size() - 1, "this PMKS+ text is not whole: its last letter should be " +
-             std::string(1, letters[(text_.empty() ? 0 : text_.size() - 1) % letters.size()]), "copy the whole address from PMKS+ again");
+      refuse(text_.empty() ? 0 : text_.size() - 1,
+             "this PMKS+ text is not whole: its last letter should be " +
+                 std::string(1, letters[(text_.empty() ? 0 : text_.size() - 1) % letters.size()]),
+             "copy the whole address from PMKS+ again");
   }
 
   // --- words
@@ -96,7 +99,8 @@ class Reader {
   }
   bool more() const { return at_ < text_.size() && text_[at_] != '.'; }
   void end_of(const std::string& what) {
-    if (at_ >= text_.size()) refuse(at_, "the PMKS+ text ends within its " + what, "copy the whole address from PMKS+ again");
+    if (at_ >= text_.size())
+      refuse(at_, "the PMKS+ text ends within its " + what, "copy the whole address from PMKS+ again");
     ++at_;
   }
   static Section word(Section& rest) {
@@ -118,11 +122,13 @@ class Reader {
     }
     double value = 0;
     constexpr std::size_t longest = 8;  // 48 bits: exact in a double
-    if (word.size() > longest) refuse(own.place, what + " '" + std::string(own.text) + "' has more than 8 digits", "correct it in PMKS+");
+    if (word.size() > longest)
+      refuse(own.place, what + " '" + std::string(own.text) + "' has more than 8 digits", "correct it in PMKS+");
     for (std::size_t i = 0; i < word.size(); ++i) {
       const std::size_t digit = digits.find(word[i]);
       if (digit == std::string_view::npos)
-        refuse(own.place + i, what + " '" + std::string(own.text) + "' is no number to base 64", "copy the address from PMKS+ again");
+        refuse(own.place + i, what + " '" + std::string(own.text) + "' is no number to base 64",
+               "copy the address from PMKS+ again");
       value = value * 64 + static_cast<double>(digit);
     }
     return minus ? -value : value;
@@ -132,7 +138,9 @@ class Reader {
     unsigned value = 0;
     for (const char letter : letters) {
       const std::size_t digit = digits.find(letter);
-      if (digit == std::string_view::npos) refuse(place, "the flags '" + std::string(letters) + "' of " + what + " are no number to base 64", "copy the address from PMKS+ again");
+      if (digit == std::string_view::npos)
+        refuse(place, "the flags '" + std::string(letters) + "' of " + what + " are no number to base 64",
+               "copy the address from PMKS+ again");
       value = value * 64 + static_cast<unsigned>(digit);
     }
     return value;
@@ -142,7 +150,8 @@ class Reader {
 
   void settings() {
     const Section booleans = section(), decimals = section(), integers = section(), enumerations = section();
-    if (booleans.text.empty() || booleans.text.size() > 4) refuse(booleans.place, "the settings of the PMKS+ text are missing", "copy the whole address from PMKS+ again");
+    if (booleans.text.empty() || booleans.text.size() > 4)
+      refuse(booleans.place, "the settings of the PMKS+ text are missing", "copy the whole address from PMKS+ again");
     const unsigned flag = flags(booleans.text, booleans.place, "the settings");
     clockwise_ = (flag & 1U) != 0;
     const bool weightless = (flag & 256U) != 0;
@@ -156,21 +165,34 @@ class Reader {
     };
     const std::size_t length = chosen(0), force = chosen(2);
     constexpr double pound = 0.45359237, inch = 0.0254, pound_force = 4.4482216152605;
-    if (length == 0) units_ = {"in", pound, pound * inch * inch, pound_force, inch};
-    else if (length == 1) units_ = {"cm", 1e-3, 1e-4, 1, 1e-2};
-    else if (length == 2) units_ = {"m", 1, 1, 1, 1};
-    else refuse(enumerations.place, "the unit of length of the PMKS+ text is unknown", "copy the address from PMKS+ again");
+    if (length == 0)
+      units_ = {"in", pound, pound * inch * inch, pound_force, inch};
+    else if (length == 1)
+      units_ = {"cm", 1e-3, 1e-4, 1, 1e-2};
+    else if (length == 2)
+      units_ = {"m", 1, 1, 1, 1};
+    else
+      refuse(enumerations.place, "the unit of length of the PMKS+ text is unknown",
+             "copy the address from PMKS+ again");
     units_.force = force == 0 ? pound_force : 1;
     s_.unit = units_.length;
     constexpr double g = 9.81;
     if (!weightless) s_.gravity = Vec{0, -g, 0};
-    s_.note("masses are in " + std::string(length == 0 ? "lb" : length == 1 ? "g" : "kg") + " and moments of inertia in " +
-            (length == 0 ? "lb in^2" : length == 1 ? "kg cm^2" : "kg m^2") + ", as PMKS+ has them with lengths in " + units_.length);
+    s_.note("masses are in " +
+            std::string(length == 0   ? "lb"
+                        : length == 1 ? "g"
+                                      : "kg") +
+            " and moments of inertia in " +
+            (length == 0   ? "lb in^2"
+             : length == 1 ? "kg cm^2"
+                           : "kg m^2") +
+            ", as PMKS+ has them with lengths in " + units_.length);
   }
 
   void joint(Section rest) {
     const Section own = rest;
-    if (rest.text.size() < 2) refuse(own.place, "a joint of the PMKS+ text has no name", "copy the address from PMKS+ again");
+    if (rest.text.size() < 2)
+      refuse(own.place, "a joint of the PMKS+ text has no name", "copy the address from PMKS+ again");
     const unsigned flag = flags(rest.text.substr(0, 1), rest.place, "a joint");
     rest = {rest.text.substr(1), rest.place + 1};
     Joint j;
@@ -189,20 +211,27 @@ class Reader {
     j.slot_a = std::string(word(rest).text);
     j.slot_b = std::string(word(rest).text);
     if (!rest.text.empty()) j.speed = decimal(word(rest), "the speed of " + what);
-    if (!rest.text.empty()) refuse(rest.place, what + " has more words than are known: '" + std::string(rest.text) + "'", "open it in PMKS+ and share it again");
-    if (!index_.emplace(j.id, joints_.size()).second) refuse(own.place, "two joints are called " + j.id, "copy the address from PMKS+ again");
-    if (!j.carrier.empty() && !j.slides) refuse(own.place, what + " does not slide but has a slot", "copy the address from PMKS+ again");
+    if (!rest.text.empty())
+      refuse(rest.place, what + " has more words than are known: '" + std::string(rest.text) + "'",
+             "open it in PMKS+ and share it again");
+    if (!index_.emplace(j.id, joints_.size()).second)
+      refuse(own.place, "two joints are called " + j.id, "copy the address from PMKS+ again");
+    if (!j.carrier.empty() && !j.slides)
+      refuse(own.place, what + " does not slide but has a slot", "copy the address from PMKS+ again");
     joints_.push_back(std::move(j));
   }
 
   void link(Section rest) {
     const Section own = rest;
-    if (rest.text.size() < 3) refuse(own.place, "a link of the PMKS+ text is cut short", "copy the address from PMKS+ again");
+    if (rest.text.size() < 3)
+      refuse(own.place, "a link of the PMKS+ text is cut short", "copy the address from PMKS+ again");
     static constexpr std::string_view roots = "YAMG0123", others = "Namg4567";
     const char root = rest.text[0], type = rest.text[1];
     if (roots.find(root) == std::string_view::npos && others.find(root) == std::string_view::npos)
-      refuse(own.place, "'" + std::string(1, root) + "' begins no link that is known", "open it in PMKS+ and share it again");
-    if (type != 'R' && type != 'P') refuse(own.place + 1, "'" + std::string(1, type) + "' is no type of link", "open it in PMKS+ and share it again");
+      refuse(own.place, "'" + std::string(1, root) + "' begins no link that is known",
+             "open it in PMKS+ and share it again");
+    if (type != 'R' && type != 'P')
+      refuse(own.place + 1, "'" + std::string(1, type) + "' is no type of link", "open it in PMKS+ and share it again");
     rest = {rest.text.substr(2), rest.place + 2};
     Link l;
     SourceLink link;
@@ -215,12 +244,15 @@ class Reader {
     Vec centre{};
     centre[0] = decimal(word(rest), "x of the centre of mass of " + what);
     centre[1] = decimal(word(rest), "y of the centre of mass of " + what);
-    if (link.mass < 0 || inertia < 0) refuse(own.place, what + " has a negative mass or moment of inertia", "correct it in PMKS+");
+    if (link.mass < 0 || inertia < 0)
+      refuse(own.place, what + " has a negative mass or moment of inertia", "correct it in PMKS+");
     (void)word(rest);  // its colour
     while (true) {
       const Section id = word(rest);
       if (id.text.empty()) break;
-      if (!index_.contains(std::string(id.text))) refuse(id.place, what + " has the joint '" + std::string(id.text) + "', which is not there", "copy the address from PMKS+ again");
+      if (!index_.contains(std::string(id.text)))
+        refuse(id.place, what + " has the joint '" + std::string(id.text) + "', which is not there",
+               "copy the address from PMKS+ again");
       l.joints.emplace_back(id.text);
     }
     if (roots.find(root) == std::string_view::npos) return;  // a part of a welded link
@@ -234,7 +266,8 @@ class Reader {
       link.centre = joints_[index_.at(l.joints.front())].at;
       link.inertia = Tensor{};
     }
-    if (!link_index_.emplace(l.id, links_.size()).second) refuse(own.place, "two links are called " + l.id, "copy the address from PMKS+ again");
+    if (!link_index_.emplace(l.id, links_.size()).second)
+      refuse(own.place, "two links are called " + l.id, "copy the address from PMKS+ again");
     links_.push_back(std::move(l));
     s_.links.push_back(std::move(link));
   }
@@ -255,7 +288,9 @@ class Reader {
     end[1] = decimal(word(rest), "y of the end of " + what);
     const double size = units_.force * decimal(word(rest), "the size of " + what);
     const auto link = link_index_.find(std::string(id.text));
-    if (link == link_index_.end()) refuse(id.place, what + " acts on link '" + std::string(id.text) + "', which is not there", "correct it in PMKS+");
+    if (link == link_index_.end())
+      refuse(id.place, what + " acts on link '" + std::string(id.text) + "', which is not there",
+             "correct it in PMKS+");
     if (size == 0) return s_.note(what + " is 0 and was left out");
     if (!(distance(end, load.at) > 0)) refuse(own.place, what + " has no direction", "draw its arrow in PMKS+");
     load.link = static_cast<int>(link->second);
@@ -271,10 +306,14 @@ class Reader {
       const Section own = word(rest);
       if (own.text.empty()) continue;
       if (std::string_view("JLFCSKP").find(own.text.front()) == std::string_view::npos)
-        refuse(own.place, "'" + std::string(own.text.substr(0, 20)) + "' is no entry of a PMKS+ text that is known", "open it in PMKS+ and share it again");
+        refuse(own.place, "'" + std::string(own.text.substr(0, 20)) + "' is no entry of a PMKS+ text that is known",
+               "open it in PMKS+ and share it again");
       ++counts[own.text.front()];
     }
-    const std::map<char, std::string> words = {{'J', "locks of joints"}, {'L', "locks of links"}, {'F', "locks of forces"}, {'C', "anchors of centres of mass"}, {'S', "designs by synthesis"}, {'K', "colours"}, {'P', "digits beyond thousandths"}};
+    const std::map<char, std::string> words = {{'J', "locks of joints"},          {'L', "locks of links"},
+                                               {'F', "locks of forces"},          {'C', "anchors of centres of mass"},
+                                               {'S', "designs by synthesis"},     {'K', "colours"},
+                                               {'P', "digits beyond thousandths"}};
     for (const auto& [tag, count] : counts) s_.note("left out: " + words.at(tag) + " (" + std::to_string(count) + ")");
   }
 
@@ -330,12 +369,14 @@ class Reader {
       const int base = j.grounded ? ground_link : own.front();
       bool driven = false;
       for (std::size_t i = j.grounded ? 0 : 1; i < own.size(); ++i) {
-        SourceJoint& joint = add(j, j.welded && i > 0 ? SourceKind::fixed : SourceKind::revolute, j.welded && i > 0 ? own.front() : base, own[i], {0, 0, 1});
+        SourceJoint& joint = add(j, j.welded && i > 0 ? SourceKind::fixed : SourceKind::revolute,
+                                 j.welded && i > 0 ? own.front() : base, own[i], {0, 0, 1});
         if (j.input && !driven && joint.kind == SourceKind::revolute) drive(joint, j);
         driven = true;
       }
       if (own.size() + (j.grounded ? 1 : 0) > 2) shared.push_back(j.id);
-      if (own.size() == 1 && !j.grounded) s_.points.push_back({j.name.empty() ? j.id : j.name, own.front(), j.at, true});
+      if (own.size() == 1 && !j.grounded)
+        s_.points.push_back({j.name.empty() ? j.id : j.name, own.front(), j.at, true});
     }
     if (!shared.empty())
       s_.note("more than two links meet at " + enumerated(shared) + ": all are pinned to " +
@@ -351,13 +392,18 @@ class Reader {
       const auto carrier = link_index_.find(j.carrier);
       const auto a = index_.find(j.slot_a), b = index_.find(j.slot_b);
       if (carrier == link_index_.end() || a == index_.end() || b == index_.end())
-        refuse(static_cast<std::size_t>(j.place), "joint " + j.id + " slides in a slot of link " + j.carrier + ", which is not whole", "draw the slot in PMKS+ again");
+        refuse(static_cast<std::size_t>(j.place),
+               "joint " + j.id + " slides in a slot of link " + j.carrier + ", which is not whole",
+               "draw the slot in PMKS+ again");
       from = static_cast<int>(carrier->second);
       along = std::pair{joints_[a->second].at, joints_[b->second].at};
-      if (!(distance(along->first, along->second) > 0)) refuse(static_cast<std::size_t>(j.place), "the slot of joint " + j.id + " has no length", "draw the slot in PMKS+ again");
+      if (!(distance(along->first, along->second) > 0))
+        refuse(static_cast<std::size_t>(j.place), "the slot of joint " + j.id + " has no length",
+               "draw the slot in PMKS+ again");
       axis = unit(along->second - along->first);
     } else if (!j.grounded) {
-      refuse(static_cast<std::size_t>(j.place), "joint " + j.id + " slides on nothing", "ground it in PMKS+, or give it a slot");
+      refuse(static_cast<std::size_t>(j.place), "joint " + j.id + " slides on nothing",
+             "ground it in PMKS+, or give it a slot");
     }
     SourceJoint& joint = add(j, SourceKind::prismatic, from, own.front(), axis);
     joint.along = along;
@@ -370,7 +416,8 @@ class Reader {
     const double near = std::round(j.angle / step) * step;
     const bool round = std::abs(near - j.angle) < rounding;
     if (round && near != j.angle && j.carrier.empty())
-      s_.note("the guide of joint " + j.id + " is taken at " + shortest_decimal(near * 180 / std::numbers::pi, 1e-9) + " deg, of which the text has thousandths of a radian");
+      s_.note("the guide of joint " + j.id + " is taken at " + shortest_decimal(near * 180 / std::numbers::pi, 1e-9) +
+              " deg, of which the text has thousandths of a radian");
     const double angle = round ? near : j.angle;
     const auto whole = [](double v) { return std::abs(v) < 1e-15 ? 0 : v; };
     return unit({whole(std::cos(angle)), whole(std::sin(angle)), 0});
@@ -394,7 +441,8 @@ class Reader {
 bool is_pmks(std::string_view text) {
   const bool address = trimmed(text).starts_with("http");
   const std::string_view payload = payload_of(text);
-  if (payload.empty() || payload.find_first_of(" \t\r\n:{}") != std::string_view::npos) return address && payload.find('.') != std::string_view::npos && payload.find(',') != std::string_view::npos;
+  if (payload.empty() || payload.find_first_of(" \t\r\n:{}") != std::string_view::npos)
+    return address && payload.find('.') != std::string_view::npos && payload.find(',') != std::string_view::npos;
   // Flags, decimals, integers and enumerations of letters to base 64, and at least the two empty sections behind joints
   // and links.
   std::size_t dots = 0;

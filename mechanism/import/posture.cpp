@@ -1,6 +1,6 @@
-// The posture in which all joints of a source meet. Unknown are the motions of the links, six numbers each; a joint says
-// that points are one, axes parallel, or frames turned alike. Levenberg-Marquardt finds the zero nearest to the posture
-// of the file: (JᵀJ + λ) d = -Jᵀ r.
+// The posture in which all joints of a source meet. Unknown are the motions of the links, six numbers each; a joint
+// says that points are one, axes parallel, or frames turned alike. Levenberg-Marquardt finds the zero nearest to the
+// posture of the file: (JᵀJ + λ) d = -Jᵀ r.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -44,8 +44,8 @@ class Constraints {
   /// Appends values (and slopes where asked) of one joint.
   void add(const SourceJoint& j, std::vector<double>& values, Rows* rows) const {
     using Kind = SourceKind;
-    const bool meets = j.kind == Kind::revolute || j.kind == Kind::spherical || j.kind == Kind::universal ||
-                       j.kind == Kind::fixed;
+    const bool meets =
+        j.kind == Kind::revolute || j.kind == Kind::spherical || j.kind == Kind::universal || j.kind == Kind::fixed;
     if (meets) add_meeting(j, values, rows);
     if (j.kind == Kind::prismatic || j.kind == Kind::cylindrical) add_line(j, values, rows);
     if (j.kind == Kind::revolute || j.kind == Kind::cylindrical)
@@ -122,10 +122,10 @@ class Constraints {
     each_freedom(j, [&](std::size_t column, std::size_t freedom, bool from) {
       Vec d{};
       for (std::size_t a = 0; a < of_from.size(); ++a) {
-        if (flipped && a == farthest)
-          d = d + (from ? turned(*of_from[a], freedom) : -turned(*of_to[a], freedom));
+        if (flipped && a == farthest) d = d + (from ? turned(*of_from[a], freedom) : -turned(*of_to[a], freedom));
         if (!flipped)
-          d = d + (from ? cross(turned(*of_from[a], freedom), *of_to[a]) : cross(*of_from[a], turned(*of_to[a], freedom)));
+          d = d +
+              (from ? cross(turned(*of_from[a], freedom), *of_to[a]) : cross(*of_from[a], turned(*of_to[a], freedom)));
       }
       for (std::size_t i = 0; i < 3; ++i) (*rows)[rows->size() - 3 + i][column] += d[i];
     });
@@ -208,8 +208,8 @@ Source moved_by(const Source& source, const Constraints& constraints, const std:
     const double* d = &step[freedoms * l];
     const Vec angles = {d[3], d[4], d[5]};
     const double angle = norm(angles);
-    move_link(moved, static_cast<int>(l), constraints.centre(static_cast<int>(l)), {size * d[0], size * d[1], size * d[2]},
-              angle > 0 ? turn((1 / angle) * angles, angle) : Rotation{});
+    move_link(moved, static_cast<int>(l), constraints.centre(static_cast<int>(l)),
+              {size * d[0], size * d[1], size * d[2]}, angle > 0 ? turn((1 / angle) * angles, angle) : Rotation{});
   }
   return moved;
 }
@@ -401,7 +401,9 @@ void close_posture(Source& source, const std::string& file) {
         worst = &joint;
       }
     }
-    const std::string apart = worst == nullptr ? "" : shortest_decimal(distance(worst->on_from.at, worst->on_to.at), 1e-6 / constraints.scale());
+    const std::string apart =
+        worst == nullptr ? ""
+                         : shortest_decimal(distance(worst->on_from.at, worst->on_to.at), 1e-6 / constraints.scale());
     throw core::InputError(
         {file, worst == nullptr ? 0 : worst->line},
         "the links do not close: joint " + (worst == nullptr ? "" : worst->name) + " between " +
@@ -413,8 +415,8 @@ void close_posture(Source& source, const std::string& file) {
   if (largest(before) <= met) return;
   constexpr double rounding = 1e-6;  // of the size: what digits that were cut off leave, as in files of CAD programs
   if (!source.open_posture && largest(before) <= rounding) {
-    source.note("joints meet within " + shortest_decimal(largest(before) * size_of(source), 1e-12 * size_of(source)) + " " + source.unit +
-                " in the file: each was put where its first link has it");
+    source.note("joints meet within " + shortest_decimal(largest(before) * size_of(source), 1e-12 * size_of(source)) +
+                " " + source.unit + " in the file: each was put where its first link has it");
     for (SourceJoint& joint : source.joints) {
       if (!joint.slides()) joint.on_to.at = joint.on_from.at;
       if (joint.kind != SourceKind::universal) joint.on_to.frame = joint.on_from.frame;
@@ -457,7 +459,9 @@ void close_posture(Source& source, const std::string& file) {
   }
   if (!beyond) refuse(best);
   source = std::move(*beyond);
-  source.note("the file has no posture: one in which all joints meet was found, but not one in which all guides are within their ranges");
+  source.note(
+      "the file has no posture: one in which all joints meet was found, but not one in which all guides are within "
+      "their ranges");
 }
 
 }  // namespace clearloci::mechanism::imports

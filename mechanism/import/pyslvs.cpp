@@ -1,6 +1,6 @@
-// Pyslvs (github.com/KmolYuan/pyslvs): M[J[R, color[Green], P[0.0, 0.0], L[ground, L1]], J[RP, A[0.0], P[..], L[..]], ...].
-// A joint of type R pins all its links; P slides the others along the first, in the direction A, deg; RP does so with a
-// pin. The text names no masses, no inputs and no unit.
+// Pyslvs (github.com/KmolYuan/pyslvs): M[J[R, color[Green], P[0.0, 0.0], L[ground, L1]], J[RP, A[0.0], P[..], L[..]],
+// ...]. A joint of type R pins all its links; P slides the others along the first, in the direction A, deg; RP does so
+// with a pin. The text names no masses, no inputs and no unit.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -33,7 +33,8 @@ class Reader {
     s_.note("the text has no unit of length: mm were taken");
     s_.note("the text has no masses and no loads");
     if (!shared_.empty())
-      s_.note("more than two links meet at " + enumerated(shared_) + ": all are pinned to the ground or to the first of them; other pairings share the forces differently");
+      s_.note("more than two links meet at " + enumerated(shared_) +
+              ": all are pinned to the ground or to the first of them; other pairings share the forces differently");
     return std::move(s_);
   }
 
@@ -67,13 +68,15 @@ class Reader {
     return true;
   }
   void expect(std::string_view word) {
-    if (!eat(word)) refuse("'" + std::string(word) + "' is missing in the Pyslvs text", "copy the whole expression from Pyslvs");
+    if (!eat(word))
+      refuse("'" + std::string(word) + "' is missing in the Pyslvs text", "copy the whole expression from Pyslvs");
   }
   double number() {
     skip();
     const std::size_t end = text_.find_first_not_of("+-.0123456789eE", at_);
     double value = 0;
-    if (!number_of(std::string_view(text_).substr(at_, (end == std::string::npos ? text_.size() : end) - at_), value) || std::abs(value) > 1e12)
+    if (!number_of(std::string_view(text_).substr(at_, (end == std::string::npos ? text_.size() : end) - at_), value) ||
+        std::abs(value) > 1e12)
       refuse("a number is missing in the Pyslvs text", "write such as P[0.0, 12.5]");
     at_ = end == std::string::npos ? text_.size() : end;
     return value;
@@ -81,7 +84,8 @@ class Reader {
   std::string name() {
     skip();
     std::size_t end = at_;
-    while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_')) ++end;
+    while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_'))
+      ++end;
     if (end == at_) refuse("a name of a link is missing in the Pyslvs text", "write such as L[ground, L1]");
     std::string word = text_.substr(at_, end - at_);
     at_ = end;
@@ -111,7 +115,8 @@ class Reader {
     expect("J[");
     const std::string own = "P" + std::to_string(count_++);
     const std::string type = name();
-    if (type != "R" && type != "P" && type != "RP") refuse("'" + type + "' is no type of joint of Pyslvs", "write R, P or RP");
+    if (type != "R" && type != "P" && type != "RP")
+      refuse("'" + type + "' is no type of joint of Pyslvs", "write R, P or RP");
     double angle = 0;
     Vec at{};
     std::vector<int> links;
@@ -134,7 +139,8 @@ class Reader {
       } else if (eat("L[")) {
         while (!eat("]")) {
           const int link = link_named(name());
-          if (std::find(links.begin(), links.end(), link) != links.end()) refuse("joint " + own + " names a link twice", "name each once");
+          if (std::find(links.begin(), links.end(), link) != links.end())
+            refuse("joint " + own + " names a link twice", "name each once");
           links.push_back(link);
           (void)eat(",");
         }
@@ -145,12 +151,14 @@ class Reader {
     }
     expect("]");
     if (!placed || !linked) refuse("joint " + own + " has no place P[..] or no links L[..]", "write both");
-    if (type != "R" && !turned) refuse("joint " + own + " slides, but has no direction A[..]", "write its angle in degrees");
+    if (type != "R" && !turned)
+      refuse("joint " + own + " slides, but has no direction A[..]", "write its angle in degrees");
     if (links.empty()) {
       s_.note("joint " + own + " has no links and was left out");
       return;
     }
-    if (links.size() == 1 && type != "R") refuse("joint " + own + " slides, but has one link", "name what it slides on first");
+    if (links.size() == 1 && type != "R")
+      refuse("joint " + own + " slides, but has one link", "name what it slides on first");
     if (type == "R")
       pins(own, links, at);
     else

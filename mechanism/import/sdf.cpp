@@ -1,6 +1,6 @@
-// SDFormat 1.4 to 1.11 (sdformat.org/spec): a model's links, frames and joints, each with a pose relative to another one;
-// loops are joints like all others. Before 1.5 axes are written in the frame of the model, from then on in that of the
-// joint, or in the one that `expressed_in` (1.7) or `use_parent_model_frame` (1.5, 1.6) says.
+// SDFormat 1.4 to 1.11 (sdformat.org/spec): a model's links, frames and joints, each with a pose relative to another
+// one; loops are joints like all others. Before 1.5 axes are written in the frame of the model, from then on in that of
+// the joint, or in the one that `expressed_in` (1.7) or `use_parent_model_frame` (1.5, 1.6) says.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,7 +31,8 @@ class Reader {
     for (const XmlElement* own : model.all("joint")) add(*own, "joint");
     motors(model);
     for (const XmlElement* own : model.all("link")) link(*own);
-    if (s_.links.empty()) throw InputError({file_, model.line}, "the model has no links", "name an SDF file of a mechanism");
+    if (s_.links.empty())
+      throw InputError({file_, model.line}, "the model has no links", "name an SDF file of a mechanism");
     for (const XmlElement* own : model.all("joint")) joint(*own);
     ground();
     if (const auto left = unread(root_); !left.empty()) {
@@ -43,16 +44,21 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void refuse(const XmlElement& at, const std::string& problem, const std::string& mend) const { throw InputError({file_, at.line}, problem, mend); }
+  [[noreturn]] void refuse(const XmlElement& at, const std::string& problem, const std::string& mend) const {
+    throw InputError({file_, at.line}, problem, mend);
+  }
 
   void version() {
     const std::string text = root_.get("version", "1.6");
     double value = 0;
     const std::size_t dot = text.find('.');
     double minor = 0;
-    if (dot == std::string::npos || !number_of(text.substr(0, dot), value) || !number_of(text.substr(dot + 1), minor) || value != 1) refuse(root_, "the SDF version is '" + text + "'", "write it as 1.4 to 1.11");
+    if (dot == std::string::npos || !number_of(text.substr(0, dot), value) || !number_of(text.substr(dot + 1), minor) ||
+        value != 1)
+      refuse(root_, "the SDF version is '" + text + "'", "write it as 1.4 to 1.11");
     minor_ = static_cast<int>(minor);
-    if (minor_ < 4 || minor_ > 12) refuse(root_, "the SDF version is " + text, "convert it to 1.4 to 1.11: gz sdf -p FILE");
+    if (minor_ < 4 || minor_ > 12)
+      refuse(root_, "the SDF version is " + text, "convert it to 1.4 to 1.11: gz sdf -p FILE");
   }
 
   const XmlElement& the_model() {
@@ -62,7 +68,8 @@ class Reader {
     for (const XmlElement* world : root_.all("world")) {
       (void)world->get("name");
       if (const XmlElement* gravity = world->first("gravity")) s_.gravity = vector(*gravity, gravity->text);
-      if (const XmlElement* include = world->first("include")) refuse(*include, "the world includes another file", "name that file, or put its model in");
+      if (const XmlElement* include = world->first("include"))
+        refuse(*include, "the world includes another file", "name that file, or put its model in");
       for (const XmlElement* own : world->all("model")) models.push_back(own);
     }
     std::erase_if(models, [&](const XmlElement* own) {
@@ -75,13 +82,18 @@ class Reader {
       return still;
     });
     if (models.empty()) refuse(root_, "the SDF file has no model that moves", "name an SDF file of a mechanism");
-    if (models.size() > 1) refuse(*models[1], "the SDF file has several models: " + models[0]->get("name", "") + " and " + models[1]->get("name", ""), "take the others out");
+    if (models.size() > 1)
+      refuse(*models[1],
+             "the SDF file has several models: " + models[0]->get("name", "") + " and " + models[1]->get("name", ""),
+             "take the others out");
     return *models.front();
   }
 
   void refuse_others(const XmlElement& model) const {
-    if (const XmlElement* own = model.first("include")) refuse(*own, "model " + s_.name + " includes another file", "put what it includes in its place");
-    if (const XmlElement* own = model.first("model")) refuse(*own, "model " + own->get("name", "") + " is nested in another one", "write its links into the outer one");
+    if (const XmlElement* own = model.first("include"))
+      refuse(*own, "model " + s_.name + " includes another file", "put what it includes in its place");
+    if (const XmlElement* own = model.first("model"))
+      refuse(*own, "model " + own->get("name", "") + " is nested in another one", "write its links into the outer one");
     if (const XmlElement* own = model.first("gripper")) own->take_whole();
   }
 
@@ -89,7 +101,9 @@ class Reader {
     const auto v = numbers_of(text, at, "<" + at.name + ">", file_, 3, 3);
     return {v[0], v[1], v[2]};
   }
-  double number(const XmlElement& at) const { return numbers_of(at.text, at, "<" + at.name + ">", file_, 1, 1).front(); }
+  double number(const XmlElement& at) const {
+    return numbers_of(at.text, at, "<" + at.name + ">", file_, 1, 1).front();
+  }
 
   /// x y z roll pitch yaw, or x y z and a quaternion x y z w.
   Pose pose_text(const XmlElement& at) const {
@@ -112,7 +126,8 @@ class Reader {
   void add(const XmlElement& at, const std::string& kind) {
     const std::string name = at.get("name", "");
     if (name.empty()) refuse(at, "a <" + kind + "> has no name", "name it");
-    if (!entities_.emplace(name, Entity{&at, kind}).second) refuse(at, "two elements of the model are called " + name, "rename one of them");
+    if (!entities_.emplace(name, Entity{&at, kind}).second)
+      refuse(at, "two elements of the model are called " + name, "rename one of them");
   }
 
   std::string word(const XmlElement& at, const char* child) const {
@@ -124,9 +139,12 @@ class Reader {
   Pose pose_of(const std::string& name, const XmlElement& where, int depth = 0) const {
     if (name.empty() || name == "__model__" || name == "world") return {};
     const auto found = entities_.find(name);
-    if (found == entities_.end()) refuse(where, "<" + where.name + "> refers to '" + name + "', which is not there", "correct the name");
+    if (found == entities_.end())
+      refuse(where, "<" + where.name + "> refers to '" + name + "', which is not there", "correct the name");
     constexpr int deepest = 100;
-    if (depth > deepest) refuse(where, "the poses of " + name + " and others refer to each other in a circle", "give one of them relative to the model");
+    if (depth > deepest)
+      refuse(where, "the poses of " + name + " and others refer to each other in a circle",
+             "give one of them relative to the model");
     const Entity& own = found->second;
     const XmlElement* pose = own.at->first("pose");
     std::string base;
@@ -176,7 +194,8 @@ class Reader {
           const XmlElement* value = i->first(name);
           return value == nullptr ? otherwise : number(*value);
         };
-        own.inertia = turned(centre.turned, {part("ixx", 1), part("iyy", 1), part("izz", 1), part("ixy", 0), part("ixz", 0), part("iyz", 0)});
+        own.inertia = turned(centre.turned, {part("ixx", 1), part("iyy", 1), part("izz", 1), part("ixy", 0),
+                                             part("ixz", 0), part("iyz", 0)});
       }
     }
     index_.emplace(own.name, static_cast<int>(s_.links.size()));
@@ -210,13 +229,17 @@ class Reader {
   }
 
   void joint(const XmlElement& at) {
-    static const std::map<std::string, SourceKind> kinds = {{"revolute", SourceKind::revolute}, {"continuous", SourceKind::revolute}, {"prismatic", SourceKind::prismatic}, {"ball", SourceKind::spherical}, {"universal", SourceKind::universal}, {"fixed", SourceKind::fixed}};
+    static const std::map<std::string, SourceKind> kinds = {
+        {"revolute", SourceKind::revolute}, {"continuous", SourceKind::revolute}, {"prismatic", SourceKind::prismatic},
+        {"ball", SourceKind::spherical},    {"universal", SourceKind::universal}, {"fixed", SourceKind::fixed}};
     SourceJoint own;
     own.name = at.get("name", "");
     own.line = at.line;
     const std::string type = at.get("type", "");
     const auto kind = kinds.find(type);
-    if (kind == kinds.end()) refuse(at, "joint " + own.name + " is of type '" + type + "'", "use revolute, continuous, prismatic, ball, universal or fixed");
+    if (kind == kinds.end())
+      refuse(at, "joint " + own.name + " is of type '" + type + "'",
+             "use revolute, continuous, prismatic, ball, universal or fixed");
     own.kind = kind->second;
     own.from = side_of(at, "parent");
     own.to = side_of(at, "child");
@@ -224,7 +247,8 @@ class Reader {
     const Pose pose = pose_of(own.name, at);
     place(own, pose.at, {0, 0, 1});
     const XmlElement *axis = at.first("axis"), *second = at.first("axis2");
-    const bool turns = own.kind == SourceKind::revolute || own.kind == SourceKind::prismatic || own.kind == SourceKind::universal;
+    const bool turns =
+        own.kind == SourceKind::revolute || own.kind == SourceKind::prismatic || own.kind == SourceKind::universal;
     if (turns && axis == nullptr) refuse(at, "joint " + own.name + " has no <axis>", "write one");
     if (turns) place(own, pose.at, axis_of(*axis, pose));
     if (own.kind == SourceKind::universal) {
@@ -240,7 +264,8 @@ class Reader {
           if (low < high && high - low < endless) own.range = std::array<double, 2>{low, high};
         }
       }
-    own.actuated = motors_.contains(own.name) && own.kind != SourceKind::fixed && own.kind != SourceKind::spherical && own.kind != SourceKind::universal;
+    own.actuated = motors_.contains(own.name) && own.kind != SourceKind::fixed && own.kind != SourceKind::spherical &&
+                   own.kind != SourceKind::universal;
     s_.joints.push_back(std::move(own));
   }
 
@@ -250,7 +275,8 @@ class Reader {
     if (text == "inf" || text == "+inf") return 1e16;
     if (text == "-inf") return -1e16;
     double value = 0;
-    if (!number_of(text, value)) refuse(at, "<" + at.name + ">: '" + text.substr(0, 40) + "' is no number", "correct it");
+    if (!number_of(text, value))
+      refuse(at, "<" + at.name + ">: '" + text.substr(0, 40) + "' is no number", "correct it");
     return value;
   }
 
@@ -263,7 +289,8 @@ class Reader {
     int base = 0;
     for (std::size_t l = s_.links.size(); l-- > 0;)
       if (!children.contains(static_cast<int>(l))) base = static_cast<int>(l);
-    s_.note("no joint joins the model to the world: link " + s_.links[static_cast<std::size_t>(base)].name + " stands still");
+    s_.note("no joint joins the model to the world: link " + s_.links[static_cast<std::size_t>(base)].name +
+            " stands still");
     merge_links(s_, ground_link, base);
   }
 

@@ -1,6 +1,6 @@
-// What the file of another program describes, in words that all formats share: links, joints, where everything is in one
-// posture, motors, loads. Lengths are in the unit that the source names, everything else in SI units; directions and
-// places are those of the posture, in the frame of the source. Private to mechanism/.
+// What the file of another program describes, in words that all formats share: links, joints, where everything is in
+// one posture, motors, loads. Lengths are in the unit that the source names, everything else in SI units; directions
+// and places are those of the posture, in the frame of the source. Private to mechanism/.
 #pragma once
 
 #include <array>
@@ -49,12 +49,12 @@ struct SourceJoint {
   int from = ground_link, to = ground_link;
   JointSide on_from, on_to;  ///< the same once the posture is closed; of a universal joint z is the axis in that link
   bool actuated = false;
-  std::optional<std::array<double, 2>> range;   ///< from the posture onwards: rad, or the source's length
-  bool range_is_distance = false;               ///< of a guide: the range is that of the way between its two sides
-  bool either_way = false;                      ///< a leg between balls: no sense of its axis is meant
-  std::optional<double> speed;                  ///< rad/s or m/s
-  std::optional<std::pair<Vec, Vec>> along;     ///< of a prismatic joint: two places of `from` on its guide
-  std::optional<double> half_length;            ///< of a guide
+  std::optional<std::array<double, 2>> range;  ///< from the posture onwards: rad, or the source's length
+  bool range_is_distance = false;              ///< of a guide: the range is that of the way between its two sides
+  bool either_way = false;                     ///< a leg between balls: no sense of its axis is meant
+  std::optional<double> speed;                 ///< rad/s or m/s
+  std::optional<std::pair<Vec, Vec>> along;    ///< of a prismatic joint: two places of `from` on its guide
+  std::optional<double> half_length;           ///< of a guide
   bool dropped = false;
 
   bool slides() const { return kind == SourceKind::prismatic || kind == SourceKind::cylindrical; }
@@ -66,8 +66,8 @@ struct SourceJoint {
 struct SourceLoad {
   int link = ground_link;
   Vec at{};
-  Vec force{};   ///< N
-  Vec couple{};  ///< N m
+  Vec force{};         ///< N
+  Vec couple{};        ///< N m
   bool turns = false;  ///< with the link
   std::string name;
 };

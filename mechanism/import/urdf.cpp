@@ -1,6 +1,6 @@
-// URDF (wiki.ros.org/urdf/XML): a tree of links, their poses in the posture of all joints at 0. Loops come from a second
-// file, as github.com/Gepetto/example-parallel-robots has them: `closed_loop:` pairs of frames, `type:` 3d (a ball) or
-// 6d (a weld) for each, `name_mot:` words in the names of joints with motors.
+// URDF (wiki.ros.org/urdf/XML): a tree of links, their poses in the posture of all joints at 0. Loops come from a
+// second file, as github.com/Gepetto/example-parallel-robots has them: `closed_loop:` pairs of frames, `type:` 3d (a
+// ball) or 6d (a weld) for each, `name_mot:` words in the names of joints with motors.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,7 +31,8 @@ class Reader {
   explicit Reader(const SourceText& given) : given_(given), root_(parse_xml(given.text, given.file)) {}
 
   Source read() {
-    if (root_.name != "robot") throw InputError({given_.file, root_.line}, "the file has no <robot>", "name a URDF file");
+    if (root_.name != "robot")
+      throw InputError({given_.file, root_.line}, "the file has no <robot>", "name a URDF file");
     root_.read = true;
     s_.name = root_.get("name", "");
     refuse_macros(root_);
@@ -60,7 +61,8 @@ class Reader {
   void refuse_macros(const XmlElement& at) const {
     for (const XmlElement& child : at.children) {
       if (child.name.starts_with("xacro:"))
-        throw InputError({given_.file, child.line}, "<" + child.name + "> is a macro of xacro", "write the URDF that it makes: xacro FILE > robot.urdf");
+        throw InputError({given_.file, child.line}, "<" + child.name + "> is a macro of xacro",
+                         "write the URDF that it makes: xacro FILE > robot.urdf");
       refuse_macros(child);
     }
   }
@@ -73,7 +75,8 @@ class Reader {
   }
   double number(const XmlElement& at, const char* attribute, double otherwise) const {
     const auto text = at.get(attribute);
-    return text ? numbers_of(*text, at, std::string(attribute) + " of <" + at.name + ">", given_.file, 1, 1).front() : otherwise;
+    return text ? numbers_of(*text, at, std::string(attribute) + " of <" + at.name + ">", given_.file, 1, 1).front()
+                : otherwise;
   }
   Pose origin_of(const XmlElement& at) const {
     const XmlElement* origin = at.first("origin");
@@ -94,12 +97,16 @@ class Reader {
     if (const XmlElement* inertial = at.first("inertial")) {
       const Pose origin = origin_of(*inertial);
       if (const XmlElement* mass = inertial->first("mass")) own.mass = number(*mass, "value", 0);
-      if (own.mass < 0) throw InputError({given_.file, inertial->line}, "the mass of link " + own.name + " is negative", "write 0 or more");
+      if (own.mass < 0)
+        throw InputError({given_.file, inertial->line}, "the mass of link " + own.name + " is negative",
+                         "write 0 or more");
       own.centre = origin.at;
       if (const XmlElement* i = inertial->first("inertia"))
-        own.inertia = turned(origin.turned, {number(*i, "ixx", 0), number(*i, "iyy", 0), number(*i, "izz", 0), number(*i, "ixy", 0), number(*i, "ixz", 0), number(*i, "iyz", 0)});
+        own.inertia = turned(origin.turned, {number(*i, "ixx", 0), number(*i, "iyy", 0), number(*i, "izz", 0),
+                                             number(*i, "ixy", 0), number(*i, "ixz", 0), number(*i, "iyz", 0)});
     }
-    if (!index_.emplace(own.name, static_cast<int>(s_.links.size())).second) throw InputError({given_.file, at.line}, "two links are called " + own.name, "rename one of them");
+    if (!index_.emplace(own.name, static_cast<int>(s_.links.size())).second)
+      throw InputError({given_.file, at.line}, "two links are called " + own.name, "rename one of them");
     s_.links.push_back(std::move(own));
   }
 
@@ -110,17 +117,25 @@ class Reader {
     own.type = at.get("type", "");
     static const std::vector<std::string> types = {"revolute", "continuous", "prismatic", "fixed"};
     if (std::find(types.begin(), types.end(), own.type) == types.end())
-      throw InputError({given_.file, at.line}, "joint " + own.name + " is of type '" + own.type + "'", "use revolute, continuous, prismatic or fixed");
-    if (at.first("mimic") != nullptr) throw InputError({given_.file, at.line}, "joint " + own.name + " follows another one (mimic), as by a gear", "close the loop that makes it follow, or fix the joint");
+      throw InputError({given_.file, at.line}, "joint " + own.name + " is of type '" + own.type + "'",
+                       "use revolute, continuous, prismatic or fixed");
+    if (at.first("mimic") != nullptr)
+      throw InputError({given_.file, at.line}, "joint " + own.name + " follows another one (mimic), as by a gear",
+                       "close the loop that makes it follow, or fix the joint");
     const XmlElement *parent = at.first("parent"), *child = at.first("child");
-    if (parent == nullptr || child == nullptr) throw InputError({given_.file, at.line}, "joint " + own.name + " has no parent or no child", "name both links");
+    if (parent == nullptr || child == nullptr)
+      throw InputError({given_.file, at.line}, "joint " + own.name + " has no parent or no child", "name both links");
     own.parent = parent->get("link", "");
     own.child = child->get("link", "");
     for (const std::string& name : {own.parent, own.child})
-      if (!index_.contains(name)) throw InputError({given_.file, at.line}, "joint " + own.name + " names link '" + name + "', which is not there", "add the link, or correct the name");
+      if (!index_.contains(name))
+        throw InputError({given_.file, at.line}, "joint " + own.name + " names link '" + name + "', which is not there",
+                         "add the link, or correct the name");
     own.origin = origin_of(at);
     if (const XmlElement* axis = at.first("axis")) own.axis = vector(*axis, "xyz", {1, 0, 0});
-    if (!(norm(own.axis) > 1e-9)) throw InputError({given_.file, at.line}, "the axis of joint " + own.name + " has no direction", "write such as xyz=\"0 0 1\"");
+    if (!(norm(own.axis) > 1e-9))
+      throw InputError({given_.file, at.line}, "the axis of joint " + own.name + " has no direction",
+                       "write such as xyz=\"0 0 1\"");
     if (const XmlElement* limit = at.first("limit"); limit != nullptr && own.type != "continuous") {
       const double lower = number(*limit, "lower", 0), upper = number(*limit, "upper", 0);
       if (lower < upper) own.limits = std::array<double, 2>{lower, upper};
@@ -131,8 +146,11 @@ class Reader {
   void transmission(const XmlElement& at) {
     for (const XmlElement* joint : at.all("joint")) {
       const std::string name = joint->get("name", "");
-      const auto found = std::find_if(branches_.begin(), branches_.end(), [&](const Branch& own) { return own.name == name; });
-      if (found == branches_.end()) throw InputError({given_.file, joint->line}, "a transmission drives joint '" + name + "', which is not there", "correct the name");
+      const auto found =
+          std::find_if(branches_.begin(), branches_.end(), [&](const Branch& own) { return own.name == name; });
+      if (found == branches_.end())
+        throw InputError({given_.file, joint->line}, "a transmission drives joint '" + name + "', which is not there",
+                         "correct the name");
       found->motor = true;
     }
   }
@@ -141,14 +159,19 @@ class Reader {
     std::vector<bool> is_child(s_.links.size());
     for (const Branch& own : branches_) {
       const auto child = static_cast<std::size_t>(index_.at(own.child));
-      if (is_child[child]) throw InputError({given_.file, own.line}, "link " + own.child + " is the child of two joints", "close loops by a file of loops (closed_loop:), not by the tree");
+      if (is_child[child])
+        throw InputError({given_.file, own.line}, "link " + own.child + " is the child of two joints",
+                         "close loops by a file of loops (closed_loop:), not by the tree");
       is_child[child] = true;
     }
     std::vector<std::string> roots;
     for (std::size_t l = 0; l < s_.links.size(); ++l)
       if (!is_child[l]) roots.push_back(s_.links[l].name);
     if (roots.size() != 1)
-      throw InputError({given_.file, root_.line}, roots.empty() ? "every link is the child of a joint: there is no base" : "links " + enumerated(roots) + " have no parent", "write a tree with one base link");
+      throw InputError({given_.file, root_.line},
+                       roots.empty() ? "every link is the child of a joint: there is no base"
+                                     : "links " + enumerated(roots) + " have no parent",
+                       "write a tree with one base link");
     base_ = index_.at(roots.front());
     s_.note("link " + roots.front() + " is the base and stands still");
     poses_.resize(s_.links.size());
@@ -157,14 +180,17 @@ class Reader {
     for (bool more = true; more;) {
       more = false;
       for (const Branch& own : branches_) {
-        const auto parent = static_cast<std::size_t>(index_.at(own.parent)), child = static_cast<std::size_t>(index_.at(own.child));
+        const auto parent = static_cast<std::size_t>(index_.at(own.parent)),
+                   child = static_cast<std::size_t>(index_.at(own.child));
         if (!placed[parent] || placed[child]) continue;
         poses_[child] = poses_[parent] * own.origin;
         placed[child] = more = true;
       }
     }
     for (std::size_t l = 0; l < placed.size(); ++l)
-      if (!placed[l]) throw InputError({given_.file, s_.links[l].line}, "link " + s_.links[l].name + " hangs in a circle of joints", "write a tree with one base link");
+      if (!placed[l])
+        throw InputError({given_.file, s_.links[l].line}, "link " + s_.links[l].name + " hangs in a circle of joints",
+                         "write a tree with one base link");
     for (std::size_t l = 0; l < s_.links.size(); ++l) {
       SourceLink& own = s_.links[l];
       if (own.centre) own.centre = poses_[l] * *own.centre;
@@ -178,7 +204,10 @@ class Reader {
   }
 
   void add_joints() {
-    static const std::map<std::string, SourceKind> kinds = {{"revolute", SourceKind::revolute}, {"continuous", SourceKind::revolute}, {"prismatic", SourceKind::prismatic}, {"fixed", SourceKind::fixed}};
+    static const std::map<std::string, SourceKind> kinds = {{"revolute", SourceKind::revolute},
+                                                            {"continuous", SourceKind::revolute},
+                                                            {"prismatic", SourceKind::prismatic},
+                                                            {"fixed", SourceKind::fixed}};
     for (const Branch& own : branches_) {
       const Pose& pose = poses_[static_cast<std::size_t>(index_.at(own.child))];
       SourceJoint joint;
@@ -202,10 +231,12 @@ class Reader {
     Pose pose;
   };
   Frame frame_named(const std::string& name, const Value& where) const {
-    if (const auto own = index_.find(name); own != index_.end()) return {source_link(name), poses_[static_cast<std::size_t>(own->second)]};
+    if (const auto own = index_.find(name); own != index_.end())
+      return {source_link(name), poses_[static_cast<std::size_t>(own->second)]};
     for (const Branch& own : branches_)
       if (own.name == name) return {source_link(own.child), poses_[static_cast<std::size_t>(index_.at(own.child))]};
-    throw InputError(where.where, "closed_loop names frame '" + name + "', which is no link and no joint of the robot", "correct the name");
+    throw InputError(where.where, "closed_loop names frame '" + name + "', which is no link and no joint of the robot",
+                     "correct the name");
   }
 
   void loops() {
@@ -214,10 +245,14 @@ class Reader {
     std::optional<Value> pairs, types, motors;
     std::vector<std::string> other;
     for (const Entry& entry : entries(document)) {
-      if (entry.key == "closed_loop") pairs = entry.value;
-      else if (entry.key == "type") types = entry.value;
-      else if (entry.key == "name_mot") motors = entry.value;
-      else other.push_back(entry.key);
+      if (entry.key == "closed_loop")
+        pairs = entry.value;
+      else if (entry.key == "type")
+        types = entry.value;
+      else if (entry.key == "name_mot")
+        motors = entry.value;
+      else
+        other.push_back(entry.key);
     }
     if (!pairs && !motors) return;  // another file that lies beside
     if (!other.empty()) s_.note("left out of " + given_.side_file + ": " + enumerated(other));
@@ -227,8 +262,11 @@ class Reader {
       std::vector<Value> kinds = types && types->is_sequence() ? elements(*types) : std::vector<Value>{};
       for (std::size_t i = 0; i < list.size(); ++i) {
         const std::vector<Value> pair = elements(list[i], 2);
-        const std::string kind = i < kinds.size() ? text_of(kinds[i]) : types && types->is_scalar() ? text_of(*types) : "6d";
-        if (kind != "3d" && kind != "3D" && kind != "6d" && kind != "6D") throw InputError(list[i].where, "the type of a closed loop is '" + kind + "'", "write 3d or 6d");
+        const std::string kind = i < kinds.size()              ? text_of(kinds[i])
+                                 : types && types->is_scalar() ? text_of(*types)
+                                                               : "6d";
+        if (kind != "3d" && kind != "3D" && kind != "6d" && kind != "6D")
+          throw InputError(list[i].where, "the type of a closed loop is '" + kind + "'", "write 3d or 6d");
         const Frame a = frame_named(text_of(pair[0]), pair[0]), b = frame_named(text_of(pair[1]), pair[1]);
         looped_.insert({text_of(pair[0]), text_of(pair[1])});
         SourceJoint joint;
@@ -250,15 +288,19 @@ class Reader {
       words.push_back(text_of(*motors));
     for (SourceJoint& joint : s_.joints)
       joint.actuated = joint.actuated || (joint.kind != SourceKind::fixed && joint.kind != SourceKind::spherical &&
-                                          std::any_of(words.begin(), words.end(), [&](const std::string& word) { return !word.empty() && joint.name.find(word) != std::string::npos; }));
+                                          std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+                                            return !word.empty() && joint.name.find(word) != std::string::npos;
+                                          }));
   }
 
   /// Links welded to the end of a branch are frames that people put there: tools.
   void tools() {
     for (const Branch& own : branches_) {
-      const bool leaf = std::none_of(branches_.begin(), branches_.end(), [&](const Branch& other) { return other.parent == own.child; });
+      const bool leaf = std::none_of(branches_.begin(), branches_.end(),
+                                     [&](const Branch& other) { return other.parent == own.child; });
       if (own.type == "fixed" && leaf && !looped_.contains(own.child) && !looped_.contains(own.name))
-        s_.points.push_back({own.child, source_link(own.child), poses_[static_cast<std::size_t>(index_.at(own.child))].at, true});
+        s_.points.push_back(
+            {own.child, source_link(own.child), poses_[static_cast<std::size_t>(index_.at(own.child))].at, true});
     }
   }
 

@@ -100,7 +100,8 @@ int depth_of(const std::string& text) {
 
 XmlElement parse_xml(const std::string& text, const std::string& file) {
   constexpr int too_deep = 10000;
-  if (depth_of(text) > too_deep) throw InputError({file}, "the file is nested too deeply", "name a file of a mechanism");
+  if (depth_of(text) > too_deep)
+    throw InputError({file}, "the file is nested too deeply", "name a file of a mechanism");
   const std::string own = mended(text);
   pugi::xml_document document;
   const pugi::xml_parse_result result =
@@ -175,7 +176,8 @@ std::vector<std::string> unread(const XmlElement& root) {
   std::map<std::string, int> counts;
   collect(root, counts);
   std::vector<std::string> words;
-  for (const auto& [what, count] : counts) words.push_back(count > 1 ? what + " (" + std::to_string(count) + ")" : what);
+  for (const auto& [what, count] : counts)
+    words.push_back(count > 1 ? what + " (" + std::to_string(count) + ")" : what);
   return words;
 }
 
@@ -190,14 +192,17 @@ std::vector<double> numbers_of(const std::string& text, const XmlElement& at, co
     if (end == std::string::npos) end = text.size();
     double value = 0;
     if (!number_of(std::string_view(text).substr(first, end - first), value) || std::abs(value) > 1e12)
-      throw InputError({file, at.line}, what + ": '" + text.substr(first, std::min<std::size_t>(end - first, 40)) + "' is no number",
+      throw InputError({file, at.line},
+                       what + ": '" + text.substr(first, std::min<std::size_t>(end - first, 40)) + "' is no number",
                        "correct it in <" + at.name + ">");
     values.push_back(value);
     start = end;
   }
   if (values.size() < least || values.size() > most)
-    throw InputError({file, at.line}, what + " has " + std::to_string(values.size()) + " numbers",
-                     "write " + (least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most)) + " of them");
+    throw InputError(
+        {file, at.line}, what + " has " + std::to_string(values.size()) + " numbers",
+        "write " + (least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most)) +
+            " of them");
   return values;
 }
 

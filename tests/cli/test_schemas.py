@@ -126,6 +126,14 @@ class Results(InOwnFolder):
         self.holds("validate", "validate", EXAMPLES / "minitaur_leg.yaml", "--grid", "20x20")
         self.holds("validate", "validate", EXAMPLES / "hexapod.yaml", "--grid", "20x20", "--joint", "S1")
 
+    def test_import(self):
+        files = SOURCE / "tests" / "mechanism" / "import" / "files"
+        for name in ("pmks/four_bar.txt", "linkage/four_bar.linkage2", "mjcf/four_bar.xml", "urdf/four_bar.urdf",
+                     "sdf/four_bar_1_6.sdf", "dxf/four_bar_r12.dxf", "pyslvs/crank_rocker.txt", "cuik/four_bar.world"):
+            self.holds("import", "import", files / name)
+            written = yaml.load(self.run_program("import", files / name).stdout, Yaml12)
+            self.assertEqual(complaints(validator("mechanism"), written), [], name)
+
     def test_equations(self):
         self.holds("equations", "equations", FIVE_BAR)
 

@@ -7,8 +7,8 @@
 
 namespace clearloci::fuzz {
 
-/// What is imported is a text that the reader of mechanism files reads, or refuses as any other; the same bytes give the
-/// same text, and no note is longer than a screen.
+/// What is imported is a text that the reader of mechanism files reads, or refuses as any other; the same bytes give
+/// the same text, and no note is longer than a screen.
 void import_target(std::string_view bytes) {
   const std::string text(bytes);
   const auto found = value_or_complaint([&] { return mechanism::import_text(text, "source"); });

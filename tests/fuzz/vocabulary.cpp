@@ -329,13 +329,14 @@ Vocabulary certificate_vocabulary() {
 Vocabulary import_vocabulary() {
   Vocabulary all;
   all.numbers = numbers;
-  all.words = {"connector", "Link",     "slider",  "slidelimit", "anchor",   "input",    "actuator", "throw",  "cpm",
-               "fastenlink", "true",    "false",   "body",       "joint",    "hinge",    "slide",    "ball",   "pos",
-               "axis",      "equality", "connect", "weld",       "site1",    "anchor",   "keyframe", "qpos",   "inertial",
-               "robot",     "link",     "parent",  "child",      "revolute", "continuous", "prismatic", "fixed", "origin",
-               "xyz",       "rpy",      "limit",   "pose",       "relative_to", "frame", "attached_to", "world", "universal",
-               "SECTION",   "ENTITIES", "LINE",    "CIRCLE",     "ground",   "M[",       "J[",       "P[",     "L[",
-               "A[",        "RP",       "[LINKS]", "[JOINTS]",   "[CONSTANTS]", "SPHERICAL", "SPH_SPH", "range", "length"};
+  all.words = {"connector",   "Link",       "slider",      "slidelimit", "anchor",    "input",   "actuator", "throw",
+               "cpm",         "fastenlink", "true",        "false",      "body",      "joint",   "hinge",    "slide",
+               "ball",        "pos",        "axis",        "equality",   "connect",   "weld",    "site1",    "anchor",
+               "keyframe",    "qpos",       "inertial",    "robot",      "link",      "parent",  "child",    "revolute",
+               "continuous",  "prismatic",  "fixed",       "origin",     "xyz",       "rpy",     "limit",    "pose",
+               "relative_to", "frame",      "attached_to", "world",      "universal", "SECTION", "ENTITIES", "LINE",
+               "CIRCLE",      "ground",     "M[",          "J[",         "P[",        "L[",      "A[",       "RP",
+               "[LINKS]",     "[JOINTS]",   "[CONSTANTS]", "SPHERICAL",  "SPH_SPH",   "range",   "length"};
   all.groups = {"()", "[]", "<>", "</>", "(0,0,0)", "(0,0,0)+(0,1,0)", "P[0, 0]", "L[ground, L1]", "\"\"", ".."};
   all.lines = {"<connector id=\"1\" x=\"0\" y=\"0\"/>",
                "<Link id=\"1\"><connector id=\"0\"/></Link>",

@@ -119,6 +119,30 @@ TEST_F(TheServer, SaysWhatIsWrongInTheWordsOfTheCommandLine) {
   }
 }
 
+TEST_F(TheServer, ImportsOtherProgramsFiles) {
+  const auto file = [](const std::string& name) { return example("../tests/mechanism/import/files/" + name); };
+  Json question = {{"text", file("pmks/address.txt")}, {"client", "test"}, {"clearance", "30 um"}};
+  const Json found = Json::parse(server->ask("import", question)->body);
+  EXPECT_EQ(found["source"], "PMKS+");
+  EXPECT_NE(found["text"].get<std::string>().find("clearance: {radial: 30 um}"), std::string::npos);
+  EXPECT_FALSE(found["notes"].empty());
+  // Their text is asked what a mechanism file is asked.
+  question.erase("clearance");
+  EXPECT_FALSE(Json::parse(server->ask("loci", question)->body)["points"].empty());
+  // A URDF needs the file of its loops.
+  question = {{"text", file("urdf/four_bar.urdf")}, {"client", "test"}, {"file", "four_bar.urdf"}};
+  const Json open = Json::parse(server->ask("import", question)->body);
+  question["side"] = file("urdf/four_bar.yaml");
+  question["side_file"] = "four_bar.yaml";
+  const Json closed = Json::parse(server->ask("import", question)->body);
+  EXPECT_NE(open["text"], closed["text"]);
+  EXPECT_NE(closed["text"].get<std::string>().find("loop_end"), std::string::npos);
+  question = {{"text", file("linkage/gears.linkage2")}, {"client", "test"}, {"file", "gears.linkage2"}};
+  const auto refused = server->ask("import", question);
+  EXPECT_EQ(refused->status, 422);
+  EXPECT_EQ(Json::parse(refused->body)["line"], 5);
+}
+
 TEST_F(TheServer, VerifiesTasksAndExportsWhatIsAskedFor) {
   Json question = five_bar();
   question["task"] = example("tasks/pick_and_place.yaml");

@@ -34,7 +34,8 @@ std::vector<std::string> files() {
 class EveryFile : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryFile, IsReadOrRefusedByName) {
-  const auto known = std::find_if(refused.begin(), refused.end(), [](const Refused& own) { return own.file == GetParam(); });
+  const auto known =
+      std::find_if(refused.begin(), refused.end(), [](const Refused& own) { return own.file == GetParam(); });
   if (known != refused.end()) {
     const std::string why = refusal_of_file(GetParam());
     EXPECT_NE(why.find(known->words), std::string::npos) << why;
@@ -69,7 +70,8 @@ std::optional<double> drawn_angle(const Imported& own, const Mechanism& m, const
       if (one.key != coordinate) continue;
       for (const Entry& part : entries(one.value)) {
         if (part.key != "of") continue;
-        if (part.value.is_scalar()) return one.value.node.has("stroke") ? std::nullopt : std::optional(direction(text_of(part.value)));
+        if (part.value.is_scalar())
+          return one.value.node.has("stroke") ? std::nullopt : std::optional(direction(text_of(part.value)));
         const std::vector<Value> links = elements(part.value, 2);
         return direction(text_of(links[1])) - direction(text_of(links[0]));
       }
@@ -109,7 +111,8 @@ TEST_P(EveryFile, IsDrawnWhereItsConstructionPutsIt) {
 
 INSTANTIATE_TEST_SUITE_P(Files, EveryFile, testing::ValuesIn(files()), [](const auto& file) {
   std::string name = file.param;
-  std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
   return name;
 });
 
@@ -125,8 +128,8 @@ TEST(ImportFormat, LeavesMechanismFilesAlone) {
 
 TEST(ImportFormat, IsKnownByTheContentAlone) {
   const std::map<std::string, std::string> formats = {
-      {"pmks/four_bar.txt", "PMKS+"}, {"pmks/address.txt", "PMKS+"},     {"linkage/four_bar.linkage2", "Linkage"},
-      {"mjcf/four_bar.xml", "MJCF"},  {"urdf/four_bar.urdf", "URDF"},    {"sdf/four_bar_1_4.sdf", "SDF"},
+      {"pmks/four_bar.txt", "PMKS+"},  {"pmks/address.txt", "PMKS+"},         {"linkage/four_bar.linkage2", "Linkage"},
+      {"mjcf/four_bar.xml", "MJCF"},   {"urdf/four_bar.urdf", "URDF"},        {"sdf/four_bar_1_4.sdf", "SDF"},
       {"dxf/four_bar_r12.dxf", "DXF"}, {"pyslvs/crank_rocker.txt", "pyslvs"}, {"cuik/four_bar.world", "CUIK"}};
   for (const auto& [name, format] : formats) EXPECT_EQ(import_format(bytes_of(path_of(name))), format) << name;
   EXPECT_EQ(import_formats().size(), 8U);
@@ -135,12 +138,17 @@ TEST(ImportFormat, IsKnownByTheContentAlone) {
 /// One four-bar, drawn in six programs: crank (0, 0) to (30, 40), coupler to (120, 90), rocker to (100, 0).
 TEST(OneFourBar, IsTheSameInEveryFormat) {
   const std::map<std::string, std::vector<std::string>> names = {
-      {"pmks/four_bar.txt", {"A", "B", "C", "D"}},          {"pmks/centimetres.txt", {"A", "B", "C", "D"}},
-      {"mjcf/four_bar.xml", {"A", "B", "C", "D"}},          {"mjcf/pin_of_two_connects.xml", {"A", "B", "C", "D"}},
+      {"pmks/four_bar.txt", {"A", "B", "C", "D"}},
+      {"pmks/centimetres.txt", {"A", "B", "C", "D"}},
+      {"mjcf/four_bar.xml", {"A", "B", "C", "D"}},
+      {"mjcf/pin_of_two_connects.xml", {"A", "B", "C", "D"}},
       {"urdf/four_bar.urdf", {"motor_A", "B", "loop_end", "D"}},
-      {"sdf/four_bar_1_4.sdf", {"A", "B", "C", "D"}},       {"sdf/four_bar_1_6.sdf", {"A", "B", "C", "D"}},
-      {"sdf/four_bar_1_11.sdf", {"A", "B", "C", "D"}},      {"dxf/four_bar_r12.dxf", {"P1", "P2", "P3", "P4"}},
-      {"dxf/four_bar_r2000.dxf", {"P1", "P2", "P3", "P4"}}, {"pyslvs/crank_rocker.txt", {"P0", "P1", "P2", "P4"}}};
+      {"sdf/four_bar_1_4.sdf", {"A", "B", "C", "D"}},
+      {"sdf/four_bar_1_6.sdf", {"A", "B", "C", "D"}},
+      {"sdf/four_bar_1_11.sdf", {"A", "B", "C", "D"}},
+      {"dxf/four_bar_r12.dxf", {"P1", "P2", "P3", "P4"}},
+      {"dxf/four_bar_r2000.dxf", {"P1", "P2", "P3", "P4"}},
+      {"pyslvs/crank_rocker.txt", {"P0", "P1", "P2", "P4"}}};
   const std::vector<std::vector<double>> right = {{0, 0}, {0.03, 0.04}, {0.12, 0.09}, {0.1, 0}};
   for (const auto& [file, own] : names) {
     const Imported found = imported(file);
@@ -148,7 +156,8 @@ TEST(OneFourBar, IsTheSameInEveryFormat) {
     const double metres = core::to_double(value_in_si("1", "length", mechanism_of(found), {}));
     for (std::size_t i = 0; i < 4; ++i) {
       ASSERT_TRUE(at.contains(own[i])) << file << " " << own[i];
-      for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(at.at(own[i])[k] * metres, right[i][k], 0.12e-9) << file << " " << own[i];
+      for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(at.at(own[i])[k] * metres, right[i][k], 0.12e-9) << file << " " << own[i];
     }
   }
 }

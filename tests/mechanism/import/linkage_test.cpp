@@ -18,7 +18,8 @@ TEST(Linkage, ScalesMillimetres) {
 }
 
 TEST(Linkage, ReadsAttributesWithoutSpaceBetweenThem) {
-  const Imported plain = imported("linkage/four_bar.linkage2"), tight = imported("linkage/no_space_between_attributes.linkage2");
+  const Imported plain = imported("linkage/four_bar.linkage2"),
+                 tight = imported("linkage/no_space_between_attributes.linkage2");
   EXPECT_EQ(places(plain), places(tight));
 }
 
@@ -52,15 +53,18 @@ TEST(Linkage, MakesAGuideOfTwoPinsInOneSlot) {
   const auto joints = section(imported("linkage/two_pins_in_a_slot.linkage2"), "joints");
   ASSERT_TRUE(joints.contains("C3_C4"));
   // The pins stand on the ground: what slides is the link with the slot.
-  EXPECT_EQ(joints.at("C3_C4"), "{prismatic: [ground, L0], at: C3_C4, axis: [1, 0], clearance: {gap: 20e-6 m, half_length: 1}}");
+  EXPECT_EQ(joints.at("C3_C4"),
+            "{prismatic: [ground, L0], at: C3_C4, axis: [1, 0], clearance: {gap: 20e-6 m, half_length: 1}}");
 }
 
 /// From its drawn length of 5 in it grows by 1 in, or shrinks.
 TEST(Linkage, GivesActuatorsTheirStroke) {
-  const Imported grows = imported("linkage/actuator_that_grows.linkage2"), shrinks = imported("linkage/actuator_that_shrinks.linkage2");
+  const Imported grows = imported("linkage/actuator_that_grows.linkage2"),
+                 shrinks = imported("linkage/actuator_that_shrinks.linkage2");
   EXPECT_EQ(section(grows, "workspace").at("s"), "{stroke: [5, 6], of: L0}");
   EXPECT_EQ(section(shrinks, "workspace").at("s"), "{stroke: [4, 5], of: L0}");
-  EXPECT_EQ(section(grows, "joints").at("L0").substr(0, 72), "{prismatic: [L0_body, L0_rod], at: C1, axis: [C0, C1], actuated: true}  ");
+  EXPECT_EQ(section(grows, "joints").at("L0").substr(0, 72),
+            "{prismatic: [L0_body, L0_rod], at: C1, axis: [C0, C1], actuated: true}  ");
   // At 5 in it is as drawn.
   const Mechanism m = mechanism_of(grows);
   const auto at = sample_points(m, {5 * 0.0254});
@@ -82,7 +86,9 @@ TEST(Linkage, MergesWhatIsFastenedAndWhatIsBraced) {
 
 TEST(Linkage, RefusesWhatIsNoXml) {
   EXPECT_NE(refusal_of("<linkage2>\n<connector id=\"0\"\n").find("source:"), std::string::npos);
-  EXPECT_NE(refusal_of("<linkage2>\n<Link id=\"0\"><connector id=\"7\"/></Link></linkage2>").find("source:2: there is no connector with the id 7"), std::string::npos);
+  EXPECT_NE(refusal_of("<linkage2>\n<Link id=\"0\"><connector id=\"7\"/></Link></linkage2>")
+                .find("source:2: there is no connector with the id 7"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -41,10 +41,17 @@ TEST(Urdf, TakesTransmissionsForMotorsAndALeafForTheTool) {
 }
 
 TEST(Urdf, RefusesByName) {
-  EXPECT_NE(refusal_of("<robot name='r'>\n<link name='a'/>\n<link name='b'/>\n</robot>").find("links a and b have no parent"), std::string::npos);
-  EXPECT_NE(refusal_of("<robot name='r'>\n<link name='a'/>\n<joint name='j' type='planar'/></robot>").find("source:3: joint j is of type 'planar'"), std::string::npos);
+  EXPECT_NE(
+      refusal_of("<robot name='r'>\n<link name='a'/>\n<link name='b'/>\n</robot>").find("links a and b have no parent"),
+      std::string::npos);
+  EXPECT_NE(refusal_of("<robot name='r'>\n<link name='a'/>\n<joint name='j' type='planar'/></robot>")
+                .find("source:3: joint j is of type 'planar'"),
+            std::string::npos);
   EXPECT_NE(refusal_of("<robot name='r'><xacro:macro/></robot>").find("macro of xacro"), std::string::npos);
-  EXPECT_NE(refusal_of("<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/><child link='c'/></joint></robot>").find("names link 'c'"), std::string::npos);
+  EXPECT_NE(refusal_of("<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent "
+                       "link='a'/><child link='c'/></joint></robot>")
+                .find("names link 'c'"),
+            std::string::npos);
 }
 
 TEST(Urdf, RefusesALoopOfUnknownFrames) {
@@ -71,7 +78,9 @@ TEST(Urdf, SaysByHowMuchALoopStaysOpen) {
     (void)import_text(text, "robot.urdf", options);
     FAIL();
   } catch (const core::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("joint loop_end between link coupler and link rocker stays"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("joint loop_end between link coupler and link rocker stays"),
+              std::string::npos)
+        << error.what();
   }
 }
 
@@ -116,7 +125,8 @@ TEST(Mjcf, TakesTheKeyframeForThePosture) {
 /// A capsule between two places has the moment of inertia of a cylinder and two half balls.
 TEST(Mjcf, KnowsTheInertiaOfACapsule) {
   const std::string text =
-      "<mujoco><worldbody><body name='a'><joint name='A' axis='0 1 0'/><geom type='capsule' fromto='0 0 0 1 0 0' size='0.1'/>"
+      "<mujoco><worldbody><body name='a'><joint name='A' axis='0 1 0'/><geom type='capsule' fromto='0 0 0 1 0 0' "
+      "size='0.1'/>"
       "<site name='tip' pos='1 0 0'/></body></worldbody></mujoco>";
   const std::string link = section(import_text(text, "m.xml"), "links").at("a");
   // By slices: the cylinder, and balls whose halves sit at its ends.
@@ -138,7 +148,8 @@ TEST(Mjcf, MakesAUniversalJointOfTwoHinges) {
       "<mujoco><worldbody><body name='a'><joint name='p' axis='1 0 0'/><joint name='q' axis='0 1 0'/>"
       "<body name='b' pos='0 0 1'><joint name='r' axis='1 0 0'/></body></body></worldbody></mujoco>";
   const Imported own = import_text(text, "m.xml");
-  EXPECT_NE(section(own, "joints").at("p").find("universal: [ground, a], at: p, axes: [[1, 0, 0], [0, 1, 0]]"), std::string::npos);
+  EXPECT_NE(section(own, "joints").at("p").find("universal: [ground, a], at: p, axes: [[1, 0, 0], [0, 1, 0]]"),
+            std::string::npos);
 }
 
 /// However the model is turned and shifted, the plane is found, and distances stay.
@@ -149,8 +160,8 @@ TEST(Sdf, FindsThePlaneHoweverItLies) {
   for (int i = 0; i < 30; ++i) {
     std::ostringstream pose;
     pose.precision(17);
-    pose << "<frame name=\"tilt\"><pose>" << turn(random) << " " << turn(random) << " " << turn(random) << " " << turn(random)
-         << " " << turn(random) << " " << turn(random) << "</pose></frame>";
+    pose << "<frame name=\"tilt\"><pose>" << turn(random) << " " << turn(random) << " " << turn(random) << " "
+         << turn(random) << " " << turn(random) << " " << turn(random) << "</pose></frame>";
     std::string own = text;
     const std::size_t at = own.find("<frame name=\"tilt\">"), end = own.find("</frame>", at) + 8;
     own.replace(at, end - at, pose.str());
@@ -168,9 +179,13 @@ TEST(Sdf, FindsThePlaneHoweverItLies) {
 }
 
 TEST(Sdf, RefusesByName) {
-  EXPECT_NE(refusal_of("<sdf version='2.0'><model name='m'/></sdf>").find("the SDF version is '2.0'"), std::string::npos);
-  EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><include/></model></sdf>").find("includes another file"), std::string::npos);
-  EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><link name='a'><pose relative_to='b'/></link></model></sdf>").find("refers to 'b'"), std::string::npos);
+  EXPECT_NE(refusal_of("<sdf version='2.0'><model name='m'/></sdf>").find("the SDF version is '2.0'"),
+            std::string::npos);
+  EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><include/></model></sdf>").find("includes another file"),
+            std::string::npos);
+  EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><link name='a'><pose relative_to='b'/></link></model></sdf>")
+                .find("refers to 'b'"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -23,11 +23,14 @@ TEST(Dxf, ReadsR12WithItsPolylines) {
 TEST(Dxf, RefusesWhatIsBroken) {
   EXPECT_NE(refusal_of("AutoCAD Binary DXF\r\n").find("is a binary one"), std::string::npos);
   EXPECT_NE(refusal_of("0\nSECTION\n2\nENTITIES\nx\nLINE\n").find("source:5: 'x' is no group code"), std::string::npos);
-  EXPECT_NE(refusal_of("0\nSECTION\n2\nENTITIES\n0\nLINE\n8\na\n10\nzero\n0\nENDSEC\n0\nEOF\n").find("source:10: 'zero' is no number"), std::string::npos);
+  EXPECT_NE(refusal_of("0\nSECTION\n2\nENTITIES\n0\nLINE\n8\na\n10\nzero\n0\nENDSEC\n0\nEOF\n")
+                .find("source:10: 'zero' is no number"),
+            std::string::npos);
 }
 
 TEST(Pyslvs, ReadsPinsSlotsAndGuides) {
-  EXPECT_EQ(section(imported("pyslvs/pin_in_a_slot.txt"), "joints").at("P2_slot"), "{prismatic: [ground, block_P2], at: P2, axis: [1, 0]}");
+  EXPECT_EQ(section(imported("pyslvs/pin_in_a_slot.txt"), "joints").at("P2_slot"),
+            "{prismatic: [ground, block_P2], at: P2, axis: [1, 0]}");
   EXPECT_EQ(section(imported("pyslvs/guide.txt"), "joints").at("P3"), "{prismatic: [L3, L2], at: P1, axis: [-1, 1]}");
   EXPECT_NE(imported("pyslvs/crank_rocker.txt").text.find("end_effector: {link: L2, at: P3}"), std::string::npos);
 }
