@@ -30,7 +30,7 @@ bool is_asked_of_tower(const Mechanism& mechanism, const Task& task, TaskFit fit
 }
 
 /// What is not answered, and why: the one place.
-void require_answerable(const Task& task, const VerifyRequest& request) {
+void require_answerable(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
   const auto refuse = [&](const std::string& what, const std::string& mend) {
     throw InputError({task.file}, what, mend);
   };
@@ -85,7 +85,7 @@ Verification verify(const Model& model, const Task& task, const VerifyRequest& r
   const Mechanism& mechanism = model.content().mechanism;
   check_request(mechanism, request.loci);
   check_task(mechanism, task);
-  require_answerable(task, request);
+  require_answerable(mechanism, task, request);
   if (!task.preload.empty()) return verify_preloaded(model, task, request);
   if (!mechanism::joints_without_preload(mechanism).empty()) return verify_with_preload(model, task, request);
   Verification result = is_asked_of_tower(mechanism, task, request.fit) ? verify_by_tower(mechanism, task, request)
