@@ -257,17 +257,22 @@ TEST(ValidationObject, IsValidatedWhereNothingIsDisputed) {
 TEST(ValidationText, SaysWhatIsDisputedAndWhere) {
   Validation validation;
   validation.map.mechanism = "Crank";
-  validation.map.lower = {0, 0};
+  validation.map.tower.coordinates = {"x", "y"};
+  validation.map.lower = validation.map.upper = {0, 0};
+  validation.map.units = {.declared = true, .length = {"mm", 0.001}};
+  validation.map.parameters = {{"L", "1/2"}, {"k", "3 N/mm"}};
   validation.nodes = {3, 4};
   validation.report.disputed = 1;
   validation.report.disputed_edges.push_back({{0, 1}, {2, 1}, {}, {"A", core::Quantity::M}, 1, false});
   const std::string text = validation_text(validation);
-  EXPECT_NE(text.find("Crank: loci against reactions at 3 x 4 nodes"), std::string::npos);
-  EXPECT_NE(text.find("contradicted: M_A keeps its sign from (0, 1) to (2, 1), crossed by 1 arcs"), std::string::npos);
+  EXPECT_NE(text.find("Crank: loci against reactions at 3 x 4 nodes\nL = 0.5, k = 3 N/mm\n"), std::string::npos);
+  EXPECT_NE(text.find("contradicted: M_A keeps its sign from (0, 1000) mm to (2000, 1000) mm, crossed by 1 arcs"),
+            std::string::npos)
+      << text;
 }
 
 TEST(PoseInModesObject, HoldsTheModesThatHaveThePose) {
-  core::PoseInModes poses{"Crank", {}};
+  core::PoseInModes poses{"Crank", {}, {}};
   poses.modes.push_back({{{"B", "left"}}, {}, "point B cannot be placed"});
   EXPECT_TRUE(pose_in_modes_object(poses)["poses"].empty());
   EXPECT_EQ(pose_in_modes_text(poses), "B left: point B cannot be placed\n");
