@@ -131,7 +131,7 @@ TEST(PoseErrorOverPosesOfLoads, HoldsUnderARangeOfLoads) {
 }
 
 TEST(PoseErrorOverPosesOfLoads, HoldsWithinABallOfLoads) {
-  const std::string box = "box: {x: [0.05, 0.08], y: [-0.1, -0.07], z: [0.5, 0.55]}\n";
+  const std::string box = "box: {x: [0.1, 0.15], y: [0.05, 0.1], z: [0.5, 0.6]}\n";
   const Mechanism m = example("three_upu");
   const Verification answer = decided(m, box + "loads_within: [{load: 1, radius: 5}]\npose_error: 1e-3\n");
   ASSERT_TRUE(answer.verified());
