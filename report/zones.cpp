@@ -38,6 +38,7 @@ Json ends_array(const core::Zone& zone) {
   for (const core::ZoneEnd& end : zone.ends) {
     ends.push_back(
         {{"at", end.at}, {"kind", core::to_string(end.kind)}, {"vanishing", vanishing_array(end.vanishing)}});
+    if (!end.cause.empty()) ends.back()["cause"] = end.cause;
     if (end.jump) ends.back()["jump"] = pose_error_object(*end.jump);
   }
   return ends;

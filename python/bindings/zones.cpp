@@ -26,6 +26,7 @@ py::list ends_of(const Zone& zone) {
   for (const ZoneEnd& own : zone.ends) {
     py::dict one(py::arg("at") = own.at, py::arg("kind") = to_string(own.kind),
                  py::arg("vanishing") = names_of(own.vanishing), py::arg("jumps") = own.jump.has_value());
+    if (!own.cause.empty()) one["cause"] = own.cause;
     if (own.jump) put_error(one, *own.jump);
     ends.append(one);
   }
