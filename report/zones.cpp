@@ -39,6 +39,7 @@ Json ends_array(const core::Zone& zone) {
     ends.push_back(
         {{"at", end.at}, {"kind", core::to_string(end.kind)}, {"vanishing", vanishing_array(end.vanishing)}});
     if (!end.limit.empty()) ends.back()["limit"] = end.limit;
+    if (!end.cause.empty()) ends.back()["cause"] = end.cause;
     if (end.jump) ends.back()["jump"] = pose_error_object(*end.jump);
   }
   return ends;

@@ -145,6 +145,7 @@ std::string end_words(const core::LocusMap& map, const Places& places, const cor
   std::string words = fmt::format("{}: {}{}{}", places.value(0, end.at), kind_words(end.kind),
                                   end.vanishing.empty() ? "" : " ", reaction_names(end.vanishing));
   if (!end.limit.empty()) words += ", limit of the " + end.limit;
+  if (!end.cause.empty()) words += ", " + end.cause;
   const auto is_known = [](const std::vector<double>& parts) {
     return std::all_of(parts.begin(), parts.end(), [](double part) { return std::isfinite(part); });
   };

@@ -25,7 +25,7 @@ core::PoseProgram blocks_alone(const core::PoseProgram& program) {
 
 /// Halvings of the box along each of so many coordinates.
 int deepest(std::size_t coordinates) {
-  constexpr std::array<int, 4> of = {0, 44, 11, 7};
+  constexpr std::array<int, 4> of = {0, 44, 10, 6};
   return coordinates < of.size() ? of[coordinates] : 5;
 }
 
@@ -230,7 +230,7 @@ class Growth {
     for (double apart = width; !last && apart < nearby * (box_[0][1] - box_[0][0]); apart *= 8) last = at(apart);
     if (!last) return false;
     const std::size_t n = block.unknowns.size();
-    for (const double part : {1e-4, 1e-6, 1e-8}) {
+    for (const double part : {1e-8, 1e-7, 1e-6, 1e-4}) {
       const double apart = part * (box_[0][1] - box_[0][0]);
       const std::optional<BlockUnknowns> first = at(apart);
       if (!first) continue;

@@ -200,7 +200,7 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
                                                             std::vector<Unique>& unique) {
   constexpr int iterations = 3;      // orders of the cell that u_0 holds
   constexpr double finest = 2.5e-9;  // of the unknowns' size: above what rounding leaves of a solution near its end
-  constexpr std::array<double, 4> widths = {64, 8, 2, 1.25};
+  constexpr std::array<double, 2> widths = {2, 8};
   const std::size_t n = middle.size();
   std::vector<Form> moved(n);
   std::vector<double> inverse(n * n), radius(n, 0.0), rest(n);
@@ -223,6 +223,10 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
       for (std::size_t j = 0; j < n; ++j) sum.add(inverse[i * n + j], (*this)[equations[j]]);
       moved[i] = sum.result();
     }
+    // Where Newton's iteration does not settle no box is mapped into itself.
+    if (step > 0)
+      for (const Form& own : moved)
+        if (!(own.magnitude() < 0.25 * size)) return Outcome::in_doubt;
     if (step == iterations) break;
     for (std::size_t i = 0; i < n; ++i) {
       middle[i] = middle[i] - moved[i];

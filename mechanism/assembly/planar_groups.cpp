@@ -58,6 +58,15 @@ void PlanarGroups::add_distance(LinkIndex link, PointIndex a, PointIndex b, Part
   parts.held.push_back(std::move(own));
 }
 
+/// Lengths that are given say more than what follows from them, where they hold a point well: off the line of two
+/// others.
+bool PlanarGroups::is_held_by_lengths(LinkIndex link, PointIndex a, PointIndex b, PointIndex point) const {
+  constexpr double least_sine = 0.05;
+  if (shape(link).is_drawn()) return false;
+  const Amounts u = shape(link).way(a, b), v = shape(link).way(a, point);
+  return std::abs(mechanism::cross(u, v)[2].value()) > least_sine * size_of(u) * size_of(v);
+}
+
 /// Two points of a link, one of a link that does not turn on its own, are held by others; the further ones are built on
 /// them, or where another link builds them held by their distances.
 bool PlanarGroups::add_link(LinkIndex link, Parts& parts) {
@@ -76,6 +85,8 @@ bool PlanarGroups::add_link(LinkIndex link, Parts& parts) {
   if (!turned && points.size() > 1) add_distance(link, points[0], points[1], parts);
   for (std::size_t k = fixed; k < points.size(); ++k) {
     const PointIndex p = points[k];
+    if (!turned && parts.use[p] == Use::free && is_held_by_lengths(link, points[0], points[1], p))
+      parts.use[p] = Use::base;
     if (parts.use[p] != Use::free) {
       if (turned) return false;  // two points of it that others place
       for (std::size_t i = 0; i < 2; ++i) add_distance(link, points[i], p, parts);

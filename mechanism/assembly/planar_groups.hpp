@@ -45,6 +45,7 @@ class PlanarGroups : public PlanarLoci {
   bool is_shared(PointIndex point) const;
   std::vector<PointIndex> shared_of(LinkIndex link, const Parts& parts) const;
   void add_distance(LinkIndex link, PointIndex a, PointIndex b, Parts& parts) const;
+  bool is_held_by_lengths(LinkIndex link, PointIndex a, PointIndex b, PointIndex point) const;
   bool add_link(LinkIndex link, Parts& parts);
   void add_known_guides(Parts& parts);
   void add_moving_guides(std::vector<Held>& held) const;

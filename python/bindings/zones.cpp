@@ -27,6 +27,7 @@ py::list ends_of(const Zone& zone) {
     py::dict one(py::arg("at") = own.at, py::arg("kind") = to_string(own.kind),
                  py::arg("vanishing") = names_of(own.vanishing), py::arg("jumps") = own.jump.has_value());
     if (!own.limit.empty()) one["limit"] = own.limit;
+    if (!own.cause.empty()) one["cause"] = own.cause;
     if (own.jump) put_error(one, *own.jump);
     ends.append(one);
   }
