@@ -9,9 +9,19 @@ export type ValuePath = (string | number)[];
 /** The order in which sections are written where they are new. */
 const sectionOrder = ["format", "name", "space", "units", "gravity", "parameters", "workspace", "frames", "drawn", "points", "links", "joints", "springs", "limits", "repeat", "end_effector", "loads"];
 
+/** The last texts that were read: one hand asks the same one many times. */
+const parsed = new Map<string, Document.Parsed>();
+const kept = 8;
+
+/** Not to be changed: the next who asks gets the same. */
 export function parseFile(text: string): Document.Parsed {
+  const known = parsed.get(text);
+  if (known) return known;
   // "failsafe": every scalar is a text, as the program reads it; `y` is no truth value.
-  return parseDocument(text, { schema: "failsafe", keepSourceTokens: false });
+  const document = parseDocument(text, { schema: "failsafe", keepSourceTokens: false });
+  if (parsed.size >= kept) parsed.delete(parsed.keys().next().value ?? "");
+  parsed.set(text, document);
+  return document;
 }
 
 export function nodeAt(document: Document.Parsed, path: ValuePath): Node | undefined {

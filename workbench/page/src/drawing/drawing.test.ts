@@ -1,7 +1,7 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import type { Point } from "../data/answers";
-import { slotOf } from "../data/file_text";
+import { parseFile, slotOf } from "../data/file_text";
 import { ModelText } from "../data/model_text";
 import { setRangeEnd } from "./coordinates";
 import { drawingOf, drawnPose, placeOf, type Drawing, type DrawnCoordinate } from "./drawing";
@@ -263,6 +263,46 @@ describe("a parameter", () => {
     expect(placeOf(drawing, "A")).toEqual([5, 10]);
     expect(movePoint(drawing, "A", ["7", "8"])).toBe(file.replace("d: 5", "d: 7"));
     expect(movePoint(drawing, "B", ["7", "8"])).toBe(file.replace("[0, 0]", "[7, 8]"));
+  });
+});
+
+describe("any hand", () => {
+  /** Numbers from 0 to 1 that are the same each time. */
+  const numbers = (seed: number): (() => number) => {
+    let state = seed;
+    return () => {
+      state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+      return state / 2 ** 32;
+    };
+  };
+  it.each(Array.from({ length: 10 }, (_, k) => k + 1))("leaves a file whose parts know each other, and takes all of it away again (seed %d)", (seed) => {
+    const random = numbers(seed);
+    const place = (): Point => [Math.round(random() * 6) * 60 - 180, Math.round(random() * 6) * 60 - 180]; // many coincide, and are in line
+    const sheet = new Sheet();
+    for (let step = 0; step < 18; ++step) {
+      const tool = tools[Math.floor(random() * tools.length)];
+      if (!tool || (tool.id === "remove" && random() < 0.6)) continue;
+      if (tool.takes === "grip") sheet.grip(place(), place());
+      else sheet.use(tool.id, place(), tool.takes === "way" ? place() : undefined);
+      const { drawing } = sheet;
+      expect(parseFile(drawing.text).errors).toEqual([]);
+      const points = drawing.points.map((one) => one.name);
+      const links = ["ground", ...drawing.links.map((one) => one.name)];
+      for (const named of [points, links, drawing.joints.map((one) => one.name)]) expect(new Set(named).size).toBe(named.length);
+      for (const link of drawing.links) expect(link.points.filter((name) => !points.includes(name))).toEqual([]);
+      for (const joint of drawing.joints) {
+        expect(links).toEqual(expect.arrayContaining([joint.from, joint.to]));
+        expect(joint.from).not.toBe(joint.to);
+        expect(points).toContain(joint.at);
+        // A joint is at a point of its links; a guide on a link runs by it.
+        if (joint.type === "revolute") for (const end of [joint.from, joint.to]) if (end !== "ground") expect(drawing.links.find((one) => one.name === end)?.points).toContain(joint.at);
+      }
+      for (const load of drawing.loads) expect(drawing.links.find((one) => one.name === load.link)?.points).toContain(load.at);
+      for (const spring of drawing.springs) expect(points).toEqual(expect.arrayContaining(spring.at));
+      if (drawing.endEffector) expect(drawing.links.find((one) => one.name === drawing.endEffector?.link)?.points).toContain(drawing.endEffector.at);
+      for (const own of drawing.coordinates) expect([...points, ...links, ...drawing.joints.map((one) => one.name)]).toContain(own.of);
+    }
+    for (let left = sheet.drawing; left.points.length > 0; left = drawingOf(removeElement(left, { kind: "point", name: left.points[0]?.name ?? "" }) ?? "")) expect(left.text).not.toBe("");
   });
 });
 

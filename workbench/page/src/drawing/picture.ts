@@ -66,13 +66,9 @@ function drawBlocks(context: CanvasRenderingContext2D, view: View, drawing: Draw
     context.save();
     context.translate(...there);
     context.rotate(-Math.atan2(joint.axis[1], joint.axis[0]));
-    context.fillStyle = theme.paper;
     context.strokeStyle = theme.outline;
     context.lineWidth = 1.5;
-    context.beginPath();
-    context.rect(-15, -9, 30, 18);
-    context.fill();
-    context.stroke();
+    context.strokeRect(-15, -9, 30, 18);
     if (joint.actuated) drawArrow(context, [-9, 0], [10, 0], theme.outline, 1.6);
     context.restore();
   }
@@ -198,8 +194,8 @@ export function drawDrawing(context: CanvasRenderingContext2D, view: View, drawi
   context.save();
   if (shown.selected) highlight(context, view, drawing, shown.selected, theme.curves[0] ?? theme.ink);
   if (shown.wrong) highlight(context, view, drawing, shown.wrong, theme.failed);
-  drawBlocks(context, view, drawing, theme);
   drawSketch(context, view, sketch, theme);
+  drawBlocks(context, view, drawing, theme);
   drawSprings(context, view, sketch, theme);
   for (const point of drawing.points) {
     const lone = point.at && carriers(drawing, point.name).length > 0 && !drawing.joints.some((joint) => joint.at === point.name);
