@@ -48,7 +48,8 @@ void merge_rigid(Source& source);
 /// Where all links move in parallel planes: turns the source into a planar one, x and y in the plane.
 void go_planar(Source& source);
 
-/// Motors for a source that names none: joints, those of the ground first, until nothing moves with all of them held.
+/// Motors for a source that names none: guides with a range, joints of the ground, others, until nothing moves with all
+/// of them held.
 void choose_motors(Source& source);
 
 /// The mechanism file. Adds to the source's notes.

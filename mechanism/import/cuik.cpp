@@ -419,6 +419,18 @@ class Reader {
     return pose;
   }
 
+  /// "red", "0.25*white".
+  static bool is_colour(Parser& p, const std::string& word) {
+    static const std::set<std::string> colours = {"red",   "green", "blue", "yellow",  "white", "black",
+                                                  "brown", "grey",  "cyan", "magenta", "purple"};
+    if (word.empty() || word.find_first_not_of("0123456789") != std::string::npos) return colours.contains(word);
+    const std::size_t before = p.place();
+    if (p.eat('.')) (void)p.word();
+    if (p.eat('*') && colours.contains(lower(p.word()))) return true;
+    p.back_to(before);
+    return false;
+  }
+
   /// What follows the links of a joint, up to the next one.
   void options(Parser& p, const std::string& name) {
     while (!p.done()) {
@@ -447,6 +459,13 @@ class Reader {
         } else {
           ++left_["range"];
         }
+        while (p.eat('+')) (void)p.point("the range of joint " + name);  // from where turns are counted
+      } else if (small == "coupled") {
+        p.refuse("joint " + name + " follows another one (coupled)", "close the loop that makes it follow");
+      } else if (small == "color") {
+        (void)p.point("the colour of joint " + name);
+      } else if (is_colour(p, small)) {
+        continue;
       } else if (small == "radius") {
         (void)p.expression();
       } else if (word.empty()) {

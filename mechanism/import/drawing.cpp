@@ -94,6 +94,9 @@ void Drawing::make_places() {
     }
   for (const SourceSpring& spring : s_.springs)
     for (std::size_t i = 0; i < 2; ++i) place_of(spring.links[i], spring.at[i], spring.name + "_end");
+  for (const SourceJoint& joint : s_.joints)
+    if (!joint.dropped && joint.actuated && !slides(joint) && s_.planar)
+      for (const int link : {joint.from, joint.to}) give_direction(link, joint);
 }
 
 void Drawing::turn_to_links(SourceJoint& joint) {
@@ -104,6 +107,17 @@ void Drawing::turn_to_links(SourceJoint& joint) {
   if (joint.range && !joint.range_is_distance)
     joint.range = std::array<double, 2>{-(*joint.range)[1], -(*joint.range)[0]};
   if (joint.speed) joint.speed = -*joint.speed;
+}
+
+void Drawing::give_direction(int link, const SourceJoint& joint) {
+  if (link == ground_link || order_[link].size() != 1) return;
+  Vec way = {1, 0, 0};
+  for (const SourceJoint& own : s_.joints)
+    if (!own.dropped && slides(own) && (own.from == link || own.to == link)) way = own.axis();
+  const SourceLink& own = s_.links[static_cast<std::size_t>(link)];
+  const PlaceIndex first = order_[link].front();
+  if (own.mass > 0 && !own.centre) centres_[link] = first;  // otherwise the middle of the first two
+  place_of(link, places_[first].at + (0.1 * size_) * way, joint.name + "_way");
 }
 
 PlaceIndex Drawing::slider_place(const SourceJoint& joint) {

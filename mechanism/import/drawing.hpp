@@ -49,6 +49,8 @@ class Drawing {
   void make_places();
   /// A guide on the ground slides nothing: its link is `to`.
   static void turn_to_links(SourceJoint& joint);
+  /// A second point of a link of a single one, whose angle is a coordinate.
+  void give_direction(int link, const SourceJoint& joint);
   /// A point of `to`: one that is there, the nearest.
   PlaceIndex slider_place(const SourceJoint& joint);
   std::optional<PlaceIndex> centre_place(int link);

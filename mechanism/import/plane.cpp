@@ -146,12 +146,16 @@ void choose_motors(Source& source) {
   std::size_t columns = 0;
   for (const SourceLink& link : source.links) columns += link.dropped ? 0 : 6;
   std::vector<std::string> names;
-  for (const bool grounded : {true, false})
+  // Guides with a range are legs that are driven.
+  const auto order = [](const SourceJoint& joint) {
+    return joint.slides() && joint.range ? 0 : joint.from == ground_link || joint.to == ground_link ? 1 : 2;
+  };
+  for (int turn = 0; turn < 3; ++turn)
     for (SourceJoint& joint : source.joints) {
       if (held.rank() >= columns) break;
       const bool may = joint.kind == SourceKind::revolute || joint.slides();
       if (joint.dropped || joint.actuated || !may) continue;
-      if (grounded != (joint.from == ground_link || joint.to == ground_link)) continue;
+      if (order(joint) != turn) continue;
       if (!held.add(motor_row(source, joint))) continue;
       joint.actuated = true;
       names.push_back(joint.name);

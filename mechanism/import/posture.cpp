@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "core/errors.hpp"
@@ -271,11 +272,71 @@ class Spread {
   std::uint64_t state_ = 1;
 };
 
+/// Brings `to` of a joint to where its `from` is, or the other way round, anywhere in the joint's own freedom.
+void hang(Source& source, const SourceJoint& joint, bool to_is_placed, double size, Spread& spread) {
+  const JointSide& still = to_is_placed ? joint.on_to : joint.on_from;
+  const JointSide& moved = to_is_placed ? joint.on_from : joint.on_to;
+  Rotation target = still.frame;
+  Vec at = still.at;
+  const double angle = std::numbers::pi * spread.next();
+  switch (joint.kind) {
+    case SourceKind::spherical:
+      target = turn(unit({spread.next(), spread.next(), spread.next()}), angle) * target;
+      break;
+    case SourceKind::universal: {
+      const Vec axis = std::cos(angle) * target.x + std::sin(angle) * target.y;
+      target = frame_along(axis);
+      break;
+    }
+    case SourceKind::revolute:
+    case SourceKind::cylindrical:
+      target = turn(target.z, angle) * target;
+      break;
+    case SourceKind::prismatic:
+    case SourceKind::fixed:
+      break;
+  }
+  if (joint.slides()) {
+    std::array<double, 2> range = {-size, size};
+    if (joint.range && joint.range_is_distance) range = *joint.range;
+    const double way = range[0] + (range[1] - range[0]) * (1 + spread.next()) / 2;
+    at = at + (to_is_placed ? -way : way) * still.frame.z;
+  }
+  const Vec from = moved.at;
+  move_link(source, to_is_placed ? joint.from : joint.to, from, at - from, target * moved.frame.transposed());
+}
+
+/// Link after link from the ground outwards: of what is planar a planar posture, though loops are open.
 Source spread_out(const Source& source, Spread& spread) {
-  const Constraints constraints(source);
-  std::vector<double> step(constraints.columns());
-  for (std::size_t i = 0; i < step.size(); ++i) step[i] = spread.next() * (i % freedoms < 3 ? 1 : 3);
-  return moved_by(source, constraints, step);
+  Source own = source;
+  const double size = size_of(source);
+  std::vector<bool> placed(own.links.size());
+  const auto is_placed = [&](int link) { return link == ground_link || placed[static_cast<std::size_t>(link)]; };
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t j = 0; j < own.joints.size(); ++j) {
+      const SourceJoint joint = own.joints[j];
+      if (joint.dropped || is_placed(joint.from) == is_placed(joint.to)) continue;
+      hang(own, joint, is_placed(joint.to), size, spread);
+      placed[static_cast<std::size_t>(is_placed(joint.to) ? joint.from : joint.to)] = true;
+      more = true;
+    }
+  }
+  return own;
+}
+
+/// Two joints without a link in common are in one place: a posture in which a loop is folded, at a branching of its
+/// ways.
+bool is_folded(const Source& source) {
+  const double near = 1e-3 * size_of(source);
+  for (std::size_t i = 0; i < source.joints.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const SourceJoint &a = source.joints[i], &b = source.joints[j];
+      if (a.dropped || b.dropped || a.slides() || b.slides()) continue;
+      if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) continue;
+      if (distance(a.at(), b.at()) < near) return true;
+    }
+  return false;
 }
 
 /// Turns legs to their positive side; false where a guide is beyond its range.
@@ -401,14 +462,16 @@ void close_posture(Source& source, const std::string& file) {
         worst = &joint;
       }
     }
-    const std::string apart =
-        worst == nullptr ? ""
-                         : shortest_decimal(distance(worst->on_from.at, worst->on_to.at), 1e-6 / constraints.scale());
+    const double gap = worst == nullptr ? 0 : distance(worst->on_from.at, worst->on_to.at);
+    // A guide's sides are apart along it, too; and what meets in one place may be turned.
+    const std::string apart = worst != nullptr && !worst->slides() && gap * constraints.scale() > met
+                                  ? "stays " + shortest_decimal(gap, 0.005 * gap) + " " + source.unit + " apart"
+                                  : "stays out of line";
     throw core::InputError(
         {file, worst == nullptr ? 0 : worst->line},
         "the links do not close: joint " + (worst == nullptr ? "" : worst->name) + " between " +
-            (worst == nullptr ? "" : link_words(found, worst->from) + " and " + link_words(found, worst->to)) +
-            " stays " + apart + " " + source.unit + " apart" + (source.open_posture ? "" : " near the file's posture"),
+            (worst == nullptr ? "" : link_words(found, worst->from) + " and " + link_words(found, worst->to)) + " " +
+            apart + (source.open_posture ? "" : " near the file's posture"),
         "correct the lengths, or the posture of the file");
   };
   const std::vector<double> before = values_of(source);
@@ -439,7 +502,7 @@ void close_posture(Source& source, const std::string& file) {
   Spread spread;
   constexpr int most_starts = 40;
   Source best = source;
-  std::optional<Source> beyond;
+  std::optional<Source> folded, beyond;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_starts && work > 0; ++i) {
     Source found = descend(spread_out(start, spread), work);
@@ -453,8 +516,17 @@ void close_posture(Source& source, const std::string& file) {
       if (!beyond) beyond = std::move(found);
       continue;
     }
+    if (is_folded(found)) {
+      if (!folded) folded = std::move(found);
+      continue;
+    }
     source = std::move(found);
     source.note("the file has no posture: one in which all joints meet was found; there may be other assemblies");
+    return;
+  }
+  if (folded) {
+    source = std::move(*folded);
+    source.note("the file has no posture: one in which all joints meet was found, in which it is folded");
     return;
   }
   if (!beyond) refuse(best);

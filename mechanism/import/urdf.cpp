@@ -1,6 +1,7 @@
 // URDF (wiki.ros.org/urdf/XML): a tree of links, their poses in the posture of all joints at 0. Loops come from a
 // second file, as github.com/Gepetto/example-parallel-robots has them: `closed_loop:` pairs of frames, `type:` 3d (a
-// ball) or 6d (a weld) for each, `name_mot:` words in the names of joints with motors.
+// ball) or 6d (a weld) for each, `name_mot:` words in the names of joints with motors, `joint_name:` and `joint_type:`
+// joints that are balls.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -133,7 +134,7 @@ class Reader {
                          "add the link, or correct the name");
     own.origin = origin_of(at);
     if (const XmlElement* axis = at.first("axis")) own.axis = vector(*axis, "xyz", {1, 0, 0});
-    if (!(norm(own.axis) > 1e-9))
+    if (own.type != "fixed" && !(norm(own.axis) > 1e-9))
       throw InputError({given_.file, at.line}, "the axis of joint " + own.name + " has no direction",
                        "write such as xyz=\"0 0 1\"");
     if (const XmlElement* limit = at.first("limit"); limit != nullptr && own.type != "continuous") {
@@ -242,7 +243,7 @@ class Reader {
   void loops() {
     const Value document = parse_document(given_.side, given_.side_file);
     if (!document.is_map()) return;
-    std::optional<Value> pairs, types, motors;
+    std::optional<Value> pairs, types, motors, joints, joint_types;
     std::vector<std::string> other;
     for (const Entry& entry : entries(document)) {
       if (entry.key == "closed_loop")
@@ -251,6 +252,10 @@ class Reader {
         types = entry.value;
       else if (entry.key == "name_mot")
         motors = entry.value;
+      else if (entry.key == "joint_name")
+        joints = entry.value;
+      else if (entry.key == "joint_type")
+        joint_types = entry.value;
       else
         other.push_back(entry.key);
     }
@@ -280,6 +285,7 @@ class Reader {
         s_.joints.push_back(std::move(joint));
       }
     }
+    if (joints && joints->is_sequence()) retype(*joints, joint_types);
     if (!motors || motors->node.IsNull()) return;
     std::vector<std::string> words;
     if (motors->is_sequence())
@@ -291,6 +297,29 @@ class Reader {
                                           std::any_of(words.begin(), words.end(), [&](const std::string& word) {
                                             return !word.empty() && joint.name.find(word) != std::string::npos;
                                           }));
+  }
+
+  /// joint_name and joint_type: joints that are balls, which a URDF has not.
+  void retype(const Value& joints, const std::optional<Value>& types) {
+    const std::vector<Value> names = elements(joints);
+    if (names.empty()) return;
+    if (!types)
+      throw InputError(joints.where, "joint_name has no joint_type beside it",
+                       "write a list of types, such as [SPHERICAL]");
+    const std::vector<Value> list = elements(*types, static_cast<int>(names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto own = std::find_if(s_.joints.begin(), s_.joints.end(),
+                                    [&](const SourceJoint& joint) { return joint.name == text_of(names[i]); });
+      if (own == s_.joints.end())
+        throw InputError(names[i].where, "joint_name names '" + text_of(names[i]) + "', which is no joint of the robot",
+                         "correct the name");
+      if (text_of(list[i]) != "SPHERICAL")
+        throw InputError(list[i].where, "the type of joint " + own->name + " is '" + text_of(list[i]) + "'",
+                         "write SPHERICAL, or the type in the URDF");
+      own->kind = SourceKind::spherical;
+      own->actuated = false;
+      own->range.reset();
+    }
   }
 
   /// Links welded to the end of a branch are frames that people put there: tools.

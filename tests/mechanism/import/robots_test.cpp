@@ -54,6 +54,30 @@ TEST(Urdf, RefusesByName) {
             std::string::npos);
 }
 
+/// CAD exporters write axes of length 0 to welds.
+TEST(Urdf, AsksNoAxisOfAWeld) {
+  std::string text = bytes_of(path_of("urdf/serial_arm.urdf"));
+  const std::size_t weld = text.find("type=\"fixed\">");
+  ASSERT_NE(weld, std::string::npos);
+  const std::string before = import_text(text, "robot.urdf").text;
+  text.insert(text.find('>', weld) + 1, "<axis xyz=\"0 0 0\"/>");
+  EXPECT_EQ(import_text(text, "robot.urdf").text, before);
+}
+
+TEST(Urdf, TakesBallsFromTheFileOfLoops) {
+  ImportOptions options;
+  options.side = bytes_of(path_of("urdf/four_bar.yaml")) + "\njoint_name: [B]\njoint_type: [SPHERICAL]\n";
+  options.side_file = "loops.yaml";
+  const std::string text = bytes_of(path_of("urdf/four_bar.urdf"));
+  EXPECT_NE(import_text(text, "robot.urdf", options).text.find("\n  B: {spherical: [crank, coupler]"),
+            std::string::npos);
+  for (const auto& [wrong, named] : {std::pair{"[SPHERICAL]", "[PLANAR]"}, {"[B]", "[none]"}}) {
+    ImportOptions other = options;
+    other.side.replace(other.side.find(wrong), std::string(wrong).size(), named);
+    EXPECT_THROW((void)import_text(text, "robot.urdf", other), core::InputError) << named;
+  }
+}
+
 TEST(Urdf, RefusesALoopOfUnknownFrames) {
   ImportOptions options;
   options.side = "closed_loop: [[end, nowhere]]\ntype: ['3d']\n";

@@ -67,10 +67,33 @@ TEST(Cuik, FindsAPlatformOnLegs) {
   EXPECT_EQ(section(own, "workspace").at("s1"), "{stroke: [0.5, 1.5], of: leg1}");
 }
 
+/// Guides may turn about their axes in space: a plane is looked for first.
+TEST(Cuik, FindsAPlanarPostureOfALegWithAGuide) {
+  const Imported own = imported("cuik/guide_in_a_leg.world");
+  EXPECT_TRUE(has_note(own, "all links move in one plane"));
+  const auto at = places(own);
+  EXPECT_NEAR(apart(at.at("r1"), at.at("r2")), 0.5, 3e-9);
+  const double leg = apart(at.at("r3"), at.at("r2"));
+  EXPECT_GT(leg, 0.6);
+  EXPECT_LT(leg, 1.4);
+  EXPECT_EQ(section(own, "workspace").at("s"), "{stroke: [0.6, 1.4], of: p4}");
+  for (const char* word : {"white", "25", "cos"}) EXPECT_FALSE(has_note(own, word)) << word;
+}
+
+/// Of a rhombus the loop can fold, with both ends of a link at one place: another posture is taken.
+TEST(Cuik, FindsAPostureThatIsNotFolded) {
+  const auto at = places(imported("cuik/rhombus.world"));
+  EXPECT_GT(apart(at.at("r1"), at.at("r3")), 1e-3);
+  EXPECT_GT(apart(at.at("r2"), at.at("r4")), 1e-3);
+}
+
 TEST(Cuik, RefusesByLine) {
   const std::string text = "[LINKS]\n a\n[JOINTS]\n REVOLUTE: a (0,0,0)+(0,1,0)\n b (0,0,length)+(0,1,0)\n";
   EXPECT_NE(refusal_of(text).find("source:5: 'length' is no constant"), std::string::npos) << refusal_of(text);
   EXPECT_NE(refusal_of("[LINKS]\n a\n[JOINTS]\n IN_PATCH: a b").find("keeps a point in a patch"), std::string::npos);
+  EXPECT_NE(refusal_of("[LINKS]\n a\n[JOINTS]\n REVOLUTE: a (0,0,0)+(0,1,0)\n b (0,0,1)+(0,1,0)\n coupled 2\n")
+                .find("source:6: joint r1 follows another one (coupled)"),
+            std::string::npos);
 }
 
 }  // namespace
