@@ -226,7 +226,7 @@ class Growth {
     const auto at = [&](double apart) { return solution({edge + side * apart}); };
     // Next to the end itself rounding leaves no proof of a solution.
     std::optional<BlockUnknowns> last;
-    constexpr double nearby = 1e-9;
+    constexpr double nearby = 1e-6;
     for (double apart = width; !last && apart < nearby * (box_[0][1] - box_[0][0]); apart *= 8) last = at(apart);
     if (!last) return false;
     const std::size_t n = block.unknowns.size();

@@ -110,7 +110,7 @@ points:
   H: [{} + {}*cos(phi), {} + {}*sin(phi)]
   hip:
     group: [B, C, E]
-    lengths: {{A-B: {}, B-C: {}, C-D: {}, B-E: 'sqrt({}^2 + {}^2)', C-E: 'sqrt(({} - {})^2 + {}^2)', E-H: {}}}
+    lengths: {{A-B: {}, B-C: {}, C-D: {}, B-E: 'sqrt(({})^2 + ({})^2)', C-E: 'sqrt((({}) - ({}))^2 + ({})^2)', E-H: {}}}
     near: {{at: {{phi: {:.12f}}}, B: [{:.9f}, {:.9f}], C: [{:.9f}, {:.9f}], E: [{:.9f}, {:.9f}]}}
 )",
                      phi - reach, phi + reach, own.d[0], own.d[1], own.g[0], own.g[1], own.g[0], own.far, own.g[1],

@@ -202,6 +202,78 @@ TEST(Groups, SayHowFarAPostureIsOff) {
       << mechanism.notes.front();
 }
 
+/// Six legs, whose lengths are the coordinates, and the platform they carry.
+const std::string platform = R"(format: 1
+space: spatial
+parameters:
+  base: 0.5
+  side: 0.3*sqrt(3)
+workspace:
+  q1: [0.57, 0.63]
+  q2: [0.57, 0.63]
+  q3: [0.57, 0.63]
+  q4: [0.57, 0.63]
+  q5: [0.57, 0.63]
+  q6: [0.57, 0.63]
+points:
+  A1: ['base*cos(-10 deg)', 'base*sin(-10 deg)', 0]
+  A2: ['base*cos(10 deg)', 'base*sin(10 deg)', 0]
+  A3: ['base*cos(110 deg)', 'base*sin(110 deg)', 0]
+  A4: ['base*cos(130 deg)', 'base*sin(130 deg)', 0]
+  A5: ['base*cos(230 deg)', 'base*sin(230 deg)', 0]
+  A6: ['base*cos(250 deg)', 'base*sin(250 deg)', 0]
+  plate:
+    group: [B1, B3, B5]
+    with:
+      B2: {from: B1, by: '0.959795081*(B3 - B1) - 0.177362962*(B5 - B1)'}
+      B4: {from: B1, by: '0.959795081*(B5 - B1) + 0.217567882*(B3 - B1)'}
+      B6: {from: B1, by: '0.217567882*(B5 - B1) - 0.177362962*(B3 - B1)'}
+    lengths: {A1-B1: q1, A2-B2: q2, A3-B3: q3, A4-B4: q4, A5-B5: q5, A6-B6: q6, B1-B3: side, B3-B5: side, B1-B5: side}
+    near: {at: {q1: 0.6002, q2: 0.6002, q3: 0.6002, q4: 0.6002, q5: 0.6002, q6: 0.6002}, B1: [0.193, -0.230, 0.500], B3: [0.103, 0.282, 0.500], B5: [-0.295, -0.052, 0.500]}
+  P: {from: B1, by: 1/3*(B3 - B1) + 1/3*(B5 - B1)}
+repeat:
+  i: [1, 2, 3, 4, 5, 6]
+  links:
+    'cylinder{i}': {points: ['A{i}']}
+    'rod{i}': {points: ['B{i}']}
+  joints:
+    'U{i}': {universal: [ground, 'cylinder{i}'], at: 'A{i}', axes: [[1, 0, 0], 'cross([1, 0, 0], B{i} - A{i})'], clearance: {radial: 10e-6}}
+    'S{i}': {prismatic: ['cylinder{i}', 'rod{i}'], at: 'B{i}', axis: 'B{i} - A{i}', actuated: true, clearance: {axial: 5e-6}}
+    'B{i}': {spherical: ['rod{i}', platform], at: 'B{i}', clearance: {radial: 10e-6}}
+links:
+  platform: {points: [P, B1, B2, B3, B4, B5, B6]}
+end_effector: {link: platform, at: P}
+loads:
+  - {link: platform, at: P, force: [0, 0, -1000]}
+)";
+
+TEST(Groups, CloseInSpace) {
+  const Mechanism mechanism = parse_mechanism(platform, "m.yaml");
+  ASSERT_EQ(group_unknowns(mechanism), 9U);
+  // The lengths of the legs where the platform is moved and turned about a slanting axis, and back to it.
+  const double degree = std::acos(-1.0) / 180, angle = 0.06;
+  const std::array<double, 3> n = {2.0 / 7, -3.0 / 7, 6.0 / 7}, moved = {0.012, -0.008, 0.51};
+  const auto place = [&](double over) {
+    const std::array<double, 3> p = {0.3 * std::cos(over * degree), 0.3 * std::sin(over * degree), 0};
+    const double along = n[0] * p[0] + n[1] * p[1] + n[2] * p[2], c = std::cos(angle), s = std::sin(angle);
+    const std::array<double, 3> across = {n[1] * p[2] - n[2] * p[1], n[2] * p[0] - n[0] * p[2],
+                                          n[0] * p[1] - n[1] * p[0]};
+    std::array<double, 3> result = moved;
+    for (std::size_t i = 0; i < 3; ++i) result[i] += c * p[i] + s * across[i] + (1 - c) * along * n[i];
+    return result;
+  };
+  const std::array<double, 6> base = {-10, 10, 110, 130, 230, 250}, over = {-50, 50, 70, 170, 190, 290};
+  std::vector<double> legs;
+  for (std::size_t i = 0; i < 6; ++i)
+    legs.push_back(distance(place(over[i]), {0.5 * std::cos(base[i] * degree), 0.5 * std::sin(base[i] * degree), 0}));
+  const auto found = sample_points(mechanism, legs);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto& b = found[static_cast<std::size_t>(point(mechanism, "B" + std::to_string(i + 1)))];
+    ASSERT_TRUE(b);
+    EXPECT_NEAR(distance(*b, place(over[i])), 0, 1e-8) << i;  // the file's factors have nine digits
+  }
+}
+
 /// The same six-bar as it is drawn, with the coordinate at its far end.
 const std::string drawn = R"(format: 1
 drawn:
