@@ -86,6 +86,9 @@ class Reader {
       refuse(*models[1],
              "the SDF file has several models: " + models[0]->get("name", "") + " and " + models[1]->get("name", ""),
              "take the others out");
+    // Of the model's own pose the turn matters: what weighs stays upright.
+    if (const XmlElement* pose = models.front()->first("pose"); pose != nullptr && !trimmed(pose->text).empty())
+      s_.gravity = pose_text(*pose).turned.transposed() * *s_.gravity;
     return *models.front();
   }
 

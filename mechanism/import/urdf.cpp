@@ -43,6 +43,8 @@ class Reader {
     for (const XmlElement* own : root_.all("transmission")) transmission(*own);
     place_links();
     add_joints();
+    for (const XmlElement* extension : root_.all("gazebo"))
+      for (const XmlElement* own : extension->all("joint")) sdf_joint(*own);
     if (!given_.side.empty()) loops();
     tools();
     constexpr double g = 9.81;
@@ -226,6 +228,56 @@ class Reader {
   }
 
   // --- loops
+
+  /// What stands in an element of a joint of SDF: a link.
+  int link_in(const XmlElement& at, const char* side) const {
+    const XmlElement* own = at.first(side);
+    const std::string name(own == nullptr ? std::string_view() : trimmed(own->text));
+    if (!index_.contains(name))
+      throw InputError({given_.file, at.line},
+                       "a joint in <gazebo> names link '" + name + "' as its " + side + ", which is not there",
+                       "correct the name");
+    return index_.at(name);
+  }
+
+  /// <gazebo> may hold a joint in the words of SDF, which closes a loop: its pose is that in the child.
+  void sdf_joint(const XmlElement& at) {
+    static const std::map<std::string, SourceKind> kinds = {{"revolute", SourceKind::revolute},
+                                                            {"continuous", SourceKind::revolute},
+                                                            {"prismatic", SourceKind::prismatic},
+                                                            {"ball", SourceKind::spherical},
+                                                            {"fixed", SourceKind::fixed}};
+    SourceJoint joint;
+    joint.name = name_of(at);
+    joint.line = at.line;
+    const auto kind = kinds.find(at.get("type", ""));
+    if (kind == kinds.end())
+      throw InputError({given_.file, at.line}, "joint " + joint.name + " is of type '" + at.get("type", "") + "'",
+                       "use revolute, continuous, prismatic, ball or fixed");
+    joint.kind = kind->second;
+    const int parent = link_in(at, "parent"), child = link_in(at, "child");
+    joint.from = parent == base_ ? ground_link : parent;
+    joint.to = child == base_ ? ground_link : child;
+    const auto six = [&](const XmlElement& own, std::size_t count) {
+      return numbers_of(own.text, own, "<" + own.name + ">", given_.file, count, count);
+    };
+    Pose pose = poses_[static_cast<std::size_t>(child)];
+    if (const XmlElement* own = at.first("pose")) {
+      const auto v = six(*own, 6);
+      pose = pose * Pose{roll_pitch_yaw(v[3], v[4], v[5]), {v[0], v[1], v[2]}};
+    }
+    Vec axis = {0, 0, 1};
+    if (const XmlElement* own = at.first("axis"))
+      if (const XmlElement* xyz = own->first("xyz")) {
+        const auto v = six(*xyz, 3);
+        axis = {v[0], v[1], v[2]};
+      }
+    if (!(norm(axis) > 1e-9))
+      throw InputError({given_.file, at.line}, "the axis of joint " + joint.name + " has no direction",
+                       "write such as <xyz>0 0 1</xyz>");
+    place(joint, pose.at, pose.turned * axis);
+    s_.joints.push_back(std::move(joint));
+  }
 
   struct Frame {
     int link;

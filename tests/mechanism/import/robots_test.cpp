@@ -78,6 +78,28 @@ TEST(Urdf, TakesBallsFromTheFileOfLoops) {
   }
 }
 
+/// The same loop in the words of SDF, and from the side file.
+TEST(Urdf, ClosesLoopsByJointsForGazebo) {
+  const std::string text = bytes_of(path_of("urdf/four_bar.urdf"));
+  const auto within = [&](const std::string& joint) {
+    std::string own = text;
+    own.insert(own.find("</robot>"), "<gazebo>" + joint + "</gazebo>");
+    return own;
+  };
+  const Imported own = import_text(
+      within("<joint name='loop_end' type='revolute'><pose>0 0 0 0 0 0</pose><parent>foot</parent><child> end </child>"
+             "<axis><xyz>0 1 0</xyz></axis></joint>"),
+      "four_bar.urdf");
+  EXPECT_EQ(places(own).at("loop_end"), (std::vector<double>{0.12, 0.09}));
+  EXPECT_EQ(section(own, "joints").at("loop_end").substr(0, 26), "{revolute: [rocker, couple");
+  EXPECT_EQ(section(own, "joints").size(), 4U);
+  for (const char* wrong :
+       {"<joint name='l' type='fixed'><parent>nobody</parent><child>end</child></joint>",
+        "<joint name='l' type='gearbox'><parent>foot</parent><child>end</child></joint>",
+        "<joint name='l' type='revolute'><parent>foot</parent><child>end</child><axis><xyz>0 0 0</xyz></axis></joint>"})
+    EXPECT_NE(refusal_of(within(wrong)), "") << wrong;
+}
+
 TEST(Urdf, RefusesALoopOfUnknownFrames) {
   ImportOptions options;
   options.side = "closed_loop: [[end, nowhere]]\ntype: ['3d']\n";
@@ -200,6 +222,14 @@ TEST(Sdf, FindsThePlaneHoweverItLies) {
     EXPECT_NEAR(apart(p.at("C"), p.at("D")), std::hypot(0.02, 0.09), 1e-9);
     EXPECT_NEAR(apart(p.at("A"), p.at("D")), 0.1, 1e-9);
   }
+}
+
+/// A model that is turned upright: what was z of the world is y of the model.
+TEST(Sdf, KeepsGravityUprightInATurnedModel) {
+  std::string text = bytes_of(path_of("sdf/four_bar_1_6.sdf"));
+  text.insert(text.find("<link"), "<pose>0 0 1 1.5707963267948966 0 0</pose>");
+  EXPECT_NE(import_text(text, "source").text.find("\ngravity: [0, -9.8]\n"), std::string::npos);
+  EXPECT_EQ(imported("sdf/four_bar_1_6.sdf").text.find("\ngravity:"), std::string::npos);
 }
 
 TEST(Sdf, RefusesByName) {
