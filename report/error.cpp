@@ -182,6 +182,7 @@ std::string mode_text(const core::Errors& errors, const core::ModeErrors& mode) 
   const std::string words = mode_words(errors.loci.tower, mode.mode);
   std::string text =
       fmt::format("{}: pose error over {}{}\n", errors.loci.mechanism, over, words.empty() ? "" : "; " + words);
+  if (&mode == &errors.modes.front()) text += parameter_line(errors.loci.parameters);
   if (!mode.never_loaded.empty()) text += never_loaded_words(mode.never_loaded);
   const SizesText sizes(errors, mode);
   text += "\n" + sizes.of_all() + "\n";
@@ -198,6 +199,7 @@ Json error_object(const core::Errors& errors) {
   const bool range = map.dimension() == 1;
   Json root = {{"format", 1},
                {"mechanism", errors.loci.mechanism},
+               {"parameters", parameters_object(errors.loci.parameters)},
                {"coordinates", map.coordinates},
                {"angles", angles_of(errors.loci)},
                {"complete", errors.loci.complete}};

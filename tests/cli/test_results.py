@@ -83,6 +83,7 @@ class Loci(InOwnFolder):
             ("pose", spring, "--at", "0.25,-0.6"),
             ("pose", spring, "--at", "0.25,-0.6", "--working-mode", "all"),
             ("validate", spring, "--grid", "20x20"),
+            ("error", spring, "--grid", "20x20"),
             ("verify", spring, task),
         ):
             process = self.run_program(*words, *override, status=1 if words[0] == "verify" else 0)
