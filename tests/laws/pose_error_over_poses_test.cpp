@@ -94,7 +94,6 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"four_bar", "{theta: [70 deg, 80 deg]}", 400},
                     Case{"three_rpr_orientation", "{x: [0.1, 0.2], y: [0.1, 0.2], phi: [10 deg, 15 deg]}", 12},
                     Case{"three_upu", "{x: [0.1, 0.15], y: [0.05, 0.1], z: [0.5, 0.6]}", 10},
-                    Case{"gough_stewart_slice", "{x: [0.01, 0.05], y: [-0.2, -0.16]}", 20},
                     Case{"gough_stewart_poses",
                          "{x: [-0.01, 0.01], y: [-0.01, 0.01], z: [0.49, 0.51], alpha: [-1 deg, 1 deg], "
                          "beta: [-1 deg, 1 deg], gamma: [-1 deg, 1 deg]}",
@@ -115,36 +114,21 @@ TEST(PoseErrorOverPosesOfDesigns, HoldsWithinTolerances) {
   EXPECT_LE(*answer.pose_error, most * 1.03);
 }
 
-TEST(PoseErrorOverPosesOfLoads, HoldsUnderARangeOfLoads) {
-  const std::string box = "box: {x: [-0.01, 0.01], y: 0, z: [0.49, 0.51], alpha: 0, beta: 0, gamma: 0}\n";
-  const Mechanism m = example("gough_stewart_poses");
-  const Verification answer = decided(m, box + "loads_from: [[0, 0, -1000], [60, 0, -1000]]\npose_error: 1e-3\n");
-  ASSERT_TRUE(answer.verified());
-  double most = 0;
-  for (const int along : {0, 20, 40, 60}) {
-    Mechanism own = m;
-    own.loads.front().force[0] = core::Expression::number(along);
-    most = std::max(most, greatest_on_grid(own, task_of(own, box), 8));
-  }
-  EXPECT_GE(*answer.pose_error, most * (1 - 1e-9));
-  EXPECT_LE(*answer.pose_error, most * 1.05);
-}
-
-TEST(PoseErrorOverPosesOfLoads, HoldsWithinABallOfLoads) {
-  const std::string box = "box: {x: [0.1, 0.15], y: [0.05, 0.1], z: [0.5, 0.6]}\n";
-  const Mechanism m = example("three_upu");
-  const Verification answer = decided(m, box + "loads_within: [{load: 1, radius: 5}]\npose_error: 1e-3\n");
-  ASSERT_TRUE(answer.verified());
-  double most = 0;
-  for (const std::size_t c : {0U, 1U, 2U})
-    for (const int along : {-5, 5}) {
+TEST(PoseErrorOverPosesOfLoads, HoldsUnderEveryLoad) {
+  const std::string box = "box: {theta: [70 deg, 80 deg]}\n";
+  const Mechanism m = example("four_bar");
+  for (const char* const loads : {"loads_from: [[-5, -100], [5, -100]]\n", "loads_within: [{load: 1, radius: 5}]\n"}) {
+    const Verification answer = decided(m, box + loads + "pose_error: 1e-3\n");
+    ASSERT_TRUE(answer.verified());
+    double most = 0;
+    for (const int along : {-5, 0, 5}) {
       Mechanism own = m;
-      core::Expression& force = own.loads.front().force[c];
-      force = core::Expression::apply(core::Expression::Kind::add, {force, core::Expression::number(along)});
-      most = std::max(most, greatest_on_grid(own, task_of(own, box), 8));
+      own.loads.front().force[0] = core::Expression::number(along);
+      most = std::max(most, greatest_on_grid(own, task_of(own, box), 100));
     }
-  EXPECT_GE(*answer.pose_error, most * (1 - 1e-9));
-  EXPECT_LE(*answer.pose_error, most * 1.1);
+    EXPECT_GE(*answer.pose_error, most * (1 - 1e-9)) << loads;
+    EXPECT_LE(*answer.pose_error, most * 1.1) << loads;
+  }
 }
 
 TEST(PoseErrorOverPosesOfNoClearance, IsRefused) {
