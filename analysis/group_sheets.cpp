@@ -15,10 +15,10 @@ std::string names_of(const mechanism::Mechanism& mechanism) {
 
 }  // namespace
 
-std::optional<loci::pose::CoveredBox> cover_groups(
-    const mechanism::Mechanism& mechanism, const std::vector<double>& lower, const std::vector<double>& upper,
-    const std::optional<std::chrono::steady_clock::time_point>& deadline, core::PoseStatics& statics,
-    std::vector<std::string>& notes) {
+std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& mechanism,
+                                                   const std::vector<double>& lower, const std::vector<double>& upper,
+                                                   const std::optional<std::chrono::steady_clock::time_point>& deadline,
+                                                   core::PoseStatics& statics, std::vector<std::string>& notes) {
   if (mechanism.groups.empty()) return std::nullopt;
   loci::pose::CoveredBox found = loci::pose::cover_box(statics.program, lower, upper, {.deadline = deadline});
   const std::string names = names_of(mechanism);
@@ -28,8 +28,7 @@ std::optional<loci::pose::CoveredBox> cover_groups(
                                " into the box without a dead centre, in this working mode",
                            "give a posture at a pose of the box, with the sides of the working mode");
   statics.sheet = found.sheet;
-  if (found.differs)
-    notes.push_back("two layers of " + names + " meet in the box: nothing is proven where they do");
+  if (found.differs) notes.push_back("two layers of " + names + " meet in the box: nothing is proven where they do");
   if (found.out_of_effort)
     notes.push_back("the sheet of " + names + " is not followed to its end: what lies beyond is in doubt");
   if (!found.complete && !found.out_of_effort && lower.size() > 1) {

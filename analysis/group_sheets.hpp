@@ -1,5 +1,5 @@
-// The sheet on which the points of groups are meant (loci/sheet/block_sheet.hpp), as the statics of a mechanism need it.
-// Private to analysis/.
+// The sheet on which the points of groups are meant (loci/sheet/block_sheet.hpp), as the statics of a mechanism need
+// it. Private to analysis/.
 #pragma once
 
 #include <chrono>
@@ -15,9 +15,9 @@ namespace clearloci {
 
 /// Covers a box of poses, of every coordinate of the statics; adds to the notes what is left open. Nothing happens
 /// without groups. Throws core::InputError where no way leads from the groups' posture into the box.
-std::optional<loci::pose::CoveredBox> cover_groups(
-    const mechanism::Mechanism& mechanism, const std::vector<double>& lower, const std::vector<double>& upper,
-    const std::optional<std::chrono::steady_clock::time_point>& deadline, core::PoseStatics& statics,
-    std::vector<std::string>& notes);
+std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& mechanism,
+                                                   const std::vector<double>& lower, const std::vector<double>& upper,
+                                                   const std::optional<std::chrono::steady_clock::time_point>& deadline,
+                                                   core::PoseStatics& statics, std::vector<std::string>& notes);
 
 }  // namespace clearloci

@@ -449,6 +449,11 @@ core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociReques
     if (mechanism::presses_across_axis(mechanism, joint) &&
         std::any_of(reactions.begin(), reactions.end(), [&](const auto& own) { return own.joint == joint.name; }))
       reactions.push_back({joint.name, core::Quantity::f});
+  // Of points that close together the loci of efforts and whole forces are known, not those of components.
+  if (!mechanism.groups.empty())
+    std::erase_if(reactions, [](const numeric::TracedReaction& own) {
+      return own.quantity != core::Quantity::M && own.quantity != core::Quantity::F;
+    });
   std::vector<core::Quantity>& quantities = request.quantities = {core::Quantity::f};
   for (const numeric::TracedReaction& reaction : reactions)
     if (std::find(quantities.begin(), quantities.end(), reaction.quantity) == quantities.end())

@@ -1,5 +1,5 @@
-// Loci over one coordinate of mechanisms whose points have no closed forms: where proven zones (zones_by_cells.hpp) end.
-// Private to analysis/: callers ask trace_loci.
+// Loci over one coordinate of mechanisms whose points have no closed forms: where proven zones (zones_by_cells.hpp)
+// end. Private to analysis/: callers ask trace_loci.
 #pragma once
 
 #include "analysis/loci.hpp"

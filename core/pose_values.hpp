@@ -29,8 +29,8 @@ class PoseValues {
   bool put(std::span<const double> pose, const BlockUnknowns& unknowns);
   double operator[](int step) const { return registers_[static_cast<std::size_t>(step)]; }
 
-  /// Of a program with blocks: their unknowns at a pose, by continuation from the posture `near` along the straight way,
-  /// else coordinate by coordinate. Nothing where no such way leads there.
+  /// Of a program with blocks: their unknowns at a pose, by continuation from the posture `near` along the straight
+  /// way, else coordinate by coordinate. Nothing where no such way leads there.
   std::optional<BlockUnknowns> followed(std::span<const double> pose);
   /// All steps, by Newton's iteration from `unknowns`, which are improved. False where it does not converge at once.
   bool close(std::span<const double> pose, BlockUnknowns& unknowns);

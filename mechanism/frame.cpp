@@ -107,8 +107,7 @@ class Change {
     for (Group::Distance& own : group.distances) own.length = scaled(own.length, 1);
     for (Group::Line& own : group.lines) change(own.along);
     for (auto& place : group.near)
-      for (std::size_t i = 0; i < dimension(mechanism_); ++i)
-        place[i] = (place[i] - frame_.origin[i]) / frame_.scale;
+      for (std::size_t i = 0; i < dimension(mechanism_); ++i) place[i] = (place[i] - frame_.origin[i]) / frame_.scale;
   }
 
   /// The same vector: places in it are put back; of a difference of places their scale alone.

@@ -146,8 +146,7 @@ Triple Geometry::unknown(const mechanism::GroupPoint& form) {
     own.begin = tape_.size();
   }
   Triple place = {zero_, zero_, zero_};
-  for (std::size_t c = 0; c < mechanism::dimension(m_); ++c)
-    own.unknowns.push_back(place[c] = tape_.input(input++));
+  for (std::size_t c = 0; c < mechanism::dimension(m_); ++c) own.unknowns.push_back(place[c] = tape_.input(input++));
   return place;
 }
 

@@ -34,9 +34,9 @@ struct ZoneEnd {
   std::vector<Vanishing> vanishing = {};
   std::string limit = {};              ///< of a boundary the limit that makes it: "spring S, whose ends G1 and G2 meet"
   std::optional<PoseError> jump = {};  ///< behind minus before, where joints have clearances and both sides have errors
-  bool turns = false;      ///< what vanishes has another sign, or turns round, from one side to the other
-  bool certified = false;  ///< of a dead centre: it is proven to be one
-  std::string cause = {};  ///< "dead centre of group hip"
+  bool turns = false;                  ///< what vanishes has another sign, or turns round, from one side to the other
+  bool certified = false;              ///< of a dead centre: it is proven to be one
+  std::string cause = {};              ///< "dead centre of group hip"
 };
 
 /// Distances are of the coordinates as they stand, m and rad alike.

@@ -32,8 +32,8 @@ struct CoveredBox {
   bool starts = false;    ///< the posture is in the box, or the sheet leads from it to the box along the straight way
   bool complete = false;  ///< all of the box is covered
   bool out_of_effort = false;
-  double finest = 0;     ///< the least width of a cell at its end, as a part of the box's
-  bool differs = false;  ///< somewhere two layers of the sheet meet: cells there cover nothing
+  double finest = 0;           ///< the least width of a cell at its end, as a part of the box's
+  bool differs = false;        ///< somewhere two layers of the sheet meet: cells there cover nothing
   std::vector<SheetEnd> ends;  ///< over one coordinate
 };
 

@@ -126,8 +126,8 @@ class PoseCellOf : public CellAnswers {
   const PoseChart* chart_ = nullptr;  ///< of the cell entered last, and its box
   const PoseBox* box_ = nullptr;
   std::size_t n_;
-  std::vector<std::vector<Entry>> columns_;  ///< of A
-  std::vector<double> leasts_;               ///< asked of every demand, rounded up
+  std::vector<std::vector<Entry>> columns_;    ///< of A
+  std::vector<double> leasts_;                 ///< asked of every demand, rounded up
   std::vector<double> inverse_;                ///< C
   std::vector<double> error_;                  ///< |E|
   std::vector<double> weights_;                ///< s

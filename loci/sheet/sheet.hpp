@@ -4,15 +4,15 @@
 // here searches.
 #pragma once
 
+#include "loci/sheet/all_solutions.hpp"
 #include "loci/sheet/apex.hpp"
+#include "loci/sheet/block_sheet.hpp"
 #include "loci/sheet/boundary_curves.hpp"
 #include "loci/sheet/fine_zero.hpp"
 #include "loci/sheet/krawczyk.hpp"
 #include "loci/sheet/lifted_cell.hpp"
 #include "loci/sheet/patch.hpp"
 #include "loci/sheet/plane_cell.hpp"
-#include "loci/sheet/all_solutions.hpp"
-#include "loci/sheet/block_sheet.hpp"
 #include "loci/sheet/pose_cell.hpp"
 #include "loci/sheet/pose_chart.hpp"
 #include "loci/sheet/rim_cell.hpp"

@@ -60,7 +60,7 @@ struct Drawing {
   std::vector<std::array<double, 3>> posture;     ///< SI
   std::vector<std::vector<GivenLength>> lengths;  ///< one a link
   std::vector<DrawnCoordinate> coordinates;
-  std::vector<double> pose;  ///< of what is drawn, as far as constructions are over plain coordinates
+  std::vector<double> pose;             ///< of what is drawn, as far as constructions are over plain coordinates
   std::vector<std::vector<Node>> axes;  ///< as written, one list a joint
   Rational unit = 1;                    ///< of the file's lengths, m
   double size = 1;                      ///< of the drawing, m
