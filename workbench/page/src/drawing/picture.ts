@@ -81,7 +81,10 @@ function drawForces(context: CanvasRenderingContext2D, view: View, drawing: Draw
     if (!at || !tip || !load.force) return;
     const end = page(view, tip);
     drawArrow(context, page(view, at), end, theme.load, sameElement(selected, { kind: "load", index }) ? 4 : 2.4);
-    words(context, `${shortNumber(Math.hypot(...load.force) / drawing.newtons)} ${drawing.units.force.name}`, [end[0] + 7, end[1] + 4], theme.load, theme);
+    const told = `${shortNumber(Math.hypot(...load.force) / drawing.newtons)} ${drawing.units.force.name}`;
+    context.textAlign = load.force[0] < 0 ? "right" : "left"; // beyond the tip, not on the arrow
+    words(context, told, [end[0] + (load.force[0] < 0 ? -7 : 7), end[1] + 4], theme.load, theme);
+    context.textAlign = "left";
   });
 }
 
