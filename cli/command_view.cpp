@@ -53,7 +53,9 @@ Command add_view_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("view", "Open the workbench in a browser: loci and zones follow while you drag");
   const auto arguments = std::make_shared<ViewCommand>();
-  app->add_option("MODEL", arguments->common.model, "The mechanism file (YAML), or one that import reads")->required()->type_name("FILE");
+  app->add_option("MODEL", arguments->common.model, "The mechanism file (YAML), or one that import reads")
+      ->required()
+      ->type_name("FILE");
   app->add_option("--set", arguments->common.overrides, "Override a parameter of the file: name=value (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
