@@ -110,12 +110,13 @@ void Drawing::turn_to_links(SourceJoint& joint) {
 }
 
 void Drawing::give_direction(int link, const SourceJoint& joint) {
-  if (link == ground_link || order_[link].size() != 1) return;
+  const auto points = order_.find(link);
+  if (link == ground_link || points == order_.end() || points->second.size() != 1) return;
   Vec way = {1, 0, 0};
   for (const SourceJoint& own : s_.joints)
     if (!own.dropped && slides(own) && (own.from == link || own.to == link)) way = own.axis();
   const SourceLink& own = s_.links[static_cast<std::size_t>(link)];
-  const PlaceIndex first = order_[link].front();
+  const PlaceIndex first = points->second.front();
   if (own.mass > 0 && !own.centre) centres_[link] = first;  // otherwise the middle of the first two
   place_of(link, places_[first].at + (0.1 * size_) * way, joint.name + "_way");
 }

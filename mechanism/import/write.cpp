@@ -296,7 +296,8 @@ class Writer : private Drawing {
         if (!at && !is_still(p)) take(static_cast<int>(l), places_[p].at, "the source says none");
     }
     for (std::size_t l = s_.links.size(); l-- > 0 && !at;)
-      if (const auto own = order_.find(static_cast<int>(l)); !s_.links[l].dropped && own != order_.end())
+      if (const auto own = order_.find(static_cast<int>(l));
+          !s_.links[l].dropped && own != order_.end() && !own->second.empty())
         take(static_cast<int>(l), places_[own->second.back()].at, "the source says none");
     if (!at) throw InputError({file_}, "no link of the " + s_.format + " file moves", "name a file with a mechanism");
     effector_ = {link, *at};

@@ -20,8 +20,8 @@ struct Watch {
 
 using Question = Json (*)(const Json& body, const Watch& watch);
 
-/// "model", "loci", "zones", "verify", "pose", "sweep", "cycle", "modes", "trajectory", "normalize", "import", "export";
-/// null for another name.
+/// "model", "loci", "zones", "verify", "pose", "sweep", "cycle", "modes", "trajectory", "normalize", "import",
+/// "export"; null for another name.
 Question question_named(const std::string& name);
 
 // By what they answer (questions_*.cpp). Each throws Refusal, InputError or LimitReached.
