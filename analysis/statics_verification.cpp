@@ -381,6 +381,10 @@ class Verifier {
 }  // namespace
 
 Verification verify_by_statics(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
+  if (task.pose_error && std::none_of(mechanism.joints.begin(), mechanism.joints.end(),
+                                      [](const mechanism::Joint& joint) { return joint.clearance.has_value(); }))
+    throw core::InputError({mechanism.file}, "no joint has a clearance, so there is no pose error",
+                           "write such as clearance: {radial: 10e-6} at a joint, or leave pose_error out");
   // Tolerances are of the file's parameters.
   const auto parameters = task.tolerances.empty() ? mechanism::Parameters::valued : mechanism::Parameters::kept;
   if (const std::optional<Framed> own = framed(mechanism, Scaling::none, parameters))
