@@ -128,7 +128,7 @@ TEST_F(TheServer, ImportsOtherProgramsFiles) {
   EXPECT_FALSE(found["notes"].empty());
   // Their text is asked what a mechanism file is asked.
   question.erase("clearance");
-  EXPECT_FALSE(Json::parse(server->ask("loci", question)->body)["points"].empty());
+  EXPECT_FALSE(Json::parse(server->ask("loci", question)->body)["loci"]["isolated_points"].empty());
   // A URDF needs the file of its loops.
   question = {{"text", file("urdf/four_bar.urdf")}, {"client", "test"}, {"file", "four_bar.urdf"}};
   const Json open = Json::parse(server->ask("import", question)->body);
