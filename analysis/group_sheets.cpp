@@ -1,6 +1,8 @@
 #include "analysis/group_sheets.hpp"
 
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "core/errors.hpp"
 
@@ -20,7 +22,11 @@ std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& m
                                                    const std::optional<std::chrono::steady_clock::time_point>& deadline,
                                                    core::PoseStatics& statics, std::vector<std::string>& notes) {
   if (mechanism.groups.empty()) return std::nullopt;
-  loci::pose::CoveredBox found = loci::pose::cover_box(statics.program, lower, upper, {.deadline = deadline});
+  loci::pose::BlockSheetEffort effort{.deadline = deadline};
+  for (std::size_t c = 0; c < lower.size(); ++c)
+    effort.turns.push_back(mechanism.coordinates[c].angle &&
+                           std::abs(upper[c] - lower[c] - 2 * std::numbers::pi) < 1e-12);
+  loci::pose::CoveredBox found = loci::pose::cover_box(statics.program, lower, upper, effort);
   const std::string names = names_of(mechanism);
   if (!found.starts)
     throw core::InputError({mechanism.file, mechanism.groups.front().where.line, mechanism.groups.front().where.column},

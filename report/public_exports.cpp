@@ -60,7 +60,7 @@ std::vector<std::string> formats_of(const Zones& zones) {
   return report::zone_formats(zones.loci.tower.coordinates.size(), zones.by_cells);
 }
 std::vector<std::string> formats_of(const Errors& errors) {
-  return report::error_formats(errors.modes.front().map.dimension());
+  return report::error_formats(told(errors).modes.front().map.dimension());
 }
 
 /// Throws InputError for a layer that the errors do not have.

@@ -308,12 +308,34 @@ class Growth {
         PoseBox face = nodes_[static_cast<std::size_t>(index)].box;
         const double at = face[p][side];
         face[p] = {at, at};
-        if (at > box_[p][0] && at < box_[p][1]) meet(0, index, face, p, side);
+        if (at > box_[p][0] && at < box_[p][1]) {
+          meet(0, index, {face, p, side});
+        } else if (p < effort_.turns.size() && effort_.turns[p]) {
+          const double turned = box_[p][1 - side];
+          face[p] = {turned, turned};
+          meet(0, index, {face, p, side, turned - at});
+        }
       }
   }
 
+  /// Of a cell's box, across an axis.
+  struct Face {
+    PoseBox box;
+    std::size_t axis = 0, side = 0;
+    double turned = 0;  ///< at the box's end: how far the face lies from the cell's own, a turn before or behind it
+  };
+
+  /// A cell's solution at a face beyond which the sheet may go on.
+  std::optional<BlockUnknowns> solution_at(int cell, const Face& face, std::vector<double> at) {
+    const std::vector<double> there = at;
+    at[face.axis] -= face.turned;
+    std::optional<BlockUnknowns> found = solution_in(nodes_[static_cast<std::size_t>(cell)], at);
+    return found && face.turned != 0 ? proven(there, std::move(*found)) : found;
+  }
+
   /// The leaves beyond a face.
-  void meet(int index, int from, const PoseBox& face, std::size_t axis, std::size_t side) {
+  void meet(int index, int from, const Face& beyond) {
+    const auto& [face, axis, side, turned] = beyond;
     const PoseBox box = nodes_[static_cast<std::size_t>(index)].box;
     PoseBox common = face;
     for (std::size_t p = 0; p < box.size(); ++p) {
@@ -325,14 +347,14 @@ class Growth {
     if (side == 1 ? box[axis][1] <= at : box[axis][0] >= at) return;
     if (nodes_[static_cast<std::size_t>(index)].axis >= 0) {
       const int low = nodes_[static_cast<std::size_t>(index)].low, high = nodes_[static_cast<std::size_t>(index)].high;
-      meet(low, from, face, axis, side);
-      meet(high, from, face, axis, side);
+      meet(low, from, beyond);
+      meet(high, from, beyond);
       return;
     }
     if (side == 1 ? box[axis][0] < at : box[axis][1] > at) return;  // the cell itself
     if (nodes_[static_cast<std::size_t>(index)].state == State::refused) return;
     const std::vector<double> middle = middle_of(common);
-    const std::optional<BlockUnknowns> start = solution_in(nodes_[static_cast<std::size_t>(from)], middle);
+    const std::optional<BlockUnknowns> start = solution_at(from, beyond, middle);
     if (nodes_[static_cast<std::size_t>(index)].state == State::proven) {
       if (start && holds(nodes_[static_cast<std::size_t>(index)], middle, *start)) return;
       // Two layers, or not told: neither covers what it may not.
@@ -341,7 +363,7 @@ class Growth {
       return;
     }
     if (start && try_leaf(index, middle, *start)) return;
-    if (cut(index)) return meet(index, from, face, axis, side);
+    if (cut(index)) return meet(index, from, beyond);
     // Of the finest cells those that two neighbours could not enter are not tried again.
     State& state = nodes_[static_cast<std::size_t>(index)].state;
     state = state == State::tried ? State::refused : State::tried;

@@ -18,6 +18,9 @@ namespace clearloci::loci::pose {
 struct BlockSheetEffort {
   long most_cells = 200'000;
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
+  /// Coordinates that turn once over the box: where its last pose is proven to have a solution of its first, the sheet
+  /// goes on there. Empty: none.
+  std::vector<bool> turns = {};
 };
 
 /// A cell, the finest, in which the sheet ends.

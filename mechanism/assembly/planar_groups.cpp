@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "mechanism/joint_traits.hpp"
@@ -235,9 +236,16 @@ Node PlanarGroups::near_of(const std::vector<PointIndex>& points) const {
   const double unit = core::to_double(d_.unit);
   std::vector<std::pair<std::string, Node>> pose, near;
   for (std::size_t c = 0; c < d_.coordinates.size(); ++c) {
-    const bool angle = d_.mechanism.coordinates[c].angle;
+    const mechanism::Coordinate& own = d_.mechanism.coordinates[c];
+    double value = drawn_value(c);
+    // Of the values of an angle a turn apart one in its range.
+    constexpr double turn = 2 * std::numbers::pi;
+    if (own.angle && value < core::to_double(own.lower))
+      value += turn * std::ceil((core::to_double(own.lower) - value) / turn);
+    if (own.angle && value > core::to_double(own.upper))
+      value -= turn * std::ceil((value - core::to_double(own.upper)) / turn);
     pose.emplace_back(d_.coordinates[c].name,
-                      text(number_text(drawn_value(c) / (angle ? 1 : unit)) + (angle ? " rad" : "")));
+                      text(number_text(value / (own.angle ? 1 : unit)) + (own.angle ? " rad" : "")));
   }
   near.emplace_back("at", map(pose));
   for (const PointIndex p : points)

@@ -17,7 +17,9 @@ def sections(text):
         if re.match(r"\w", line):
             key = line.split(":")[0]
             found[key] = []
-        if found:
+        if line.startswith("    ") and len(found[key]) > 1:
+            found[key][-1] += "\n" + line  # of the entry before
+        elif found:
             found[key].append(line)
     return found
 
@@ -38,7 +40,8 @@ def changed(base, snippet):
 
 
 # A pose within reach, by the file that an example changes.
-POSES = {"examples/five_bar.yaml": "0.2,-0.6", "examples/gough_stewart_poses.yaml": "0,0,0.5,0,0,0", None: "0.05,0.02"}
+POSES = {"examples/five_bar.yaml": "0.2,-0.6", "examples/gough_stewart_poses.yaml": "0,0,0.5,0,0,0",
+         "examples/stephenson_outside.yaml": "123 deg", None: "0.05,0.02"}
 
 
 class Documented(InOwnFolder):
