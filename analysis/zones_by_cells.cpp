@@ -42,7 +42,8 @@ void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& mo
   const auto at = cell.at(zone.sample);
   if (!at) return;
   const numeric::Bounded determinant = numeric::bounded_numerators(model, zone.sample, sides).determinant;
-  zone.assembly_mode = determinant.value > 0 ? 1 : -1;
+  // Of a group that continuation did not lead to the sample it is not told.
+  zone.assembly_mode = determinant.value > 0 ? 1 : determinant.value < 0 ? -1 : 0;
   for (std::size_t d = 0; d < statics.demands.size(); ++d) {
     const std::vector<double>& own = at->components[d].front();
     const core::TaskDemand& demand = statics.demands[d].demand;

@@ -202,10 +202,26 @@ std::optional<BlockUnknowns> PoseValues::followed(std::span<const double> from, 
   return unknowns;
 }
 
+/// The same from the posture a turn before or behind: of an angle that is the same posture, of a length it is none.
+std::optional<BlockUnknowns> PoseValues::followed_round(BlockUnknowns near, std::span<const double> pose) {
+  constexpr double turn = 2 * std::numbers::pi, same = 1e-9;
+  if (!close(program_.near, near)) return std::nullopt;
+  for (std::size_t c = 0; c < pose.size(); ++c)
+    for (const double by : {-turn, turn}) {
+      std::vector<double> from = program_.near;
+      from[c] += by;
+      BlockUnknowns unknowns = near;
+      if (!close(from, unknowns) || !(moved_ <= same * size_of(program_, near))) continue;
+      if (auto found = followed(from, near, pose)) return found;
+    }
+  return std::nullopt;
+}
+
 std::optional<BlockUnknowns> PoseValues::followed(std::span<const double> pose) {
   BlockUnknowns near;
   for (const PoseProgram::Block& own : program_.blocks) near.insert(near.end(), own.near.begin(), own.near.end());
   if (auto found = followed(program_.near, near, pose)) return found;
+  if (auto found = followed_round(near, pose)) return found;
   if (pose.size() < 2) return std::nullopt;
   for (const bool backwards : {false, true}) {
     std::vector<double> at = program_.near;

@@ -30,7 +30,8 @@ class PoseValues {
   double operator[](int step) const { return registers_[static_cast<std::size_t>(step)]; }
 
   /// Of a program with blocks: their unknowns at a pose, by continuation from the posture `near` along the straight
-  /// way, else coordinate by coordinate. Nothing where no such way leads there.
+  /// way, else from that posture a turn of an angle before or behind, else coordinate by coordinate. Nothing where no
+  /// such way leads there.
   std::optional<BlockUnknowns> followed(std::span<const double> pose);
   /// All steps, by Newton's iteration from `unknowns`, which are improved. False where it does not converge at once.
   bool close(std::span<const double> pose, BlockUnknowns& unknowns);
@@ -45,6 +46,7 @@ class PoseValues {
   bool close(std::size_t block, std::span<const double> pose, std::span<double> unknowns);
   std::optional<BlockUnknowns> followed(std::span<const double> from, BlockUnknowns unknowns,
                                         std::span<const double> to);
+  std::optional<BlockUnknowns> followed_round(BlockUnknowns near, std::span<const double> pose);
 
   const PoseProgram& program_;
   std::vector<double> registers_;

@@ -210,8 +210,11 @@ std::vector<LegendRow> legend_of(const core::Zones& map, const core::ZonedMode& 
     std::string signs;
     for (const auto& [reaction, sign] : zone.signs)
       signs += " " + reaction_name(reaction) + (sign > 0 ? "+" : sign < 0 ? "\u2212" : "?");
-    add(colour_of(static_cast<int>(z) + 1),
-        fmt::format("{} |A|{}{}", zone.id, zone.assembly_mode > 0 ? "+" : "\u2212", signs));
+    add(colour_of(static_cast<int>(z) + 1), fmt::format("{} {}{}", zone.id,
+                                                        zone.assembly_mode > 0   ? "|A|+"
+                                                        : zone.assembly_mode < 0 ? "|A|\u2212"
+                                                                                 : "",
+                                                        signs));
   }
   if (count > most) rows.push_back({std::nullopt, {fmt::format("and {} more", count - most)}});
   const auto any = [&](int label) {

@@ -178,7 +178,8 @@ std::string paragraphs_of(const core::Zones& map, const core::WorkingMode& mode)
   std::string out;
   for (const core::Zone& zone : map.zones) {
     if (zone.mode != mode) continue;
-    out += fmt::format("{:<5} |A|{}  {}\n", zone.id, zone.assembly_mode > 0 ? "+" : "-", sign_list(map, zone));
+    const char* const determinant = zone.assembly_mode > 0 ? "|A|+" : zone.assembly_mode < 0 ? "|A|-" : "";
+    out += fmt::format("{:<5} {}  {}\n", zone.id, determinant, sign_list(map, zone));
     if (line)
       out += fmt::format("      {} to {}\n", places.value(0, zone.lower[0]), places.value(0, zone.upper[0]));
     else

@@ -59,6 +59,7 @@ struct Case {
   const char* model;
   const char* box;
   int steps;
+  double most_above = 0.03;  ///< of the bound over the greatest at the nodes: few fit over six coordinates
 };
 
 core::Task task_of(const Mechanism& m, const std::string& text) {
@@ -78,9 +79,9 @@ TEST_P(PoseErrorOverPoses, IsTheGreatestOverTheTask) {
   ASSERT_TRUE(answer.verified());
   ASSERT_TRUE(answer.pose_error);
   EXPECT_GE(*answer.pose_error, most * (1 - 1e-9)) << "no pose is displaced farther";
-  EXPECT_LE(*answer.pose_error, most * 1.03) << "and one is nearly as far";
+  EXPECT_LE(*answer.pose_error, most * (1 + GetParam().most_above)) << "and one is nearly as far";
   // The verdict turns there.
-  EXPECT_TRUE(decided(m, box + fmt::format("pose_error: {}\n", most * 1.02)).verified());
+  EXPECT_TRUE(decided(m, box + fmt::format("pose_error: {}\n", most * (0.99 + GetParam().most_above))).verified());
   const Verification refuted = decided(m, box + fmt::format("pose_error: {}\n", most * 0.97));
   ASSERT_EQ(refuted.verdict, core::Verdict::refuted);
   ASSERT_EQ(refuted.witness->kind, core::TaskWitness::Kind::displaced);
@@ -97,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"gough_stewart_poses",
                          "{x: [-0.01, 0.01], y: [-0.01, 0.01], z: [0.49, 0.51], alpha: [-1 deg, 1 deg], "
                          "beta: [-1 deg, 1 deg], gamma: [-1 deg, 1 deg]}",
-                         3}),
+                         3, 0.08}),
     [](const auto& test) { return std::string(test.param.model); });
 
 TEST(PoseErrorOverPosesOfDesigns, HoldsWithinTolerances) {
