@@ -177,7 +177,7 @@ std::optional<TaskFailure> TaskWitness::failure(std::span<const double> at, bool
 
 std::optional<TaskFailure> TaskWitness::failure_of(std::span<const double> at, int demand) const {
   std::optional<Solved> solved;
-  if (const auto found = failure_of_pose(exactly(at), false, solved)) return found;
+  if (auto found = failure_of_pose(exactly(at), false, solved)) return found;
   return solved && demand >= 0 ? judged(demand, *solved) : std::nullopt;
 }
 

@@ -24,7 +24,7 @@ std::string shortest_decimal(double value, double tolerance) {
 }
 
 std::string exact_decimal(const core::Rational& value) {
-  mpz_class denominator = value.get_den();
+  const mpz_class& denominator = value.get_den();
   std::size_t digits = 0;
   mpz_class power = 1;
   constexpr std::size_t most = 60;

@@ -22,7 +22,7 @@ const imports::Format* format_of(std::string_view text) {
 
 /// "20e-6" as "20e-6 m"; what has its unit stays.
 std::string clearance_of(const ImportOptions& options) {
-  const std::string given(imports::trimmed(options.clearance));
+  std::string given(imports::trimmed(options.clearance));
   double value = 0;
   if (given.empty()) return "20e-6 m";
   if (imports::number_of(given, value)) {

@@ -16,8 +16,6 @@
 namespace clearloci::mechanism::imports {
 namespace {
 
-using core::InputError;
-
 /// A joint of the tree, of which the posture may be another than the model's.
 struct TreeJoint {
   std::string name, type;
