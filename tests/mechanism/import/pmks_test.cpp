@@ -86,7 +86,7 @@ TEST(Pmks, PinsThreeLinksAtOnePlace) {
 TEST(Pmks, RefusesWhatWasCutShort) {
   const std::string text(bytes_of(path_of("pmks/four_bar.txt")));
   const std::string whole = text.substr(0, text.size() - 1);
-  int refused = 0;
+  int cut_short = 0;
   for (std::size_t length = 1; length < whole.size(); ++length) {
     const std::string part = whole.substr(0, length);
     if (import_format(part).empty()) continue;
@@ -97,11 +97,11 @@ TEST(Pmks, RefusesWhatWasCutShort) {
       EXPECT_NE(own.text, import_text(whole, "part").text);
     } catch (const core::InputError& error) {
       why = error.what();
-      ++refused;
+      ++cut_short;
     }
     EXPECT_TRUE(why.empty() || why.find("part") != std::string::npos) << why;
   }
-  EXPECT_GT(refused, 50);
+  EXPECT_GT(cut_short, 50);
 }
 
 TEST(Pmks, SaysWhereALetterIsNoDigit) {
