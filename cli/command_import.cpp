@@ -4,16 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "clearloci/import.hpp"
 #include "clearloci/mechanism.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
+#include "cli/written_file.hpp"
 #include "core/text.hpp"
 #include "mechanism/read.hpp"
-#include "report/files.hpp"
-#include "report/loci_json.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -43,19 +41,7 @@ int run(const ImportCommand& arguments) {
   const std::string name = arguments.output.empty() ? arguments.file : arguments.output;
   if (const std::string why = hindrance(found, name); !why.empty())
     found.notes.push_back("as it stands it is refused: " + core::message_line(why));
-  if (!arguments.output.empty()) report::write_atomically(arguments.output, found.text);
-  if (arguments.json) {
-    fmt::print("{}", report::json_text(nlohmann::ordered_json{
-                         {"format", 1}, {"source", found.format}, {"text", found.text}, {"notes", found.notes}}));
-    return exit_done;
-  }
-  if (arguments.output.empty()) {
-    fmt::print("{}", found.text);
-    return exit_done;
-  }
-  if (arguments.quiet) return exit_done;
-  for (const std::string& note : found.notes) fmt::print("{}\n", note);
-  fmt::print("Written to {}\n", arguments.output);
+  put_out({found.format, found.text, found.notes}, arguments.output, arguments.json, arguments.quiet);
   return exit_done;
 }
 

@@ -1,16 +1,12 @@
 // clearloci normalize: what is drawn as what is constructed.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "clearloci/normalize.hpp"
 #include "cli/arguments.hpp"
 #include "cli/commands.hpp"
 #include "cli/program.hpp"
-#include "report/files.hpp"
-#include "report/loci_json.hpp"
+#include "cli/written_file.hpp"
 
 namespace clearloci::cli {
 namespace {
@@ -23,19 +19,7 @@ struct NormalizeCommand {
 
 int run(const NormalizeCommand& arguments) {
   const NormalizedFile found = normalize(Model::read(arguments.model, parse_overrides(arguments.overrides)));
-  if (!arguments.output.empty()) report::write_atomically(arguments.output, found.text);
-  if (arguments.json) {
-    fmt::print("{}",
-               report::json_text(nlohmann::ordered_json{{"format", 1}, {"text", found.text}, {"notes", found.notes}}));
-    return exit_done;
-  }
-  if (arguments.output.empty()) {
-    fmt::print("{}", found.text);
-    return exit_done;
-  }
-  if (arguments.quiet) return exit_done;
-  for (const std::string& note : found.notes) fmt::print("{}\n", note);
-  fmt::print("Written to {}\n", arguments.output);
+  put_out({.text = found.text, .notes = found.notes}, arguments.output, arguments.json, arguments.quiet);
   return exit_done;
 }
 
