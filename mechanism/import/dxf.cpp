@@ -265,15 +265,9 @@ class Reader {
       bool driven = false;
       for (const int link : links) {
         if (link == base) continue;
-        SourceJoint joint;
-        joint.name = name;
-        joint.line = own->line;
-        joint.from = base;
-        joint.to = link;
-        place(joint, own->at, {0, 0, 1});
+        SourceJoint& joint = add_joint(s_, name, own->line, SourceKind::revolute, base, link, own->at, {0, 0, 1});
         joint.actuated = motor && !driven;
         driven = driven || joint.actuated;
-        s_.joints.push_back(std::move(joint));
       }
       if (links.size() + (grounded ? 1 : 0) > 2) shared.push_back(name);
     }

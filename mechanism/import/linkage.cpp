@@ -196,17 +196,10 @@ class Reader {
     if (cpm < 0 && reach >= length)
       throw InputError({file_, at.line}, "actuator " + name + " shrinks by more than its length",
                        "give it a smaller throw, or a positive speed");
-    SourceJoint guide;
-    guide.name = name;
-    guide.line = at.line;
-    guide.kind = SourceKind::prismatic;
-    guide.from = body;
-    guide.to = rod;
-    place(guide, b, b - a);
+    SourceJoint& guide = imports::add_joint(s_, name, at.line, SourceKind::prismatic, body, rod, b, b - a);
     guide.actuated = true;
     guide.range = cpm < 0 ? std::array<double, 2>{-reach, 0.0} : std::array<double, 2>{0.0, reach};
     guide.speed = cpm / 60 * 2 * reach * s_.metres();
-    s_.joints.push_back(std::move(guide));
   }
 
   static void ratios(const XmlElement& at) { at.take_whole(); }  // of gears, which are refused
@@ -214,15 +207,7 @@ class Reader {
   // --- what is connected
 
   SourceJoint& add_joint(const Connector& c, SourceKind kind, int from, int to, const Vec& axis) {
-    SourceJoint joint;
-    joint.name = c.name;
-    joint.line = c.line;
-    joint.kind = kind;
-    joint.from = from;
-    joint.to = to;
-    place(joint, c.at, axis);
-    s_.joints.push_back(std::move(joint));
-    return s_.joints.back();
+    return imports::add_joint(s_, c.name, c.line, kind, from, to, c.at, axis);
   }
 
   void connect() {
@@ -335,14 +320,7 @@ class Reader {
 
   void fasten() {
     const auto weld = [&](int link, int to, const std::string& what, int line, const Vec& at) {
-      SourceJoint joint;
-      joint.name = what;
-      joint.line = line;
-      joint.kind = SourceKind::fixed;
-      joint.from = to;
-      joint.to = link;
-      place(joint, at, {0, 0, 1});
-      s_.joints.push_back(std::move(joint));
+      imports::add_joint(s_, what, line, SourceKind::fixed, to, link, at, {0, 0, 1});
     };
     const auto linked = [&](int id, const std::string& what, int line) {
       const auto found = by_id_.find(id);

@@ -161,15 +161,7 @@ class Reader : private MjcfSettings {
   }
 
   int add(SourceKind kind, const Single& own, int from, int to) {
-    SourceJoint joint;
-    joint.name = own.name;
-    joint.line = own.line;
-    joint.kind = kind;
-    joint.from = from;
-    joint.to = to;
-    place(joint, own.at, own.axis);
-    joint.range = own.range;
-    s_.joints.push_back(std::move(joint));
+    add_joint(s_, own.name, own.line, kind, from, to, own.at, own.axis).range = own.range;
     return static_cast<int>(s_.joints.size()) - 1;
   }
 

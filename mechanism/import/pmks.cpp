@@ -335,15 +335,7 @@ class Reader {
   }
 
   SourceJoint& add(const Joint& j, SourceKind kind, int from, int to, const Vec& axis) {
-    SourceJoint joint;
-    joint.name = j.name.empty() ? j.id : j.name;
-    joint.line = 1;
-    joint.kind = kind;
-    joint.from = from;
-    joint.to = to;
-    place(joint, j.at, axis);
-    s_.joints.push_back(std::move(joint));
-    return s_.joints.back();
+    return add_joint(s_, j.name.empty() ? j.id : j.name, 1, kind, from, to, j.at, axis);
   }
 
   void drive(SourceJoint& joint, const Joint& j) const {

@@ -100,15 +100,7 @@ class Reader {
   }
 
   SourceJoint& add(const std::string& own, SourceKind kind, int from, int to, const Vec& at, const Vec& axis) {
-    SourceJoint joint;
-    joint.name = own;
-    joint.line = 1;
-    joint.kind = kind;
-    joint.from = from;
-    joint.to = to;
-    place(joint, at, axis);
-    s_.joints.push_back(std::move(joint));
-    return s_.joints.back();
+    return add_joint(s_, own, 1, kind, from, to, at, axis);
   }
 
   void joint() {

@@ -108,4 +108,17 @@ inline void place(SourceJoint& joint, const Vec& at, const Vec& axis) {
   joint.on_to = joint.on_from;
 }
 
+/// Adds a joint whose sides meet at a place.
+inline SourceJoint& add_joint(Source& source, std::string name, int line, SourceKind kind, int from, int to,
+                              const Vec& at, const Vec& axis) {
+  SourceJoint& joint = source.joints.emplace_back();
+  joint.name = std::move(name);
+  joint.line = line;
+  joint.kind = kind;
+  joint.from = from;
+  joint.to = to;
+  place(joint, at, axis);
+  return joint;
+}
+
 }  // namespace clearloci::mechanism::imports

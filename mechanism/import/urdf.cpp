@@ -213,16 +213,10 @@ class Reader {
                                                             {"fixed", SourceKind::fixed}};
     for (const Branch& own : branches_) {
       const Pose& pose = poses_[static_cast<std::size_t>(index_.at(own.child))];
-      SourceJoint joint;
-      joint.name = own.name;
-      joint.line = own.line;
-      joint.kind = kinds.at(own.type);
-      joint.from = source_link(own.parent);
-      joint.to = source_link(own.child);
-      place(joint, pose.at, pose.turned * own.axis);
+      SourceJoint& joint = add_joint(s_, own.name, own.line, kinds.at(own.type), source_link(own.parent),
+                                     source_link(own.child), pose.at, pose.turned * own.axis);
       joint.range = own.limits;
       joint.actuated = own.motor && joint.kind != SourceKind::fixed;
-      s_.joints.push_back(std::move(joint));
     }
     s_.links[static_cast<std::size_t>(base_)].dropped = true;
   }
