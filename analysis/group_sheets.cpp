@@ -17,6 +17,11 @@ std::string names_of(const mechanism::Mechanism& mechanism) {
 
 }  // namespace
 
+bool is_full_turn(double lower, double upper) {
+  constexpr double of_turn = 1e-12;
+  return std::abs(upper - lower - 2 * std::numbers::pi) <= of_turn;
+}
+
 std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& mechanism,
                                                    const std::vector<double>& lower, const std::vector<double>& upper,
                                                    const std::optional<std::chrono::steady_clock::time_point>& deadline,
@@ -24,8 +29,7 @@ std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& m
   if (mechanism.groups.empty()) return std::nullopt;
   loci::pose::BlockSheetEffort effort{.deadline = deadline};
   for (std::size_t c = 0; c < lower.size(); ++c)
-    effort.turns.push_back(mechanism.coordinates[c].angle &&
-                           std::abs(upper[c] - lower[c] - 2 * std::numbers::pi) < 1e-12);
+    effort.turns.push_back(mechanism.coordinates[c].angle && is_full_turn(lower[c], upper[c]));
   loci::pose::CoveredBox found = loci::pose::cover_box(statics.program, lower, upper, effort);
   const std::string names = names_of(mechanism);
   if (!found.starts)

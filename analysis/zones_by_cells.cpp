@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "analysis/framed.hpp"
@@ -193,8 +192,7 @@ void leave_rigid(loci::pose::CellZones& found, const numeric::NumericModel& mode
 
 /// A crank that turns on: where the range is a full turn, its first and last zone are one.
 void note_meeting_ends(const core::WorkingMode& mode, const std::array<double, 2>& range, Zones& map) {
-  constexpr double of_turn = 1e-12;  // roundings of the range's ends
-  if (std::abs(range[1] - range[0] - 2 * std::numbers::pi) > of_turn) return;
+  if (!is_full_turn(range[0], range[1])) return;
   const Zone *first = nullptr, *last = nullptr;
   for (const Zone& zone : map.zones) {
     if (zone.mode != mode) continue;
