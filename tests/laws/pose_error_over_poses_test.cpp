@@ -59,7 +59,7 @@ struct Case {
   const char* model;
   const char* box;
   int steps;
-  double most_above = 0.03;  ///< of the bound over the greatest at the nodes: few fit over six coordinates
+  double most_above = 0.03;  ///< of the bound over the greatest at the nodes: six coordinates outlast its cells
 };
 
 core::Task task_of(const Mechanism& m, const std::string& text) {
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"gough_stewart_poses",
                          "{x: [-0.01, 0.01], y: [-0.01, 0.01], z: [0.49, 0.51], alpha: [-1 deg, 1 deg], "
                          "beta: [-1 deg, 1 deg], gamma: [-1 deg, 1 deg]}",
-                         3, 0.08}),
+                         3, 0.12}),
     [](const auto& test) { return std::string(test.param.model); });
 
 TEST(PoseErrorOverPosesOfDesigns, HoldsWithinTolerances) {

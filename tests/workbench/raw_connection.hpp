@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <string>
 #include <string_view>
 
@@ -30,7 +31,7 @@ class RawConnection {
   /// False where the other side has closed.
   bool send(std::string_view bytes) const {
     while (!bytes.empty()) {
-      const ssize_t sent = ::send(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      const ssize_t sent = again([&] { return ::send(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL); });
       if (sent <= 0) return false;
       bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
@@ -44,8 +45,8 @@ class RawConnection {
     std::string text;
     std::array<char, 65536> bytes{};
     pollfd one{handle_, POLLIN, 0};
-    while (text.find(wanted) == std::string::npos && ::poll(&one, 1, patience_ms) == 1) {
-      const ssize_t got = ::recv(handle_, bytes.data(), bytes.size(), 0);
+    while (text.find(wanted) == std::string::npos && again([&] { return ::poll(&one, 1, patience_ms); }) == 1) {
+      const ssize_t got = again([&] { return ::recv(handle_, bytes.data(), bytes.size(), 0); });
       if (got <= 0) break;
       text.append(bytes.data(), static_cast<std::size_t>(got));
     }
@@ -53,6 +54,14 @@ class RawConnection {
   }
 
  private:
+  /// A signal, such as a fuzzer's alarm, ends no call for good.
+  template <typename Call>
+  static auto again(Call call) {
+    auto result = call();
+    while (result == -1 && errno == EINTR) result = call();
+    return result;
+  }
+
   int handle_;
   bool open_ = false;
 };
