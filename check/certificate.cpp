@@ -27,9 +27,13 @@ class Reader {
                            "write it anew with --certificate");
   }
 
-  CertificateFile read(const Json& root) {
+  /// What every certificate begins with.
+  void check_format(const Json& root) const {
     if (text(root, "format") != "clearloci-certificate") fail("'format' is not clearloci-certificate");
     if (integer(root, "version", 0, 1000) != 1) fail("its version is not 1");
+  }
+
+  CertificateFile read(const Json& root) {
     CertificateFile c;
     c.command = text(root, "command");
     c.model = text(at(root, "model"), "text");
@@ -324,11 +328,14 @@ bool same_text(const std::string& model, const std::string& in_certificate) {
   return Json(model).dump(-1, ' ', false, Json::error_handler_t::replace) == Json(in_certificate).dump();
 }
 
-CertificateFile read_certificate(const std::string& text, const std::string& file) {
-  const Json root = Json::parse(text, nullptr, false);
+Json parse_certificate(const std::string& text, const std::string& file) {
+  Json root = Json::parse(text, nullptr, false);
   const Reader reader(file);
   if (root.is_discarded()) reader.fail("it is not JSON");
-  return Reader(file).read(root);
+  reader.check_format(root);
+  return root;
 }
+
+CertificateFile read_certificate(const Json& root, const std::string& file) { return Reader(file).read(root); }
 
 }  // namespace clearloci::check

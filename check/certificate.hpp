@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -108,8 +109,11 @@ struct CertificateFile {
 /// Whether a model's text is the one of a certificate, in which bytes that are no UTF-8 were replaced.
 bool same_text(const std::string& model, const std::string& in_certificate);
 
-/// `file`: its name, for errors. Throws core::InputError where the text is no certificate, FalseClaim where its cells
-/// are no partition.
-CertificateFile read_certificate(const std::string& text, const std::string& file);
+/// `file`: its name, for errors. Throws core::InputError where the text is no certificate of this version.
+nlohmann::json parse_certificate(const std::string& text, const std::string& file);
+
+/// Of loci, zones and tasks over two lengths. Throws core::InputError where the object is none, FalseClaim where its
+/// cells are no partition.
+CertificateFile read_certificate(const nlohmann::json& root, const std::string& file);
 
 }  // namespace clearloci::check

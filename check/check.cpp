@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "check/arcs.hpp"
@@ -16,6 +17,7 @@
 #include "check/identity.hpp"
 #include "check/labels.hpp"
 #include "check/points.hpp"
+#include "check/pose_task.hpp"
 #include "check/task.hpp"
 #include "check/zones.hpp"
 #include "core/errors.hpp"
@@ -359,17 +361,35 @@ std::string bytes_of(const std::string& path) {
   return bytes;
 }
 
+/// A model's text is the certificate's. Returns what stands in the file.
+std::string certified_text(const std::string& text, const std::string& file, const std::string& in_certificate) {
+  std::string own = mechanism::model_text(text, file).text;
+  if (!same_text(own, in_certificate)) throw FalseClaim("model: it is not the file that the certificate was made for");
+  return own;
+}
+
+Examination examination_of_poses(const std::string& model_text, const std::string& model_file,
+                                 const PoseTaskClaim& claim, const Deadline& deadline) {
+  const std::string text = certified_text(model_text, model_file, claim.model);
+  const mechanism::Mechanism mechanism =
+      mechanism::without_idle_limits(mechanism::parse_mechanism(text, model_file, claim.overrides));
+  Examination examination;
+  check_pose_task(mechanism, claim, deadline, examination);
+  return examination;
+}
+
 }  // namespace
 
 Examination check_certificate_text(const std::string& model_text, const std::string& model_file,
                                    const std::string& certificate_text, const std::string& certificate_file,
                                    const Deadline& deadline) {
   try {
-    CertificateFile certificate = read_certificate(certificate_text, certificate_file);
+    const nlohmann::json root = parse_certificate(certificate_text, certificate_file);
+    if (root.contains("pose_task"))
+      return examination_of_poses(model_text, model_file, read_pose_task(root, certificate_file), deadline);
+    CertificateFile certificate = read_certificate(root, certificate_file);
     certificate.deadline = deadline;
-    const std::string own_text = mechanism::model_text(model_text, model_file).text;
-    if (!same_text(own_text, certificate.model))
-      throw FalseClaim("model: it is not the file that the certificate was made for");
+    const std::string own_text = certified_text(model_text, model_file, certificate.model);
     mechanism::Mechanism mechanism =
         mechanism::without_idle_limits(mechanism::parse_mechanism(own_text, model_file, certificate.overrides));
     // What is claimed of a pose is held against the model at that pose of the model's own.

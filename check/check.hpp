@@ -7,6 +7,8 @@
 //   zeros, curves                 zeros with proof; what the cells of a function prove about its curve
 //   plane, labels, arcs, points   arcs along those curves, what vanishes there, and at points
 //   zones, task, check            what rests on them; what is asked, one after the other
+//   jet, pose_equations           over any coordinates, in the plane and in space: values with slopes; the equations
+//   pose_cell, pose_task          reactions over a cell; that a task keeps clear of every locus
 #pragma once
 
 #include <chrono>

@@ -118,6 +118,16 @@ inline Interval root_of(const Interval& a) {
   mpfi_sqrt(r.get(), r.get());
   return r;
 }
+inline Interval cosine_of(const Interval& a) {
+  Interval r(a.bits());
+  mpfi_cos(r.get(), a.get());
+  return r;
+}
+inline Interval sine_of(const Interval& a) {
+  Interval r(a.bits());
+  mpfi_sin(r.get(), a.get());
+  return r;
+}
 /// The numbers of both; `b` where they have none in common.
 inline Interval meet(const Interval& a, const Interval& b) {
   Interval r(a.bits());

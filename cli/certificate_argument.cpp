@@ -9,29 +9,46 @@
 
 namespace clearloci::cli {
 
-void add_certificate_argument(CLI::App& command, std::string& file) {
-  command
-      .add_option("--certificate", file, "Also what was proven and how, for clearloci check; over two lengths, planar")
-      ->type_name("FILE");
-}
+namespace {
 
-void require_certifiable(const mechanism::Mechanism& mechanism) {
-  const bool lengths =
-      mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
-  if (mechanism.space == mechanism::Space::planar && lengths) return;
-  throw core::InputError({.file = "--certificate"}, "certificates are of planar mechanisms over two lengths",
-                         "leave it out for this mechanism");
-}
-
-void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
-                       const CommonArguments& arguments, const core::Certificate& certificate, const core::Task* task) {
+report::CertificateSource source_of(const std::string& command, const CommonArguments& arguments) {
   std::ifstream stream(arguments.model, std::ios::binary);
   report::CertificateSource source{command, {std::istreambuf_iterator<char>(stream), {}}, {}};
   for (const std::string& pair : arguments.overrides) {
     const std::size_t sign = pair.find('=');
     source.overrides.emplace_back(pair.substr(0, sign), sign == std::string::npos ? "" : pair.substr(sign + 1));
   }
-  staged.add(file, report::certificate_text(source, certificate, task));
+  return source;
+}
+
+}  // namespace
+
+void add_certificate_argument(CLI::App& command, std::string& file, const std::string& of) {
+  command.add_option("--certificate", file, "Also what was proven and how, for clearloci check; " + of)
+      ->type_name("FILE");
+}
+
+bool has_certified_loci(const mechanism::Mechanism& mechanism) {
+  const bool lengths =
+      mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
+  return mechanism.space == mechanism::Space::planar && lengths;
+}
+
+void require_certifiable(const mechanism::Mechanism& mechanism) {
+  if (has_certified_loci(mechanism)) return;
+  throw core::InputError({.file = "--certificate"},
+                         "certificates of loci and zones are of planar mechanisms over two lengths",
+                         "leave it out for this mechanism; verify has one of a task over any coordinates");
+}
+
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::Certificate& certificate, const core::Task* task) {
+  staged.add(file, report::certificate_text(source_of(command, arguments), certificate, task));
+}
+
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::TaskCertificate& certificate) {
+  staged.add(file, report::certificate_text(source_of(command, arguments), certificate));
 }
 
 }  // namespace clearloci::cli

@@ -11,14 +11,19 @@
 
 namespace clearloci::cli {
 
-void add_certificate_argument(CLI::App& command, std::string& file);
+/// `of`: what has one.
+void add_certificate_argument(CLI::App& command, std::string& file, const std::string& of);
 
-/// Throws core::InputError where the mechanism has no certificate: it is in space, or not over two lengths.
+/// Planar, over two lengths: loci and zones have certificates.
+bool has_certified_loci(const mechanism::Mechanism& mechanism);
+/// Throws core::InputError where they have none.
 void require_certifiable(const mechanism::Mechanism& mechanism);
 
 /// Adds `file`, which appears with the files of the answer that it certifies.
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::Certificate& certificate,
                        const core::Task* task = nullptr);
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::TaskCertificate& certificate);
 
 }  // namespace clearloci::cli

@@ -37,10 +37,14 @@ int run(const CheckCommand& arguments, TimeLimit& limit) {
                                         {"arcs", examination.arcs},
                                         {"points", examination.points},
                                         {"zones", examination.zones},
+                                        {"task_cells", examination.task_cells},
                                         {"open_share", examination.open_share},
                                         {"unchecked", examination.unchecked}}));
   } else if (!examination.accepted) {
     fmt::print("rejected: {}\n", why);
+  } else if (examination.cells == 0 && examination.task_cells > 0) {
+    fmt::print("accepted: the task, over {} cells\n", examination.task_cells);
+    for (const std::string& what : examination.unchecked) fmt::print("unchecked: {}\n", report::printable(what));
   } else {
     fmt::print("accepted: {} cells, {} graphs, {} crossings, {} arcs, {} points", examination.cells, examination.graphs,
                examination.crossings, examination.arcs, examination.points);
@@ -61,7 +65,7 @@ Command add_check_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("check", "Check a certificate against the model, with independent code");
   const auto arguments = std::make_shared<CheckCommand>();
   app->add_option("MODEL", arguments->common.model, "The mechanism file that the certificate was made for")->required();
-  app->add_option("FILE", arguments->certificate, "What --certificate of loci or zones wrote")->required();
+  app->add_option("FILE", arguments->certificate, "What --certificate of loci, zones or verify wrote")->required();
   app->add_option("--time-limit", arguments->common.time_limit,
                   "Seconds after which the check gives up, with exit status 3")
       ->type_name("SECONDS");

@@ -109,7 +109,7 @@ Command add_loci_command(CLI::App& program) {
       ->capture_default_str();
   app->add_flag("--exact", arguments->exact,
                 "Irrational numbers of closed forms in the table as roots, not as decimals");
-  add_certificate_argument(*app, arguments->certificate);
+  add_certificate_argument(*app, arguments->certificate, "over two lengths, planar");
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"
       "With three free coordinates the loci are surfaces:\n"

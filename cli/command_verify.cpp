@@ -10,6 +10,7 @@
 
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
+#include "analysis/task_certificate.hpp"
 #include "clearloci/verify.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
@@ -58,9 +59,19 @@ TaskFit parse_fit(const std::string& word) {
                          "choose from nearest, best, largest");
 }
 
+/// Whether a task is certified with the loci around it: what these do not cover is certified of the task alone.
+bool goes_with_loci(const mechanism::Mechanism& mechanism, const core::Task& task) {
+  const bool alone = std::holds_alternative<core::TaskBox>(task.shape) ||
+                     std::holds_alternative<core::TaskBall>(task.shape) ||
+                     std::holds_alternative<core::TaskPath>(task.shape);
+  const bool more = !task.tolerances.empty() || task.min_force || task.min_couple;
+  const bool other = task.loads || !task.loads_within.empty() || task.pose_error;
+  return has_certified_loci(mechanism) && (!more || other || !alone);
+}
+
 /// The loci of the file's load with their cells, and the task where it was verified.
-void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechanism, const Verification& result,
-             const LociRequest& request, report::StagedFiles& staged) {
+void certify_with_loci(const VerifyCommand& arguments, const mechanism::Mechanism& mechanism,
+                       const Verification& result, const LociRequest& request, report::StagedFiles& staged) {
   core::Certificate certificate;
   trace_loci(mechanism, request, &certificate);
   const bool nominal = result.verified() && !result.task.loads && result.task.tolerances.empty() &&
@@ -69,14 +80,23 @@ void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechani
   stage_certificate(staged, arguments.certificate, "verify", arguments.common, certificate, nominal ? &task : nullptr);
 }
 
+void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechanism, const Verification& result,
+             const LociRequest& request, report::StagedFiles& staged) {
+  if (goes_with_loci(mechanism, result.task)) return certify_with_loci(arguments, mechanism, result, request, staged);
+  if (!result.verified()) return;
+  stage_certificate(staged, arguments.certificate, "verify", arguments.common,
+                    certificate_of(mechanism, result.task, request));
+}
+
 int run(const VerifyCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
   const std::future<void> letters = report::prepare_pictures(formats);
   const Model model = Model::read(arguments.common.model, parse_overrides(arguments.common.overrides));
   const mechanism::Mechanism& mechanism = model.content().mechanism;
-  if (!arguments.certificate.empty()) require_certifiable(mechanism);
   VerifyRequest request{.fit = parse_fit(arguments.fit)};
   const Task task = read_task(arguments.task, model);
+  const bool certified = !arguments.certificate.empty();
+  if (certified && !goes_with_loci(mechanism, task)) require_certifiable(mechanism, task);
   limit.known([common = arguments.common, name = mechanism.name] {
     nlohmann::ordered_json body = incomplete_body(name, "the verdict was");
     body["verdict"] = to_string(core::Verdict::undecided);
@@ -87,7 +107,7 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
   request.loci = loci_request(arguments.loci, mechanism, progress, limit);
   const Verification result = verify(model, task, request);
   report::StagedFiles staged;
-  if (!arguments.certificate.empty()) certify(arguments, mechanism, result, request.loci, staged);
+  if (certified) certify(arguments, mechanism, result, request.loci, staged);
   progress.clear();
 
   const std::filesystem::path folder = output_folder(arguments.common);
@@ -102,6 +122,8 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
     fmt::print("{}", report::json_text(report::verification_object(result)));
   else if (!arguments.common.quiet)
     fmt::print("{}\n{}", report::verification_text(result), written_words(folder, files));
+  if (certified && !result.verified() && !arguments.common.json && !arguments.common.quiet)
+    fmt::print("No certificate of the task: it is not verified.\n");
   return status_of(result.verdict);
 }
 
@@ -130,7 +152,7 @@ Command add_verify_command(CLI::App& program) {
                               fmt::join(report::format_names<core::Verification>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
-  add_certificate_argument(*app, arguments->certificate);
+  add_certificate_argument(*app, arguments->certificate, "where the task is verified");
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
       "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a witness is confirmed\n"

@@ -80,7 +80,7 @@ Command add_zones_command(CLI::App& program) {
          "sharper")
       ->check(CLI::Range(1L, 100'000'000L))
       ->capture_default_str();
-  add_certificate_argument(*app, arguments->certificate);
+  add_certificate_argument(*app, arguments->certificate, "over two lengths, planar");
   app->footer(
       "Example: clearloci zones examples/five_bar.yaml --working-mode all\n"
       "The files go to ./out/<name of MODEL>, or to the folder of -o.");

@@ -9,6 +9,8 @@
 #include "clearloci/zones.hpp"
 #include "core/locus_factor.hpp"
 #include "core/locus_map.hpp"
+#include "core/task.hpp"
+#include "core/task_conditions.hpp"
 
 namespace clearloci::inline core {
 
@@ -54,6 +56,19 @@ struct Certificate {
   /// A free coordinate of the mechanism file is from + scale times the one that all of the above speaks of.
   std::array<Rational, 2> from{};
   Rational scale = 1;
+};
+
+/// A task over any coordinates that was verified: what is claimed of it, for someone else to prove anew.
+struct TaskCertificate {
+  std::vector<std::string> coordinates;
+  Task task;               ///< a box, a ball or a path
+  std::vector<int> sides;  ///< of the working mode, one a dyad or slider
+  struct Range {
+    std::string parameter;
+    Rational lower, upper;
+  };
+  std::vector<Range> parameters;  ///< that vary: SI
+  std::vector<TaskDemand> demands;
 };
 
 }  // namespace clearloci::inline core

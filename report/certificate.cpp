@@ -121,6 +121,22 @@ Json points_list(const core::Polyline& line) {
   return list;
 }
 
+/// What every certificate begins with.
+Json begun(const CertificateSource& source) {
+  Json root = {{"format", "clearloci-certificate"}, {"version", 1}, {"command", source.command}};
+  root["model"] = {{"text", source.model_text}, {"set", Json::array()}};
+  for (const auto& [name, value] : source.overrides) root["model"]["set"].push_back({name, value});
+  return root;
+}
+
+std::string text_of(const Json& root) { return root.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json pose_list(const core::RationalPose& pose) {
+  Json list = Json::array();
+  for (const core::Rational& value : pose) list.push_back(core::to_string(value));
+  return list;
+}
+
 Json task_object(const core::Task& task) {
   Json points = Json::array();
   const auto add = [&](const core::RationalPose& p) {
@@ -157,9 +173,7 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
   const auto mode_of = [&](const core::WorkingMode& mode) {
     return std::find(problem.modes.begin(), problem.modes.end(), mode) - problem.modes.begin();
   };
-  Json root = {{"format", "clearloci-certificate"}, {"version", 1}, {"command", source.command}};
-  root["model"] = {{"text", source.model_text}, {"set", Json::array()}};
-  for (const auto& [name, value] : source.overrides) root["model"]["set"].push_back({name, value});
+  Json root = begun(source);
   root["coordinates"] = problem.tower.coordinates;
   root["frame"] = {{"from", {core::to_string(certificate.from[0]), core::to_string(certificate.from[1])}},
                    {"scale", core::to_string(certificate.scale)}};
@@ -250,7 +264,42 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
                                {"certified", zone.certified}});
     }
   }
-  return root.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(root);
+}
+
+std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate) {
+  const core::Task& task = certificate.task;
+  Json root = begun(source);
+  root["coordinates"] = certificate.coordinates;
+  Json points = Json::array();
+  core::Rational radius = 0;
+  if (const auto* box = std::get_if<core::TaskBox>(&task.shape)) {
+    points.push_back(pose_list(box->lower));
+    points.push_back(pose_list(box->upper));
+  } else if (const auto* ball = std::get_if<core::TaskBall>(&task.shape)) {
+    points.push_back(pose_list(ball->centre));
+    radius = ball->radius;
+  } else {
+    for (const core::RationalPose& pose : std::get<core::TaskPath>(task.shape).points)
+      points.push_back(pose_list(pose));
+  }
+  Json parameters = Json::array(), demands = Json::array();
+  for (const core::TaskCertificate::Range& own : certificate.parameters)
+    parameters.push_back({own.parameter, core::to_string(own.lower), core::to_string(own.upper)});
+  for (const core::TaskDemand& own : certificate.demands)
+    demands.push_back({own.joint, core::to_string(own.quantity), core::to_string(own.least)});
+  std::string shape = core::kind_of(task.shape);
+  if (shape == "circle") shape = "ball";
+  root["pose_task"] = {{"shape", shape},
+                       {"points", std::move(points)},
+                       {"radius", core::to_string(radius)},
+                       {"margin", core::to_string(task.margin)},
+                       {"angle_length", task.angle_length ? Json(core::to_string(*task.angle_length)) : Json()},
+                       {"sides", certificate.sides},
+                       {"parameters", std::move(parameters)},
+                       {"demands", std::move(demands)},
+                       {"unchecked", Json::array()}};
+  return text_of(root);
 }
 
 }  // namespace clearloci::report

@@ -21,4 +21,7 @@ struct CertificateSource {
 std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
                              const core::Task* task = nullptr);
 
+/// Of a task over any coordinates.
+std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate);
+
 }  // namespace clearloci::report

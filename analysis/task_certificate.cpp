@@ -1,0 +1,43 @@
+#include "analysis/task_certificate.hpp"
+
+#include "analysis/pose_demands.hpp"
+#include "analysis/task_demands.hpp"
+#include "analysis/widened_task.hpp"
+#include "core/errors.hpp"
+#include "loci/tasks/tasks.hpp"
+#include "mechanism/open_design.hpp"
+
+namespace clearloci {
+
+void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task& task) {
+  const auto refuse = [](const std::string& what) {
+    throw core::InputError({.file = "--certificate"}, "there is no certificate of " + what, "leave --certificate out");
+  };
+  if (!mechanism.groups.empty()) refuse("mechanisms whose points close together");
+  if (task.loads || !task.loads_within.empty()) refuse("a task under other loads than the file's");
+  if (task.pose_error) refuse("a task that bounds the pose error");
+  if (!task.preload.empty() || !mechanism::joints_without_preload(mechanism).empty())
+    refuse("a task that chooses efforts");
+  if (std::holds_alternative<core::TaskPolygon>(task.shape) || std::holds_alternative<core::TaskMesh>(task.shape))
+    refuse("a polygon or a mesh over these coordinates");
+}
+
+core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, const core::Task& task,
+                                     const LociRequest& asked) {
+  const LociRequest request = request_of(task, asked);
+  core::TaskCertificate own{{}, task, requested_modes(mechanism, request).front(), {}, {}};
+  for (const mechanism::Coordinate& c : mechanism.coordinates) own.coordinates.push_back(c.name);
+  for (const core::Tolerance& tolerance : task.tolerances) {
+    const Rational& value = mechanism::parameter_named(mechanism, tolerance.parameter)->value;
+    own.parameters.push_back({tolerance.parameter, value + tolerance.below, value + tolerance.above});
+  }
+  const WidenedTask widened(mechanism, task);
+  const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
+  std::vector<numeric::NumericModel> models;
+  for (const mechanism::Mechanism& loaded : widened.loads()) models.push_back(numeric::compile(loaded));
+  std::vector<std::string> notes;
+  own.demands = loaded_demands(models, own.sides, demands_of(mechanism, request), region.samples(), notes);
+  return own;
+}
+
+}  // namespace clearloci

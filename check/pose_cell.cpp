@@ -1,0 +1,245 @@
+#include "check/pose_cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clearloci::check {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double ulp = 0x1p-52;
+
+/// A double within, and how far the others are from it at most.
+std::pair<double, double> ball_of(const Interval& x) {
+  if (!x.is_finite()) return {0, infinite};
+  const double low = x.lower(), high = x.upper(), c = low + 0.5 * (high - low);
+  return {c, std::max(high - c, c - low) * (1 + ulp)};
+}
+
+PoseForm form_of(const Jet& jet, const std::vector<double>& half) {
+  PoseForm form;
+  std::tie(form.c, form.r) = ball_of(jet.middle());
+  if (jet.is_constant()) return form;
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    const auto [slope, apart] = ball_of(jet.slopes()[i]);
+    form.a.push_back(slope * half[i]);
+    if (half[i] > 0) form.r += (apart + std::abs(slope) * ulp) * half[i] * (1 + ulp);
+  }
+  return form;
+}
+
+/// Sums of multiples of forms; their rounding is added last.
+class Sum {
+ public:
+  explicit Sum(std::size_t coordinates, double constant = 0) {
+    form_.a.assign(coordinates, 0.0);
+    form_.c = constant;
+    size_ = std::abs(constant);
+  }
+  void add(double factor, const PoseForm& own) {
+    form_.c += factor * own.c;
+    form_.r += std::abs(factor) * own.r;
+    double size = std::abs(own.c) + own.r;
+    for (std::size_t i = 0; i < own.a.size(); ++i) {
+      form_.a[i] += factor * own.a[i];
+      size += std::abs(own.a[i]);
+    }
+    size_ += std::abs(factor) * size;
+    ++terms_;
+  }
+  void widen(double by) { form_.r += by * (1 + ulp); }
+  PoseForm done() {
+    form_.r = (form_.r + (terms_ + 4.0) * ulp * size_) * (1 + (terms_ + 4.0) * ulp);
+    return form_;
+  }
+
+ private:
+  PoseForm form_;
+  double size_ = 0, terms_ = 0;
+};
+
+using Dense = std::vector<std::vector<double>>;
+
+/// By Gauss and Jordan, in doubles; nothing of it is trusted.
+std::optional<Dense> inverse_of(Dense a) {
+  const std::size_t n = a.size();
+  Dense inverse(n, std::vector<double>(n, 0.0));
+  for (std::size_t i = 0; i < n; ++i) inverse[i][i] = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k; i < n; ++i)
+      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
+    if (!(std::abs(a[pivot][k]) > 0) || !std::isfinite(a[pivot][k])) return std::nullopt;
+    std::swap(a[pivot], a[k]);
+    std::swap(inverse[pivot], inverse[k]);
+    const double scale = 1 / a[k][k];
+    for (std::size_t j = 0; j < n; ++j) {
+      a[k][j] *= scale;
+      inverse[k][j] *= scale;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const double factor = a[i][k];
+      if (i == k || factor == 0) continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        a[i][j] -= factor * a[k][j];
+        inverse[i][j] -= factor * inverse[k][j];
+      }
+    }
+  }
+  return inverse;
+}
+
+class Solved {
+ public:
+  Solved(const PoseEquations& equations, const Jet::Offsets& offsets) : equations_(equations), n_(equations.unknowns) {
+    for (const Interval& own : offsets) half_.push_back(std::max(std::abs(own.lower()), std::abs(own.upper())));
+    proof_.spreads.assign(half_.size(), 0.0);
+    for (const PoseEntry& entry : equations.matrix) entries_.push_back(form_of(entry.value, half_));
+  }
+
+  PoseCellProof run(const std::vector<core::TaskDemand>& demands) {
+    proof_.demands.assign(demands.size(), false);
+    if (!solve_middle()) return proof_;
+    enclose();
+    if (!proof_.regular) return proof_;
+    for (std::size_t d = 0; d < demands.size(); ++d)
+      proof_.demands[d] = keeps(equations_.demands[d], std::nextafter(demands[d].least.get_d(), infinite));
+    return proof_;
+  }
+
+ private:
+  bool solve_middle() {
+    Dense middle(n_, std::vector<double>(n_, 0.0));
+    for (std::size_t e = 0; e < entries_.size(); ++e)
+      middle[equations_.matrix[e].row][equations_.matrix[e].unknown] += entries_[e].c;
+    auto inverse = inverse_of(std::move(middle));
+    if (!inverse) return false;
+    inverse_ = std::move(*inverse);
+    w0_.assign(n_, 0.0);
+    for (std::size_t i = 0; i < n_; ++i) {
+      right_.push_back(form_of(equations_.right[i], half_));
+      for (std::size_t k = 0; k < n_; ++k) w0_[k] += inverse_[k][i] * right_[i].c;
+    }
+    double most = 0;
+    for (const double own : w0_) most = std::max(most, std::abs(own));
+    for (const double own : w0_) scale_.push_back(std::abs(own) + 1e-3 * most + 1e-300);
+    return std::isfinite(most);
+  }
+
+  void enclose() {
+    std::vector<Sum> residual;
+    for (std::size_t i = 0; i < n_; ++i) {
+      residual.emplace_back(half_.size());
+      residual.back().add(1, right_[i]);
+    }
+    std::vector<std::vector<std::size_t>> of_unknown(n_);
+    for (std::size_t e = 0; e < entries_.size(); ++e) {
+      const PoseEntry& entry = equations_.matrix[e];
+      residual[entry.row].add(-w0_[entry.unknown], entries_[e]);
+      of_unknown[entry.unknown].push_back(e);
+    }
+    std::vector<PoseForm> left;
+    for (Sum& own : residual) left.push_back(own.done());
+    Dense bound(n_, std::vector<double>(n_, 0.0));
+    for (std::size_t k = 0; k < n_; ++k) {
+      Sum rho(half_.size());
+      for (std::size_t i = 0; i < n_; ++i)
+        if (inverse_[k][i] != 0) rho.add(inverse_[k][i], left[i]);
+      rho_.push_back(rho.done());
+      note(rho_.back(), 1 / scale_[k]);
+      for (std::size_t j = 0; j < n_; ++j) {
+        Sum sum(half_.size(), k == j ? 1.0 : 0.0);
+        for (const std::size_t e : of_unknown[j]) sum.add(-inverse_[k][equations_.matrix[e].row], entries_[e]);
+        const PoseForm form = sum.done();
+        note(form, scale_[j] / scale_[k]);
+        bound[k][j] = form.magnitude();
+      }
+    }
+    proof_.regular = find_radius(bound);
+  }
+
+  void note(const PoseForm& form, double per) {
+    for (std::size_t c = 0; c < form.a.size(); ++c) proof_.spreads[c] += std::abs(form.a[c]) * per;
+  }
+
+  /// d with |rho| + |E| d <= d and |E| d < d.
+  bool find_radius(const Dense& bound) {
+    radius_.clear();
+    constexpr double part = 1e-9;
+    for (std::size_t k = 0; k < n_; ++k) radius_.push_back(1.01 * rho_[k].magnitude() + part * scale_[k]);
+    rest_.assign(n_, 0.0);
+    constexpr int attempts = 20;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      bool inside = true;
+      std::vector<double> next = radius_;
+      for (std::size_t k = 0; k < n_; ++k) {
+        double sum = 0;
+        for (std::size_t j = 0; j < n_; ++j) sum += bound[k][j] * radius_[j];
+        rest_[k] = sum * (1 + static_cast<double>(n_ + 2) * ulp);
+        const double all = (rest_[k] + rho_[k].magnitude()) * (1 + 4 * ulp);
+        if (!std::isfinite(all)) return false;
+        inside = inside && all <= radius_[k] && rest_[k] < radius_[k];
+        next[k] = std::max(radius_[k], 1.1 * all + part * scale_[k]);
+      }
+      if (inside) return true;
+      radius_ = std::move(next);
+    }
+    return false;
+  }
+
+  bool keeps(const std::vector<PoseEntry>& entries, double least) {
+    std::size_t count = 0;
+    for (const PoseEntry& entry : entries) count = std::max(count, entry.row + 1);
+    std::vector<Sum> sums(count, Sum(half_.size()));
+    for (const PoseEntry& entry : entries) {
+      const PoseForm q = form_of(entry.value, half_);
+      Sum& sum = sums[entry.row];
+      sum.add(w0_[entry.unknown], q);
+      sum.add(q.c, rho_[entry.unknown]);
+      sum.widen((q.spread() + q.r) * radius_[entry.unknown] + std::abs(q.c) * rest_[entry.unknown]);
+    }
+    // Along its direction at the middle.
+    std::vector<PoseForm> components;
+    double square = 0;
+    for (Sum& sum : sums) {
+      components.push_back(sum.done());
+      square += components.back().c * components.back().c;
+    }
+    const double length = std::sqrt(square) * (1 + 8 * ulp);
+    if (!(length > 0) || !std::isfinite(length)) return false;
+    Sum along(half_.size());
+    for (const PoseForm& own : components) along.add(own.c / length, own);
+    const PoseForm form = along.done();
+    note(form, 1 / length);
+    return form.lower() > least * (1 + 16 * ulp);
+  }
+
+  const PoseEquations& equations_;
+  std::size_t n_;
+  std::vector<double> half_, w0_, scale_, radius_, rest_;
+  std::vector<PoseForm> entries_, right_, rho_;
+  Dense inverse_;
+  PoseCellProof proof_;
+};
+
+}  // namespace
+
+double PoseForm::spread() const {
+  double sum = 0;
+  for (const double own : a) sum += std::abs(own);
+  return sum * (1 + 16 * ulp);
+}
+
+double PoseForm::magnitude() const { return (std::abs(c) + spread() + r) * (1 + 4 * ulp); }
+
+bool PoseCellProof::holds() const {
+  return regular && std::all_of(demands.begin(), demands.end(), [](bool own) { return own; });
+}
+
+PoseCellProof prove_cell(const PoseEquations& equations, const std::vector<core::TaskDemand>& demands,
+                         const Jet::Offsets& offsets) {
+  return Solved(equations, offsets).run(demands);
+}
+
+}  // namespace clearloci::check

@@ -1,0 +1,51 @@
+// That a mechanism keeps clear of every locus over a task of poses, over one to six coordinates, and of the parameters
+// that vary within tolerances: cells that cover the task and its margin, each shown by equations of the checker's own.
+// Private to check/.
+//
+// Over a cell with the middle m, C is an inverse of A(m) in doubles, w0 one of the solution, and E = I - C A. With
+// rho = C (b - A w0) each solution w over the cell has
+//     w - w0 = rho + E (w - w0),   |w - w0| <= d where |rho| + |E| d <= d
+// and A is regular where |E| d < d for a d above 0 (Neumaier, Interval Methods for Systems of Equations, section 4.1).
+// rho and the sums of reactions keep their slopes, so that what is left of a cell shrinks with its square.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/check.hpp"
+#include "core/rational.hpp"
+#include "core/task_conditions.hpp"
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::check {
+
+/// Exact numbers in m and rad.
+struct PoseTaskClaim {
+  std::string model;  ///< its text
+  std::vector<std::pair<std::string, std::string>> overrides;
+  std::vector<std::string> coordinates;
+  std::string shape;                                ///< "box", "ball", "path"
+  std::vector<std::vector<core::Rational>> points;  ///< opposite corners; the centre; corners
+  core::Rational radius, margin;
+  std::optional<core::Rational> angle_length;
+  std::vector<int> sides;  ///< one a dyad or slider
+  struct Range {
+    std::string parameter;
+    core::Rational lower, upper;
+  };
+  std::vector<Range> parameters;
+  std::vector<core::TaskDemand> demands;
+  std::vector<std::string> unchecked;
+};
+
+/// Throws core::InputError where the object is none.
+PoseTaskClaim read_pose_task(const nlohmann::json& root, const std::string& file);
+
+/// Throws FalseClaim for what is not shown, core::InputError for what check does not know, core::LimitReached where the
+/// deadline comes first.
+void check_pose_task(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
+                     Examination& examination);
+
+}  // namespace clearloci::check

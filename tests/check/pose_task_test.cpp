@@ -1,0 +1,125 @@
+// Certificates of tasks over any coordinates: what was verified is proven anew, and what is made false is rejected.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "analysis/task_certificate.hpp"
+#include "clearloci/verify.hpp"
+#include "mechanism/read_task.hpp"
+#include "tests/check/certified.hpp"
+#include "tests/laws/judged.hpp"
+
+namespace clearloci::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Certified {
+  std::string model, certificate;
+  bool verified = false;
+};
+
+Certified certified(const std::string& model, const std::string& task_text) {
+  const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml");
+  const core::Task task = mechanism::parse_task("format: 1\n" + task_text, "task.yaml", mechanism);
+  require_certifiable(mechanism, task);
+  return {model, report::certificate_text({"verify", model, {}}, clearloci::certificate_of(mechanism, task, {})),
+          decided(mechanism, task).verified()};
+}
+
+struct Case {
+  const char* name;
+  const char* model;
+  const char* task;
+};
+
+class TasksOfExamples : public testing::TestWithParam<Case> {};
+
+TEST_P(TasksOfExamples, AreProvenAnew) {
+  const Certified own = certified(example(GetParam().model), GetParam().task);
+  ASSERT_TRUE(own.verified);
+  const check::Examination examination = examination_of(own.model, own.certificate);
+  EXPECT_TRUE(examination.accepted) << examination.why;
+  EXPECT_GT(examination.task_cells, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shipped, TasksOfExamples,
+    testing::Values(Case{"OverAnAngle", "four_bar.yaml", "box: {theta: [70 deg, 80 deg]}\n"},
+                    Case{"WithLeastForces", "five_bar.yaml",
+                         "path: [[0, -0.7], [0, -0.675], [0.5, -0.675], [0.5, -0.7]]\nmargin: 0.01\nmin_force: 2\n"},
+                    Case{"WithinTolerances", "five_bar.yaml",
+                         "circle: {centre: [0.25, -0.6], radius: 0.02}\ntolerances: {L: 1e-3}\n"},
+                    Case{"OfGuides", "prrrp.yaml", "box: {x: [0.2, 0.22], y: [0.1, 0.12]}\nmin_force: 1e-3\n"},
+                    Case{"WithOrientations", "three_rpr_orientation.yaml",
+                         "box: {x: [0.1, 0.12], y: [0.1, 0.12], phi: [10 deg, 12 deg]}\n"},
+                    Case{"InSpace", "three_upu.yaml", "box: {x: [0.1, 0.12], y: [0.05, 0.07], z: [0.5, 0.55]}\n"},
+                    Case{"OfPinsInSpace", "delta.yaml", "box: {x: [0.05, 0.07], y: [0.03, 0.05], z: [-0.7, -0.68]}\n"},
+                    Case{"OverSixCoordinates", "gough_stewart_poses.yaml",
+                         "box: {x: [-0.02, 0.02], y: [-0.02, 0.02], z: [0.48, 0.52], alpha: [-2 deg, 2 deg], "
+                         "beta: [-2 deg, 2 deg], gamma: [-2 deg, 2 deg]}\nangle_length: 0.2\nmargin: 0.01\n"
+                         "tolerances: {plate: 2e-3}\n"}),
+    [](const auto& own) { return std::string(own.param.name); });
+
+/// The three-RPR over orientations, whose actuators' and pins' forces are asked for.
+Certified platform() {
+  return certified(example("three_rpr_orientation.yaml"),
+                   "box: {x: [0.1, 0.12], y: [0.1, 0.12], phi: [10 deg, 12 deg]}\n");
+}
+
+TEST(PoseTaskCertificate, IsRejectedWhereAClaimIsMadeFalse) {
+  const Certified own = platform();
+  ASSERT_TRUE(examination_of(own.model, own.certificate).accepted);
+  const std::vector<std::pair<const char*, std::function<void(Json&)>>> changes = {
+      {"a box that reaches a locus",
+       [](Json& c) {
+         c["pose_task"]["points"][0] = {"-9/10", "-9/10", "-3"};
+       }},
+      {"a margin beyond the loci", [](Json& c) { c["pose_task"]["margin"] = "2"; }},
+      {"a box inside out", [](Json& c) { std::swap(c["pose_task"]["points"][0], c["pose_task"]["points"][1]); }},
+      {"more force than there is", [](Json& c) { c["pose_task"]["demands"][0][2] = "100000"; }},
+      {"a joint that is none", [](Json& c) { c["pose_task"]["demands"][0][0] = "Q9"; }},
+      {"a quantity that nothing bears", [](Json& c) { c["pose_task"]["demands"][0][1] = "end_ahead"; }},
+      {"no demands", [](Json& c) { c["pose_task"]["demands"] = Json::array(); }},
+      {"a side too many", [](Json& c) { c["pose_task"]["sides"].push_back(1); }},
+      {"a parameter away from its value",
+       [](Json& c) {
+         c["pose_task"]["parameters"] = {{"r", "1", "2"}, {"r", "1", "2"}};
+       }},
+      {"a parameter of another model",
+       [](Json& c) {
+         c["pose_task"]["parameters"] = {{"q", "1", "2"}, {"q", "1", "2"}};
+       }},
+      {"coordinates in another order", [](Json& c) { std::swap(c["coordinates"][0], c["coordinates"][1]); }},
+      {"another model", [](Json& c) { c["model"]["text"] = example("three_rrr_orientation.yaml"); }},
+  };
+  for (const auto& [what, change] : changes) {
+    Json changed = Json::parse(own.certificate);
+    change(changed);
+    try {
+      EXPECT_FALSE(examination_of(own.model, changed.dump()).accepted) << what;
+    } catch (const core::InputError&) {
+      SUCCEED() << "it is no certificate any more";
+    }
+  }
+}
+
+// Where the program refutes a task, no certificate of it is accepted: the checker finds the locus too.
+TEST(PoseTaskCertificate, OfARefutedTaskIsRejected) {
+  const Certified own = certified(example("four_bar.yaml"), "box: {theta: [10 deg, 170 deg]}\n");
+  ASSERT_FALSE(own.verified);
+  const check::Examination examination = examination_of(own.model, own.certificate);
+  EXPECT_FALSE(examination.accepted);
+  EXPECT_NE(examination.why.find("theta"), std::string::npos) << examination.why;
+}
+
+TEST(PoseTaskCertificate, OfWhatIsNotCertifiedIsRefused) {
+  const std::string model = example("four_bar.yaml");
+  for (const char* task : {"box: {theta: [70 deg, 80 deg]}\npose_error: 1e-3\n",
+                           "box: {theta: [70 deg, 80 deg]}\nloads_from: [[-5, -100], [5, -100]]\n"})
+    EXPECT_THROW(certified(model, task), core::InputError) << task;
+  EXPECT_THROW(certified(example("double_butterfly.yaml"), "box: {theta: [100 deg, 101 deg]}\n"), core::InputError);
+}
+
+}  // namespace
+}  // namespace clearloci::test
