@@ -92,6 +92,15 @@ MaybePoints points_at(const Mechanism& mechanism, const Values& values, const st
   return points;
 }
 
+std::optional<PosturePoints> complete(const MaybePoints& points) {
+  PosturePoints posture;
+  for (const std::optional<Vector>& point : points) {
+    if (!point) return std::nullopt;
+    posture.push_back(*point);
+  }
+  return posture;
+}
+
 }  // namespace
 
 std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, const VectorExpression& vector,
@@ -102,10 +111,22 @@ std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, c
   return if_finite(Placement<Doubles>(mechanism, sides, {values, of_groups}).vector(vector));
 }
 
-MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
-  const std::vector<int> sides = working_mode(mechanism);
+namespace {
+
+MaybePoints points_at(const Mechanism& mechanism, const std::vector<double>& pose, const std::vector<int>& sides) {
   const std::vector<double> of_groups = GroupClosing(mechanism, sides).at(pose).value_or(std::vector<double>{});
   return points_at(mechanism, values_of(mechanism, pose), of_groups, sides);
+}
+
+}  // namespace
+
+MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
+  return points_at(mechanism, pose, working_mode(mechanism));
+}
+
+std::optional<PosturePoints> sample_posture(const Mechanism& mechanism, const std::vector<double>& pose,
+                                            const std::vector<int>& sides) {
+  return complete(points_at(mechanism, pose, sides));
 }
 
 std::vector<SampledPosture> sample_poses(const Mechanism& mechanism, const std::vector<int>& sides, std::size_t count) {
@@ -120,10 +141,8 @@ std::vector<SampledPosture> sample_poses(const Mechanism& mechanism, const std::
       put_pose(values, mechanism, pose);
       const std::optional<std::vector<double>> of_groups = closing.at(pose);
       if (!of_groups) continue;
-      PosturePoints posture;
-      for (const std::optional<Vector>& point : points_at(mechanism, values, *of_groups, sides))
-        if (point) posture.push_back(*point);
-      if (posture.size() == mechanism.points.size()) postures.push_back({std::move(pose), std::move(posture)});
+      if (std::optional<PosturePoints> posture = complete(points_at(mechanism, values, *of_groups, sides)))
+        postures.push_back({std::move(pose), std::move(*posture)});
     }
   }
   return postures;

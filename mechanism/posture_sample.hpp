@@ -26,6 +26,10 @@ std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, c
 /// Up to `count` complete postures; fewer where the mechanism closes in few of 4096 poses.
 std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count);
 
+/// The complete posture at a pose in any working mode; nothing where it does not close.
+std::optional<PosturePoints> sample_posture(const Mechanism& mechanism, const std::vector<double>& pose,
+                                            const std::vector<int>& sides);
+
 struct SampledPosture {
   std::vector<double> pose;
   PosturePoints points;

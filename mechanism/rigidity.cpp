@@ -300,15 +300,18 @@ void check_rigidity(const Mechanism& mechanism) {
   }
 }
 
+bool keeps(const HeldDistance& held, const PosturePoints& points) {
+  const double now =
+      distance(points[static_cast<std::size_t>(held.first)], points[static_cast<std::size_t>(held.second)]);
+  return std::abs(now * now / (held.length * held.length) - 1) <= bending;
+}
+
+bool keeps(const HeldTurn& held, const PosturePoints& points) { return turn_of(held.points, points) / held.size > 0; }
+
 bool keeps(const HeldByLinks& held, const PosturePoints& points) {
-  const auto is_long = [&](const HeldDistance& own) {
-    const double now =
-        distance(points[static_cast<std::size_t>(own.first)], points[static_cast<std::size_t>(own.second)]);
-    return std::abs(now * now / (own.length * own.length) - 1) <= bending;
-  };
-  const auto turns = [&](const HeldTurn& own) { return turn_of(own.points, points) / own.size > 0; };
-  return std::all_of(held.distances.begin(), held.distances.end(), is_long) &&
-         std::all_of(held.turns.begin(), held.turns.end(), turns);
+  const auto kept = [&](const auto& own) { return keeps(own, points); };
+  return std::all_of(held.distances.begin(), held.distances.end(), kept) &&
+         std::all_of(held.turns.begin(), held.turns.end(), kept);
 }
 
 std::string words_of(const Mechanism& mechanism, const HeldDistance& held) {

@@ -43,6 +43,8 @@ inline constexpr double bending = 1e-8;
 HeldByLinks held_by_links(const Mechanism& mechanism);
 
 /// Whether a posture bends no link, to `bending`.
+bool keeps(const HeldDistance& held, const std::vector<std::array<double, 3>>& points);
+bool keeps(const HeldTurn& held, const std::vector<std::array<double, 3>>& points);
 bool keeps(const HeldByLinks& held, const std::vector<std::array<double, 3>>& points);
 
 /// "distance C1-Q1 of the rigid link rod2".

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/powers_of_two.hpp"
 #include "mechanism/evaluate.hpp"
 #include "symbolic/geometry.hpp"
 
@@ -101,6 +102,13 @@ void Geometry::lighten(TowerPoint& place) const {
     while (place.w.divides(divisor, w) && place.x.divides(divisor, x) && place.y.divides(divisor, y) &&
            place.z.divides(divisor, z))
       place = {x, y, z, w};
+  // Divisors are primitive: by the powers of two that they leave behind places would leave the range of doubles.
+  const core::Polynomial plain = place.w.plain();
+  const Rational unit = core::scaled_for_doubles(plain).terms.front().coefficient / plain.terms.front().coefficient;
+  constexpr long far = 64;  // powers of two
+  const Rational most = core::times_power_of_two(1, far), least = 1 / most;
+  if (least <= unit && unit <= most) return;
+  for (Poly* const part : {&place.x, &place.y, &place.z, &place.w}) *part = part->scaled(unit);
 }
 
 TowerPoint Geometry::difference(const TowerPoint& to, const TowerPoint& from) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "mechanism/evaluate.hpp"
@@ -27,41 +28,49 @@ Poly squared_distance(const Geometry& geometry, const HeldDistance& held) {
   return sum;
 }
 
-Poly turn(const Geometry& geometry, const HeldTurn& held) {
-  const auto a = way(geometry, held.points[0], held.points[1]), b = way(geometry, held.points[0], held.points[2]);
-  Poly z = a[0] * b[1] - a[1] * b[0];
-  if (held.points.size() == 3) return z;
-  const auto c = way(geometry, held.points[0], held.points[3]);
-  return (a[1] * b[2] - a[2] * b[1]) * c[0] + (a[2] * b[0] - a[0] * b[2]) * c[1] + z * c[2];
+/// A pose, given by the values of the ring's coordinates: of an angle the half tangent of its chart.
+std::vector<double> pose_of(const Geometry& geometry, const std::vector<double>& at) {
+  std::vector<double> pose;
+  for (std::size_t i = 0; i < geometry.charts().size(); ++i) {
+    const auto& chart = geometry.charts()[i];
+    pose.push_back(chart ? chart->half_turns * std::numbers::pi + 2 * std::atan(at[i]) : at[i]);
+  }
+  return pose;
 }
 
-/// Some poses of a sheet in a mode: the values of all ring variables that its elements are written in.
-std::vector<std::vector<double>> poses_of(const Geometry& geometry, const std::vector<int>& sides) {
+/// Whether the roots exist at a pose, on the chosen sides of all folds: fills in their values.
+bool put_roots(const Geometry& geometry, const std::vector<int>& sides, const std::vector<core::Polynomial>& squares,
+               const std::vector<core::Polynomial>& folds, std::vector<double>& at) {
+  std::size_t dyad = 0;
+  for (std::size_t j = 0; j < squares.size(); ++j) {
+    const TowerRoot& root = geometry.roots()[j];
+    const double square = core::evaluate(squares[j], std::span<const double>(at));
+    const int side = root.role == core::RootRole::working_mode ? sides[dyad++] : 1;
+    if (!(square > 0)) return false;
+    at[static_cast<std::size_t>(root.variable)] = (root.value ? 1 : side) * std::sqrt(square);
+  }
+  return std::all_of(folds.begin(), folds.end(), [&](const core::Polynomial& fold) {
+    return core::evaluate(fold, std::span<const double>(at)) > 0;
+  });
+}
+
+/// Some postures of a sheet in a mode. The points are placed one after the other: expanded over the tower their
+/// coordinates would have numbers beyond the range of doubles.
+std::vector<mechanism::PosturePoints> postures_of(const Geometry& geometry, const std::vector<int>& sides) {
   constexpr std::size_t tries = 4096, enough = 6;
   const mechanism::Mechanism& m = geometry.mechanism();
   std::vector<core::Polynomial> squares, folds;
   for (const TowerRoot& root : geometry.roots()) squares.push_back(root.square.plain());
-  for (const Fold& fold : geometry.folds()) folds.push_back(fold.where.plain());
-  std::vector<std::vector<double>> found;
-  for (std::vector<double>& pose : mechanism::spread_poses(m, tries)) {
+  for (const Fold& fold : geometry.folds()) folds.push_back(core::scaled_for_doubles(fold.where.plain()));
+  std::vector<mechanism::PosturePoints> found;
+  for (const std::vector<double>& pose : mechanism::spread_poses(m, tries)) {
     std::vector<double> at(static_cast<std::size_t>(geometry.ring().size()), 0.0);
     for (std::size_t i = 0; i < pose.size(); ++i) {
       const double lower = core::to_double(m.coordinates[i].lower), upper = core::to_double(m.coordinates[i].upper);
-      // Of an angle the half tangent of its chart, from end to end.
-      at[i] = geometry.charts()[i] ? 2 * (pose[i] - lower) / (upper - lower) - 1 : pose[i];
+      at[i] = geometry.charts()[i] ? 2 * (pose[i] - lower) / (upper - lower) - 1 : pose[i];  // from end to end
     }
-    std::size_t dyad = 0;
-    bool placed = true;
-    for (std::size_t j = 0; j < squares.size() && placed; ++j) {
-      const TowerRoot& root = geometry.roots()[j];
-      const double square = core::evaluate(squares[j], std::span<const double>(at));
-      const int side = root.role == core::RootRole::working_mode ? sides[dyad++] : 1;
-      placed = square > 0;
-      at[static_cast<std::size_t>(root.variable)] = (root.value ? 1 : side) * std::sqrt(square);
-    }
-    for (std::size_t k = 0; k < folds.size() && placed; ++k)
-      placed = core::evaluate(folds[k], std::span<const double>(at)) > 0;
-    if (placed) found.push_back(std::move(at));
+    if (!put_roots(geometry, sides, squares, folds, at)) continue;
+    if (auto posture = mechanism::sample_posture(m, pose_of(geometry, at), sides)) found.push_back(std::move(*posture));
     if (found.size() == enough) break;
   }
   return found;
@@ -79,19 +88,15 @@ std::optional<Quotient> over_tower(const Geometry& geometry, const Elimination& 
   return Quotient{std::move(parts[0]), std::move(parts[1])};
 }
 
-double value_at(const Quotient& quotient, const std::vector<double>& at) {
-  const std::span<const double> values(at);
-  return core::evaluate(quotient.above.plain(), values) / core::evaluate(quotient.below.plain(), values);
-}
-
 /// Whether a quotient of elements is one number, rational or made of roots of numbers, all over the tower.
-bool is_constant(const Geometry& geometry, const Elimination& elimination, const Poly& natural,
-                 const Quotient& quotient) {
+bool is_constant(const Geometry& geometry, const Elimination& elimination, const Poly& natural) {
   if (elimination.constant_over_tower(natural)) return true;
+  const std::optional<Quotient> quotient = over_tower(geometry, elimination, natural);
+  if (!quotient) return false;
   std::vector<TowerRoot> roots;
   for (const TowerRoot& root : geometry.roots())
     if (!root.is_angle() && (!root.value || root.square.constant() != 1)) roots.push_back(root);
-  const std::optional<Poly> whole = quotient_over_tower(quotient.above, quotient.below, roots);
+  const std::optional<Poly> whole = quotient_over_tower(quotient->above, quotient->below, roots);
   if (!whole) return false;
   const std::vector<int> variables = geometry.tower_variables();
   return std::none_of(variables.begin(), variables.end(), [&](int variable) {
@@ -131,26 +136,20 @@ bool stands_for_irrational(const mechanism::Mechanism& m) {
 
 std::optional<std::string> what_bends(const Geometry& geometry, const Elimination& elimination,
                                       const mechanism::HeldByLinks& held, const std::vector<int>& sides) {
-  constexpr double motion = 1e-9;  // of a squared length: more than rounding makes
   const mechanism::Mechanism& m = geometry.mechanism();
-  const std::vector<std::vector<double>> poses = poses_of(geometry, sides);
-  if (poses.empty()) return std::nullopt;  // nothing of the sheet is in the box
-  for (const HeldDistance& own : held.distances) {
-    const Poly natural = squared_distance(geometry, own);
-    const std::optional<Quotient> quotient = over_tower(geometry, elimination, natural);
-    const double squared = own.length * own.length;
-    const bool moves = !quotient || std::any_of(poses.begin(), poses.end(), [&](const std::vector<double>& at) {
-      return !(std::abs(value_at(*quotient, at) - squared) <= motion * squared);
-    });
-    if (moves || (!is_constant(geometry, elimination, natural, *quotient) && !stands_for_irrational(m)))
+  const std::vector<mechanism::PosturePoints> postures = postures_of(geometry, sides);
+  if (postures.empty()) return std::nullopt;  // nothing of the sheet is in the box
+  const auto kept = [&](const auto& own) {
+    return std::all_of(postures.begin(), postures.end(),
+                       [&](const mechanism::PosturePoints& points) { return mechanism::keeps(own, points); });
+  };
+  for (const HeldDistance& own : held.distances)
+    if (!kept(own) ||
+        (!is_constant(geometry, elimination, squared_distance(geometry, own)) && !stands_for_irrational(m)))
       return "the " + mechanism::words_of(m, own) + " changes";
-  }
-  for (const HeldTurn& own : held.turns) {
-    const std::optional<Quotient> quotient = over_tower(geometry, elimination, turn(geometry, own));
-    // A constant on the sheet, since the distances are: its sign is that at one pose.
-    if (!quotient || !(value_at(*quotient, poses.front()) / own.size > 0))
-      return "the " + mechanism::words_of(m, own) + " is the other one";
-  }
+  // Constants on the sheet, since the distances are.
+  for (const HeldTurn& own : held.turns)
+    if (!kept(own)) return "the " + mechanism::words_of(m, own) + " is the other one";
   return std::nullopt;
 }
 

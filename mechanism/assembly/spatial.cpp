@@ -19,9 +19,6 @@ namespace {
 
 constexpr double close = 1e-9;  // of vectors' lengths: what a drawing means to be in line
 
-/// Of drawn decimals that stand for irrational places, where a length is given besides.
-constexpr double meant = 1e-6;
-
 struct SpaceLocus {
   enum class Kind { sphere, circle, line } kind = Kind::sphere;
   std::function<int()> base;  ///< the centre, or a point of the line
@@ -57,7 +54,7 @@ class SpatialConstruction : public SpatialTurning {
       if (!is_turned(link) || bases.empty()) continue;
       const Attitude& own = attitude(link);
       if (own.triad && !own.by_shape && !shape(link).is_drawn()) {
-        if (put_across_axis(link, point)) return true;
+        if (put_about_axis(link, point)) return true;
         refuse_about_axis(link, point);
       }
       if (!own.frame.empty()) {
@@ -73,8 +70,8 @@ class SpatialConstruction : public SpatialTurning {
     return false;
   }
 
-  /// In the plane across the axis of its hinge: a dyad of the hinge and another known point.
-  bool put_across_axis(LinkIndex link, PointIndex point) {
+  /// On its circle about the axis of its hinge, as far from another known point as its length says.
+  bool put_about_axis(LinkIndex link, PointIndex point) {
     const auto hinge = hinge_of(link);
     if (!hinge || !is_known(d_.joint(*hinge).at) || !turns_with_drawing(link, *hinge, point)) return false;
     std::vector<SpaceLocus> circles;
@@ -148,8 +145,7 @@ class SpatialConstruction : public SpatialTurning {
       const LinkIndex base = other_of(d_.joint(*hinge), link);
       own.axis = base == ground ? written_axis(*hinge) : direction_text(base, own.direction);
       if (!shape(link).is_drawn()) {
-        own.radius = shape(link).distance(at, point).text();
-        own.base = [this, at] { return handle(at); };
+        set_circle_by_length(own, link, at, point, base);
       } else {
         set_circle(own, at, d_.at(point).at - d_.at(at).at,
                    [this, base, at](const Amounts& along) { return shifted(at, image(base, along), along); });
@@ -170,14 +166,21 @@ class SpatialConstruction : public SpatialTurning {
     return true;
   }
 
-  /// Whether the circle of a point about a hinge is told: of lengths that are given where it lies across the axis.
+  /// Whether the circle of a point about a hinge is told: its place along the axis by the drawing.
   bool turns_with_drawing(LinkIndex link, JointIndex hinge, PointIndex point) const {
     const PointIndex at = d_.joint(hinge).at;
     if (!d_.at(at).is_exact || !d_.at(point).is_exact) return false;
-    if (shape(link).is_drawn()) return true;
-    const Amounts axis = *drawn_axis(hinge), way = d_.at(point).at - d_.at(at).at;
-    return shape(link).has(at) && shape(link).has(point) &&
-           std::abs(dot(axis, way).value()) <= meant * size_of(axis) * size_of(way);
+    return shape(link).is_drawn() || (shape(link).has(at) && shape(link).has(point));
+  }
+
+  /// The length that is given, and along the axis what is drawn, tell the radius.
+  void set_circle_by_length(SpaceLocus& own, LinkIndex link, PointIndex at, PointIndex point, LinkIndex base) {
+    const Amounts along = part_along(d_.at(point).at - d_.at(at).at, own.direction);
+    own.radius = beside(link, at, point, along).text();
+    if (size_of(along) == 0)
+      own.base = [this, at] { return handle(at); };
+    else
+      own.base = [this, at, base, along] { return shifted(at, image(base, along), along); };
   }
 
   template <typename Shift>

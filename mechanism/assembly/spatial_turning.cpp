@@ -11,6 +11,9 @@ namespace {
 
 constexpr double aligned = 1e-9;
 
+/// Of drawn decimals that stand for irrational places, where a length is given besides.
+constexpr double meant = 1e-6;
+
 /// v by its parts along three vectors.
 std::array<Amount, 3> parts(const Amounts& v, const std::array<Amounts, 3>& base) {
   const Amount volume = dot(base[0], cross(base[1], base[2]));
@@ -192,6 +195,24 @@ bool SpatialTurning::turn_by_points(LinkIndex link) {
   return false;
 }
 
+Amounts part_along(const Amounts& way, const Amounts& axis) {
+  const Amount part = dot(way, axis);
+  if (std::abs(part.value()) <= meant * size_of(axis) * size_of(way)) return {};
+  return (part / dot(axis, axis)) * axis;
+}
+
+Amount SpatialTurning::beside(LinkIndex link, PointIndex from, PointIndex to, const Amounts& along) {
+  const Amount whole = shape(link).distance(from, to);
+  if (size_of(along) == 0) return whole;
+  const Amount square = whole * whole - dot(along, along);
+  if (square.value() <= meant * whole.value() * whole.value())
+    throw core::InputError(d_.link(link).where,
+                           "the length " + d_.name(from) + "-" + d_.name(to) + " of link " + d_.link(link).name +
+                               " is not more than what is drawn of it along the axis of its joint",
+                           "correct the length, or draw " + d_.name(to) + " farther from the axis");
+  return square_root(square);
+}
+
 /// The axis about which it turns on a known link, and a way that is not along it.
 bool SpatialTurning::turn_by_axis(LinkIndex link) {
   const auto hinge = hinge_of(link);
@@ -200,16 +221,21 @@ bool SpatialTurning::turn_by_axis(LinkIndex link) {
   const Amounts n = *drawn_axis(*hinge);
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (!d_.at(points[0]).is_exact || !d_.at(points[k]).is_exact) continue;
-    const Amounts way = d_.at(points[k]).at - d_.at(points[0]).at;
-    if (is_parallel(n, way)) continue;
+    const Amounts whole = d_.at(points[k]).at - d_.at(points[0]).at;
+    if (is_parallel(n, whole)) continue;
+    // Of given lengths the drawing tells the part along the axis; the rest is turned, as long as it has to be.
+    const bool drawn = shape(link).is_drawn();
+    const Amounts along = drawn ? Amounts{} : part_along(whole, n), way = whole - along;
+    const LinkIndex base = other_of(d_.joint(*hinge), link);
     const std::string p = known(handle(points[0])).name, q = known(handle(points[k])).name;
     Triad triad;
     triad.drawn = {n, way, cross(n, way)};
-    const std::string axis = direction_text(other_of(d_.joint(*hinge), link), n);
-    const Amount drawn_part = shape(link).is_drawn() ? one_ : length(way) / shape(link).distance(points[0], points[k]);
+    const std::string axis = direction_text(base, n);
+    const Amount drawn_part = drawn ? one_ : length(way) / beside(link, points[0], points[k], along);
     triad.written = {WrittenVector{}, drawn_part * way_between(p, q), WrittenVector{}};
+    if (size_of(along) > 0) triad.written[1] += (-drawn_part) * image(base, along);
     if (axis.front() == '[')
-      triad.written[0] = image(other_of(d_.joint(*hinge), link), n);
+      triad.written[0] = image(base, n);
     else
       triad.written[0].ways.push_back({one_, "(" + axis + ")"});
     triad.written[2].ways.push_back({drawn_part * per_length(), "cross(" + axis + ", " + q + " - " + p + ")"});

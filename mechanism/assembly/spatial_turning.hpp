@@ -10,6 +10,9 @@ namespace clearloci::mechanism {
 bool is_parallel(const Amounts& a, const Amounts& b);
 bool is_square(const Amounts& a, const Amounts& b);
 
+/// The part of a way along an axis; zero where decimals that stand for irrational places mean none.
+Amounts part_along(const Amounts& way, const Amounts& axis);
+
 /// Three vectors that turn with a link, as drawn and as written; any other is a sum of them.
 struct Triad {
   std::array<Amounts, 3> drawn;
@@ -41,6 +44,8 @@ class SpatialTurning : public PartByPart {
   Node frame_form(const Attitude& own, const Amounts& way) const;
   /// The revolute joint by which a link turns about a known one.
   std::optional<JointIndex> hinge_of(LinkIndex link) const;
+  /// What is left of the length between two points beside its part along an axis.
+  Amount beside(LinkIndex link, PointIndex from, PointIndex to, const Amounts& along);
 
  private:
   /// A point of the frame at a way from its origin.

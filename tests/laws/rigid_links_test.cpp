@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <numbers>
 #include <optional>
 #include <random>
 
@@ -154,6 +158,97 @@ TEST(RigidLinks, OneThatIsRigidNowhereIsRefusedWithItsLengths) {
   } catch (const core::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("rod2 is not rigid"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find(" mm at x = "), std::string::npos) << error.what();
+  }
+}
+
+// --- what is drawn
+
+/// A four-bar with a leg of two more links.
+struct Legs {
+  const char* kind;
+  const char *crank, *coupler, *rocker;  ///< points of the four-bar O, M, C, A, with those of the leg
+  const char *inner, *outer;             ///< the links that carry D, and B
+};
+
+constexpr std::array<Legs, 5> all_legs = {{{"Klann", "O, M", "M, C, D", "A, C", "coupler", "ground"},
+                                           {"Watt I", "O, M", "M, C, D", "A, C, B", "coupler", "rocker"},
+                                           {"Watt II", "O, M", "M, C", "A, C, D", "rocker", "ground"},
+                                           {"Stephenson II", "O, M, B", "M, C", "A, C, D", "rocker", "crank"},
+                                           {"Stephenson III", "O, M, B", "M, C, D", "A, C", "coupler", "crank"}}};
+
+struct DrawnLeg {
+  std::string text;
+  double angle = 0;                                         ///< of the crank as it is drawn, deg
+  std::map<std::string, std::array<double, 2>> drawn = {};  ///< mm
+};
+
+/// A six-bar with each point where three decimals say, in an order of its own.
+DrawnLeg drawn_leg(unsigned seed) {
+  std::mt19937 random(seed);
+  const Legs& own = all_legs[seed % all_legs.size()];
+  const auto decimals = [](double value) { return std::round(1e3 * value) / 1e3; };
+  const auto draw = [&](double size) { return decimals(std::uniform_real_distribution<double>(-size, size)(random)); };
+  DrawnLeg leg;
+  for (const char* name : {"O", "A", "B", "C", "D", "E", "F"}) leg.drawn[name] = {draw(100), draw(100)};
+  const auto& o = leg.drawn["O"];
+  const double turn = std::uniform_real_distribution<double>(0, 2 * std::numbers::pi)(random);
+  leg.drawn["M"] = {decimals(o[0] + 25 * std::cos(turn)), decimals(o[1] + 25 * std::sin(turn))};
+  const auto& m = leg.drawn["M"];
+  leg.angle = std::atan2(m[1] - o[1], m[0] - o[0]);
+  if (leg.angle < 0) leg.angle += 2 * std::numbers::pi;
+  std::vector<std::string> names;
+  for (const auto& [name, place] : leg.drawn) names.push_back(name);
+  std::shuffle(names.begin(), names.end(), random);
+  leg.text = fmt::format("format: 1\nname: {}\nunits: {{length: mm}}\n", own.kind);
+  leg.text += "workspace: {theta: {angle: [0, 360 deg], of: crank}}\ndrawn:\n";
+  for (const std::string& name : names)
+    leg.text += fmt::format("  {}: [{:.3f}, {:.3f}]\n", name, leg.drawn[name][0], leg.drawn[name][1]);
+  leg.text += fmt::format(
+      "links: {{crank: {{points: [{}]}}, coupler: {{points: [{}]}}, rocker: {{points: [{}]}}, rod: {{points: [B, E]}}, "
+      "leg: {{points: [E, D, F]}}}}\n",
+      own.crank, own.coupler, own.rocker);
+  leg.text += "joints:\n  O: {revolute: [ground, crank], at: O, actuated: true, clearance: {radial: 20e-3}}\n";
+  const auto pin = [&](const std::string& name, const std::string& from, const std::string& to) {
+    leg.text +=
+        fmt::format("  {}: {{revolute: [{}, {}], at: {}, clearance: {{radial: 20e-3}}}}\n", name, from, to, name);
+  };
+  pin("M", "crank", "coupler");
+  pin("A", "ground", "rocker");
+  pin("C", "rocker", "coupler");
+  pin("D", own.inner, "leg");
+  pin("E", "rod", "leg");
+  pin("B", own.outer, "rod");
+  leg.text += "end_effector: {link: leg, at: F}\nloads: [{link: leg, at: F, force: [0, -100]}]\n";
+  return leg;
+}
+
+/// What `pose` reaches as it is drawn, `loci` derives: no sheet of it is taken for one on which a link bends.
+TEST(RigidLinks, AreRigidAsTheyAreDrawn) {
+  for (unsigned seed = 0; seed < 5U * static_cast<unsigned>(designs()); ++seed) {
+    const DrawnLeg leg = drawn_leg(seed);
+    SCOPED_TRACE(leg.text);
+    const mechanism::Mechanism m = mechanism::parse_mechanism(leg.text, "leg.yaml");
+    const numeric::Posture posture =
+        numeric::posture(numeric::compile(m), std::vector<double>{leg.angle}, mechanism::working_mode(m));
+    ASSERT_TRUE(posture.reachable());
+    std::size_t compared = 0;
+    for (std::size_t p = 0; p < m.points.size(); ++p) {
+      const auto drawn = leg.drawn.find(m.points[p].name);
+      if (drawn == leg.drawn.end()) continue;
+      ++compared;
+      for (std::size_t i = 0; i < 2; ++i)
+        EXPECT_NEAR(posture.points[p][static_cast<Eigen::Index>(i)], 1e-3 * drawn->second[i], 1e-12);
+    }
+    EXPECT_EQ(compared, leg.drawn.size());
+    std::vector<symbolic::DerivedProblem> problems;
+    ASSERT_NO_THROW(problems = symbolic::locus_problems(m, {}));
+    for (const symbolic::DerivedProblem& own : problems) {
+      EXPECT_FALSE(own.problem.modes.empty());
+      for (const std::string& note : own.notes) EXPECT_EQ(note.find("bends a link"), std::string::npos) << note;
+      // Roots stay in the range of doubles, however long the construction.
+      for (const core::Root& root : own.problem.tower.roots)
+        for (const core::Term& term : root.square.terms) EXPECT_LT(std::abs(term.coefficient.get_d()), 1e60);
+    }
   }
 }
 

@@ -152,27 +152,50 @@ TEST(DrawnInSpace, PlacesAThirdPointAcrossAnAxis) {
   }
 }
 
-/// Lengths of a rocker's points do not tell how the third lies about its axis: refused, not guessed.
-TEST(DrawnInSpace, RefusesLengthsAboutAnAxis) {
-  const std::string text = header +
-                           "drawn: {A: [0, 0, 0], B: [0, 30, 40], C: [200, 60, 0], D: [200, 0, 0], E: [230, 60, 30]}\n"
-                           "links: {crank: {points: [A, B]}, rod: {points: [B, C]}, "
-                           "rocker: {points: [D, C, E], lengths: {D-C: 60, D-E: sqrt(5400), C-E: sqrt(1800)}}}\n"
-                           "joints:\n"
-                           "  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}\n"
-                           "  B: {spherical: [crank, rod], at: B}\n"
-                           "  C: {spherical: [rod, rocker], at: C}\n"
-                           "  D: {revolute: [ground, rocker], at: D, axis: [0, 0, 1]}\n"
-                           "end_effector: {link: rocker, at: E}\n";
-  try {
-    (void)parse_mechanism(text, "sketch.yaml");
-    FAIL();
-  } catch (const core::InputError& error) {
-    EXPECT_NE(error.problem().find("lengths of link rocker do not tell how E lies about the axis"), std::string::npos)
-        << error.what();
+/// A rocker whose points lie at heights along its axis; its lengths beside the heights change.
+std::string skew_rocker(const std::string& lengths) {
+  return header +
+         "drawn: {A: [0, 0, 0], B: [0, 30, 40], C: [200, 60, 20], D: [200, 0, 0], E: [230, 60, 30], F: [10, 200, 0], "
+         "G: [90, 160, 10]}\n"
+         "links: {crank: {points: [A, B]}, rod: {points: [B, C]}, rocker: {points: [D, C, E]" +
+         lengths +
+         "}, tie: {points: [E, G]}, lever: {points: [F, G]}}\n"
+         "joints:\n"
+         "  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}\n"
+         "  B: {spherical: [crank, rod], at: B}\n"
+         "  C: {spherical: [rod, rocker], at: C}\n"
+         "  D: {revolute: [ground, rocker], at: D, axis: [0, 0, 1]}\n"
+         "  E: {spherical: [rocker, tie], at: E}\n"
+         "  G: {spherical: [tie, lever], at: G}\n"
+         "  F: {revolute: [ground, lever], at: F, axis: [0, 1, 3]}\n"
+         "end_effector: {link: rocker, at: E}\n";
+}
+
+/// Lengths beat the drawing; along the axis of a pin the points stay where they are drawn.
+TEST(DrawnInSpace, PlacesAThirdPointAboutAnAxis) {
+  const Mechanism drawn = parse_mechanism(skew_rocker(""), "sketch.yaml");
+  const Mechanism same =
+      parse_mechanism(skew_rocker(", lengths: {D-C: sqrt(4000), D-E: sqrt(5400), C-E: sqrt(1000)}"), "sketch.yaml");
+  EXPECT_GT(expect_same_places(drawn, same, 24, 1e-12), 2);
+  const Mechanism other = parse_mechanism(skew_rocker(", lengths: {D-C: 65, D-E: 72, C-E: 33}"), "sketch.yaml");
+  int closed = 0;
+  for (const std::vector<double>& pose : spread_poses(other, 24)) {
+    const auto places = places_at(other, pose);
+    if (!places) continue;
+    ++closed;
+    EXPECT_NEAR(apart(places->at("D"), places->at("C")), 0.065, 1e-12);
+    EXPECT_NEAR(apart(places->at("D"), places->at("E")), 0.072, 1e-12);
+    EXPECT_NEAR(apart(places->at("C"), places->at("E")), 0.033, 1e-12);
+    EXPECT_NEAR(places->at("C")[2], 0.020, 1e-12);
+    EXPECT_NEAR(places->at("E")[2], 0.030, 1e-12);
   }
-  const std::string drawn = with_line(text, ", lengths: {D-C: 60, D-E: sqrt(5400), C-E: sqrt(1800)}", "");
-  EXPECT_LT(apart(places_at(parse_mechanism(drawn, "sketch.yaml"), {0})->at("E"), {0.230, 0.060, 0.030}), 1e-12);
+  EXPECT_GT(closed, 2);
+  try {
+    (void)parse_mechanism(skew_rocker(", lengths: {D-C: 65, D-E: 25, C-E: 60}"), "sketch.yaml");
+    ADD_FAILURE() << "E would be nearer to D than it is drawn above it";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("sketch.yaml"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

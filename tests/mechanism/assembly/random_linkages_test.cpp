@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
+#include <map>
 #include <random>
 #include <set>
 
@@ -208,47 +209,182 @@ class Linkage {
   int joint_count_ = 0, tries_ = 0;
 };
 
-TEST(RandomLinkages, CloseAsThoseConstructedByHand) {
+/// The same in space: cranks about x, rods between balls, rockers about axes across the ground and blocks on its rails.
+class LinkageInSpace {
+ public:
+  explicit LinkageInSpace(unsigned seed) : random_(seed), seed_(seed) {
+    add_crank();
+    const std::size_t most = 4 + random_() % 7;
+    for (int tries = 0; links_.size() + 1 < most && tries < 400; ++tries) add_dyad();
+  }
+
+  std::size_t links() const { return links_.size() + 1; }
+
+  std::string file(bool drawn) const {
+    std::mt19937 order(seed_);
+    std::string text = "format: 1\nspace: spatial\nname: linkage\nworkspace: {q: {angle: [0, 360 deg]";
+    text += drawn ? ", of: crank}}\ndrawn:\n" : "}}\npoints:\n";
+    std::vector<Point> points = points_;
+    std::vector<std::string> links = links_;
+    if (drawn) std::shuffle(points.begin(), points.end(), order), std::shuffle(links.begin(), links.end(), order);
+    for (const Point& own : points) text += "  " + own.name + ": " + (drawn ? place_text(own.at) : own.form) + "\n";
+    text += "links:\n";
+    for (const std::string& link : links) text += "  " + link + "\n";
+    return text + "joints:\n" + joints_ + "end_effector: {link: crank, at: K}\n";
+  }
+
+ private:
+  using Place = std::array<long, 3>;  ///< multiples of 1/4
+  struct Point {
+    std::string name, form;
+    Place at;
+    bool moves = true;
+  };
+
+  static std::string place_text(const Place& at) {
+    return "[" + text_of(at[0]) + ", " + text_of(at[1]) + ", " + text_of(at[2]) + "]";
+  }
+  static std::string axis_text(const Place& n) {
+    return "[" + std::to_string(n[0]) + ", " + std::to_string(n[1]) + ", " + std::to_string(n[2]) + "]";
+  }
+  static long dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  static Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+  static Place cross(const Place& a, const Place& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+  Place within(long size) {
+    const auto one = [&] { return static_cast<long>(random_() % static_cast<unsigned>(2 * size + 1)) - size; };
+    const long x = one(), y = one(), z = one();
+    return {x, y, z};
+  }
+
+  void add_crank() {
+    const Place at = within(4), arm = {static_cast<long>(random_() % 5), 3, 4};  // as drawn; it turns about x
+    points_.push_back({"G", place_text(at), at, false});
+    points_.push_back({"K",
+                       "['" + text_of(at[0] + arm[0]) + "', '" + text_of(at[1]) + " + 3/4*cos(q) - sin(q)', '" +
+                           text_of(at[2]) + " + 3/4*sin(q) + cos(q)']",
+                       {at[0] + arm[0], at[1] + arm[1], at[2] + arm[2]}});
+    links_.emplace_back("crank: {points: [G, K]}");
+    joints_ += "  JG: {revolute: [ground, crank], at: G, axis: [1, 0, 0], actuated: true}\n";
+    carrier_ = {{"K", "crank"}};
+  }
+
+  void add_dyad() {
+    const Point from = points_[random_() % points_.size()];
+    if (!from.moves) return;
+    const Place at = within(16), n = within(2), foot = within(16);
+    const Place rod = minus(at, from.at);
+    if (dot(n, n) == 0 || dot(rod, rod) == 0) return;
+    const std::string k = std::to_string(links_.size()), r = "R" + k, f = "F" + k,
+                      length = "sqrt(" + std::to_string(dot(rod, rod)) + ")/4";
+    std::string form, joint;
+    Place base = foot;
+    if (random_() % 3 == 0) {
+      const long ahead = dot(rod, n);
+      if (ahead == 0) return;
+      base = {at[0] - 8 * n[0], at[1] - 8 * n[1], at[2] - 8 * n[2]};
+      form = "{slider: [" + f + ", " + axis_text(n) + "], from: " + from.name + ", length: '" + length +
+             "', side: " + (ahead > 0 ? "ahead" : "behind") + "}";
+      links_.push_back("M" + k + ": {points: [" + r + "]}");
+      joint = "prismatic: [ground, M" + k + "], at: " + r;
+    } else {
+      const Place arm = minus(at, foot), way = minus(from.at, foot);
+      const long n2 = dot(n, n), along = dot(n, arm), radius2 = n2 * dot(arm, arm) - along * along,
+                 turn = dot(n, cross(way, arm));
+      if (radius2 == 0 || turn == 0) return;
+      std::string centre;
+      for (std::size_t i = 0; i < 3; ++i)
+        centre += (i == 0 ? "[" : ", ") + std::to_string(n2 * foot[i] + along * n[i]) + "/" + std::to_string(4 * n2);
+      form = "{dyad: [" + centre + "], " + from.name + "], lengths: ['sqrt(" + std::to_string(radius2) + "/" +
+             std::to_string(n2) + ")/4', '" + length + "'], axis: " + axis_text(n) +
+             ", side: " + (turn > 0 ? "left" : "right") + "}";
+      links_.push_back("M" + k + ": {points: [" + f + ", " + r + "]}");
+      joint = "revolute: [ground, M" + k + "], at: " + f;
+    }
+    links_.push_back("L" + k + ": {points: [" + from.name + ", " + r + "]}");
+    points_.push_back({f, place_text(base), base, false});
+    points_.push_back({r, form, at});
+    joints_ += "  J" + f + ": {" + joint + ", axis: " + axis_text(n) + "}\n";
+    joints_ += "  J" + r + ": {spherical: [M" + k + ", L" + k + "], at: " + r + "}\n";
+    joints_ += "  JL" + k + ": {spherical: [" + carrier_.at(from.name) + ", L" + k + "], at: " + from.name + "}\n";
+    carrier_[r] = "M" + k;
+  }
+
+  std::mt19937 random_;
+  unsigned seed_;
+  std::vector<Point> points_;
+  std::vector<std::string> links_;
+  std::map<std::string, std::string> carrier_;
+  std::string joints_;
+};
+
+/// How many of some linkages were compared, and in how many poses.
+struct Compared {
+  int linkages = 0, poses = 0;
+  std::set<std::size_t> sizes = {};
+};
+
+int wanted_linkages() {
   const char* const wanted = std::getenv("CLEARLOCI_DESIGNS");
-  const int designs = wanted != nullptr ? std::atoi(wanted) : 60;
-  int compared = 0, poses = 0;
-  std::set<std::size_t> sizes;
+  return wanted != nullptr ? std::atoi(wanted) : 60;
+}
+
+void compare(const std::string& constructed, const std::string& drawn, std::size_t links, Compared& so_far) {
+  std::optional<Mechanism> hand;
+  try {
+    hand = parse_mechanism(constructed, "hand.yaml");
+  } catch (const core::InputError&) {
+    return;  // closes nowhere, or folds: not what this is about
+  }
+  try {
+    so_far.poses += expect_same_places(*hand, parse_mechanism(drawn, "drawn.yaml"), 8, 1e-9);
+  } catch (const core::InputError& error) {
+    ADD_FAILURE() << error.what() << "\n" << drawn << constructed;
+    return;
+  }
+  so_far.sizes.insert(links);
+  ++so_far.linkages;
+}
+
+TEST(RandomLinkages, CloseAsThoseConstructedByHand) {
+  const int designs = wanted_linkages();
+  Compared all;
   std::vector<double> ten_links;  // ms of one processor
-  for (unsigned seed = 1; compared < designs && seed < 20U * static_cast<unsigned>(designs); ++seed) {
+  for (unsigned seed = 1; all.linkages < designs && seed < 20U * static_cast<unsigned>(designs); ++seed) {
     Linkage linkage(seed);
     if (linkage.links() < 4) continue;
     SCOPED_TRACE("seed " + std::to_string(seed));
-    std::optional<Mechanism> hand;
-    try {
-      hand = parse_mechanism(linkage.constructed(), "hand.yaml");
-    } catch (const core::InputError&) {
-      continue;  // closes nowhere, or folds: not what this is about
-    }
-    std::optional<Mechanism> drawn;
-    try {
-      drawn = parse_mechanism(linkage.drawn(), "drawn.yaml");
-    } catch (const core::InputError& error) {
-      ADD_FAILURE() << error.what() << "\n" << linkage.drawn() << linkage.constructed();
-      continue;
-    }
+    const std::string text = linkage.drawn();
+    compare(linkage.constructed(), text, linkage.links(), all);
     if (linkage.links() == 10) {
-      const std::string text = linkage.drawn();
       const std::clock_t start = std::clock();
       (void)constructed_text(text, "drawn.yaml");
       ten_links.push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     }
-    poses += expect_same_places(*hand, *drawn, 8, 1e-9);
-    sizes.insert(linkage.links());
-    ++compared;
   }
-  EXPECT_EQ(compared, designs);
-  EXPECT_GT(poses, compared);
-  EXPECT_TRUE(sizes.contains(4) && sizes.contains(10));
+  EXPECT_EQ(all.linkages, designs);
+  EXPECT_GT(all.poses, all.linkages);
+  EXPECT_TRUE(all.sizes.contains(4) && all.sizes.contains(10));
   std::sort(ten_links.begin(), ten_links.end());
   ASSERT_FALSE(ten_links.empty());
   EXPECT_LT(ten_links[ten_links.size() / 2], 10);
   RecordProperty("milliseconds_of_ten_links", std::to_string(ten_links[ten_links.size() / 2]));
   std::cout << "ten links: " << ten_links[ten_links.size() / 2] << " ms, at most " << ten_links.back() << " ms\n";
+}
+
+TEST(RandomLinkages, CloseInSpaceAsThoseConstructedByHand) {
+  const int designs = wanted_linkages();
+  Compared all;
+  for (unsigned seed = 1; all.linkages < designs && seed < 20U * static_cast<unsigned>(designs); ++seed) {
+    const LinkageInSpace linkage(seed);
+    if (linkage.links() < 4) continue;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    compare(linkage.file(false), linkage.file(true), linkage.links(), all);
+  }
+  EXPECT_EQ(all.linkages, designs);
+  EXPECT_GT(all.poses, all.linkages / 2);
+  EXPECT_TRUE(all.sizes.contains(4) && all.sizes.contains(10));
 }
 
 }  // namespace
