@@ -231,6 +231,35 @@ describe("other mechanisms", () => {
   });
 });
 
+describe("another program's file", () => {
+  const folder = join(source, "tests", "mechanism", "import", "files");
+  const given = async (page: Page, path: string): Promise<void> => give(page, path.split("/").at(-1) ?? "", readFileSync(join(folder, path), "utf8"));
+
+  it("is opened, edited by the hand and on the thing itself, and saved as a mechanism file that opens again", async () => {
+    const page = await start();
+    await given(page, "linkage/tracer.linkage2");
+    const sheet = new Sheet(page);
+    const imported = await sheet.file();
+    expect(imported).toMatch(/^# .*Linkage/);
+    await expect.poll(() => legend(page)).toBeGreaterThan(0);
+    await shot(page, "imported");
+    const places = async (): Promise<Record<string, [number, number]>> => JSON.parse((await page.locator(".sheet").getAttribute("data-points")) ?? "{}") as Record<string, [number, number]>;
+    await sheet.press("Draw");
+    await shot(page, "imported-drawn");
+    const before = await places();
+    const [name, metres] = Object.entries(before)[1] ?? ["", [0, 0]];
+    await sheet.take("select");
+    const at: [number, number] = [metres[0] * 1000, metres[1] * 1000];
+    await sheet.drag(at, [at[0] - 12, at[1] + 8]);
+    const dragged = await sheet.file();
+    expect(dragged).not.toBe(imported);
+    expect(await sheet.said()).toEqual(["", ""]);
+    const text = await saved(page);
+    expect(text).toBe(dragged);
+    console.log(name, before, await places(), imported, text);
+  });
+});
+
 describe("a file", () => {
   const original = readFileSync(join(source, "examples", "five_bar.yaml"), "utf8");
 
