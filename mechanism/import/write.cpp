@@ -278,6 +278,16 @@ class Writer : private Drawing {
 
   bool is_still(PlaceIndex p) const { return places_[p].links.contains(ground_link); }
 
+  bool is_driven(int link) const {
+    return std::any_of(s_.joints.begin(), s_.joints.end(), [&](const SourceJoint& joint) {
+      return !joint.dropped && joint.actuated && (joint.from == link || joint.to == link);
+    });
+  }
+  bool has_driven(PlaceIndex p) const {
+    const auto& links = places_[p].links;
+    return std::any_of(links.begin(), links.end(), [&](int link) { return link != ground_link && is_driven(link); });
+  }
+
   std::string effector_text() {
     int link = ground_link;
     std::optional<PlaceIndex> at;
@@ -294,13 +304,12 @@ class Writer : private Drawing {
     for (std::size_t l = s_.links.size(); l-- > 0 && !at;) {
       const auto own = order_.find(static_cast<int>(l));
       if (s_.links[l].dropped || s_.links[l].helper || own == order_.end()) continue;
-      const bool driven = std::any_of(s_.joints.begin(), s_.joints.end(), [&](const SourceJoint& joint) {
-        return !joint.dropped && joint.actuated &&
-               (joint.from == static_cast<int>(l) || joint.to == static_cast<int>(l));
-      });
-      if (driven) continue;
-      for (const PlaceIndex p : own->second)
-        if (!at && !is_still(p)) take(static_cast<int>(l), places_[p].at, "the source says none");
+      if (is_driven(static_cast<int>(l))) continue;
+      // Where two legs meet rather than where one is driven.
+      for (const bool far : {true, false})
+        for (const PlaceIndex p : own->second)
+          if (!at && !is_still(p) && !(far && has_driven(p)))
+            take(static_cast<int>(l), places_[p].at, "the source says none");
     }
     for (std::size_t l = s_.links.size(); l-- > 0 && !at;)
       if (const auto own = order_.find(static_cast<int>(l));
