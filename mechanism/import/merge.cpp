@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "mechanism/import/common.hpp"
@@ -229,6 +230,37 @@ bool join_braced(Source& source, double size) {
   return false;
 }
 
+/// A link between two pins of one axis that has nothing else, such as a bush: its own turn changes nothing, and it is
+/// fixed to one of its neighbours. True where there was one.
+bool join_idle(Source& source, double size) {
+  for (std::size_t l = 0; l < source.links.size(); ++l) {
+    const int link = static_cast<int>(l);
+    const auto on_it = [&](const auto& own) { return own.link == link; };
+    std::vector<const SourceJoint*> own;
+    for (const SourceJoint& joint : source.joints)
+      if (!joint.dropped && (joint.from == link || joint.to == link)) own.push_back(&joint);
+    if (own.size() != 2 || !is_pin(*own[0]) || !is_pin(*own[1])) continue;
+    const SourceJoint &a = *own[0], &b = *own[1];
+    const std::optional<Vec>& centre = source.links[l].centre;
+    const bool on_axis = norm(cross(a.axis(), b.axis())) <= parallel &&
+                         from_line(b.at(), a.at(), a.axis()) <= near * size &&
+                         (!centre || from_line(*centre, a.at(), a.axis()) <= near * size);
+    const bool borne = std::any_of(source.loads.begin(), source.loads.end(), on_it) ||
+                       std::any_of(source.points.begin(), source.points.end(), on_it) ||
+                       std::any_of(source.springs.begin(), source.springs.end(), [&](const SourceSpring& spring) {
+                         return spring.links[0] == link || spring.links[1] == link;
+                       });
+    if (!on_axis || borne || (a.actuated && b.actuated)) continue;
+    const SourceJoint& gone = a.actuated ? b : a;
+    const int into = gone.from == link ? gone.to : gone.from;
+    source.note(link_words(source, link) + " turns idly between pins " + a.name + " and " + b.name +
+                " and was fixed to " + link_words(source, into));
+    merge_links(source, into, link);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void merge_rigid(Source& source) {
@@ -240,7 +272,7 @@ void merge_rigid(Source& source) {
       for (std::size_t j = i + 1; j < source.joints.size() && !changed; ++j)
         if (!source.joints[i].dropped && !source.joints[j].dropped && join_the_same(source.joints[i], source.joints[j]))
           changed = join_pair(source, i, j, size);
-    if (!changed) changed = join_braced(source, size);
+    if (!changed) changed = join_braced(source, size) || join_idle(source, size);
   }
 }
 

@@ -143,10 +143,10 @@ class Reader : private MjcfSettings {
     const Vec axis = vector(at, "axis", {0, 0, 1}, childclass);
     if (!(norm(axis) > 1e-9)) refuse(at, "the axis of a joint has no direction", "write such as axis=\"0 0 1\"");
     own.axis = pose.turned * unit(axis);
-    if (own.type == "free")
-      refuse(at, "joint " + own.name + " leaves its body free", "fix its base: take the free joint out");
+    const std::string called = own.name.empty() ? "a joint without a name" : "joint " + own.name;
+    if (own.type == "free") refuse(at, called + " leaves its body free", "fix its base: take the free joint out");
     if (own.type != "hinge" && own.type != "slide" && own.type != "ball")
-      refuse(at, "joint " + own.name + " is of type '" + own.type + "'", "use hinge, slide or ball");
+      refuse(at, called + " is of type '" + own.type + "'", "use hinge, slide or ball");
     const bool turns = own.type == "hinge";
     if (const auto text = value(at, "ref", childclass))
       own.reference = numbers(at, "ref", *text, 1, 1).front() * (turns ? angle(1) : 1);

@@ -145,7 +145,6 @@ void choose_motors(Source& source) {
   for (std::vector<double>& row : constraint_rows(source)) held.add(std::move(row));
   std::size_t columns = 0;
   for (const SourceLink& link : source.links) columns += link.dropped ? 0 : 6;
-  std::vector<std::string> names;
   // Guides with a range are legs that are driven.
   const auto order = [](const SourceJoint& joint) {
     return joint.slides() && joint.range ? 0 : joint.from == ground_link || joint.to == ground_link ? 1 : 2;
@@ -157,12 +156,8 @@ void choose_motors(Source& source) {
       if (joint.dropped || joint.actuated || !may) continue;
       if (order(joint) != turn) continue;
       if (!held.add(motor_row(source, joint))) continue;
-      joint.actuated = true;
-      names.push_back(joint.name);
+      joint.actuated = joint.chosen = true;
     }
-  if (!names.empty())
-    source.note("the source names no motor: " + enumerated(names) + (names.size() == 1 ? " drives" : " drive") +
-                " the mechanism here; move `actuated: true` to where yours " + (names.size() == 1 ? "is" : "are"));
 }
 
 }  // namespace clearloci::mechanism::imports

@@ -97,6 +97,10 @@ class Reader {
       refuse(*own, "model " + s_.name + " includes another file", "put what it includes in its place");
     if (const XmlElement* own = model.first("model"))
       refuse(*own, "model " + own->get("name", "") + " is nested in another one", "write its links into the outer one");
+    for (const char* loop : {"drake:linear_bushing_rpy", "drake:ball_constraint", "drake:joint"})
+      if (const XmlElement* own = model.first(loop))
+        refuse(*own, "<" + own->name + "> holds two links together in the words of one program",
+               "write a joint of SDF in its place");
     if (const XmlElement* own = model.first("gripper")) own->take_whole();
   }
 
@@ -231,6 +235,17 @@ class Reader {
     return pose.turned * v;
   }
 
+  void refuse_mimic(const XmlElement& at, const std::string& joint) const {
+    std::vector<const XmlElement*> places = {&at};
+    for (const char* axis : {"axis", "axis2"})
+      if (const XmlElement* own = at.first(axis)) places.push_back(own);
+    for (const XmlElement* place : places)
+      for (const char* word : {"mimic", "drake:mimic"})
+        if (const XmlElement* own = place->first(word))
+          refuse(*own, "joint " + joint + " follows another one (mimic), as by a gear",
+                 "close the loop that makes it follow, or fix the joint");
+  }
+
   void joint(const XmlElement& at) {
     static const std::map<std::string, SourceKind> kinds = {
         {"revolute", SourceKind::revolute}, {"continuous", SourceKind::revolute}, {"prismatic", SourceKind::prismatic},
@@ -244,6 +259,7 @@ class Reader {
       refuse(at, "joint " + own.name + " is of type '" + type + "'",
              "use revolute, continuous, prismatic, ball, universal or fixed");
     own.kind = kind->second;
+    refuse_mimic(at, own.name);
     own.from = side_of(at, "parent");
     own.to = side_of(at, "child");
     if (own.from == own.to) refuse(at, "joint " + own.name + " joins a link to itself", "name two links");

@@ -49,6 +49,7 @@ struct SourceJoint {
   int from = ground_link, to = ground_link;
   JointSide on_from, on_to;  ///< the same once the posture is closed; of a universal joint z is the axis in that link
   bool actuated = false;
+  bool chosen = false;                         ///< to drive, where the source names no motor
   std::optional<std::array<double, 2>> range;  ///< from the posture onwards: rad, or the source's length
   bool range_is_distance = false;              ///< of a guide: the range is that of the way between its two sides
   bool either_way = false;                     ///< a leg between balls: no sense of its axis is meant

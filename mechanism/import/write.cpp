@@ -66,6 +66,8 @@ class Writer : private Drawing {
   }
 
   void check() const {
+    if (s_.joints.empty())
+      throw InputError({file_}, "the " + s_.format + " file has no joints", "name a file with a mechanism");
     constexpr double largest = 1e12;
     if (!(size_ > 0) || size_ > largest)
       throw InputError({file_}, "the " + s_.format + " file has its joints in one place",
@@ -163,6 +165,7 @@ class Writer : private Drawing {
   std::string joints_text() {
     std::string text;
     std::set<std::string> used;
+    std::vector<std::string> chosen;
     bool guide_without = false;
     static const std::map<SourceKind, std::string> types = {{SourceKind::revolute, "revolute"},
                                                             {SourceKind::prismatic, "prismatic"},
@@ -185,6 +188,7 @@ class Writer : private Drawing {
       else if (!s_.planar && joint.kind == SourceKind::revolute)
         text += ", axis: " + direction_text(joint.axis(), axes_[j]);
       if (joint.actuated) text += ", actuated: true";
+      if (joint.chosen) chosen.push_back(joint_names_[j]);
       text += clearance_text(joint, guide_without) + "}";
       if (joint.speed)
         text += slides(joint)
@@ -195,6 +199,9 @@ class Writer : private Drawing {
         text += "  # " + one_line(joint.name);
       text += "\n";
     }
+    if (!chosen.empty())
+      s_.note("the source names no motor: " + enumerated(chosen) + (chosen.size() == 1 ? " drives" : " drive") +
+              " the mechanism here; move `actuated: true` to where yours " + (chosen.size() == 1 ? "is" : "are"));
     s_.note("the source says no clearances: pins and balls have " + clearance_ + " radially here" +
             (guide_without ? "; guides have none, since half their contact length is not known" : ""));
     return text;
@@ -271,6 +278,16 @@ class Writer : private Drawing {
 
   bool is_still(PlaceIndex p) const { return places_[p].links.contains(ground_link); }
 
+  bool is_driven(int link) const {
+    return std::any_of(s_.joints.begin(), s_.joints.end(), [&](const SourceJoint& joint) {
+      return !joint.dropped && joint.actuated && (joint.from == link || joint.to == link);
+    });
+  }
+  bool has_driven(PlaceIndex p) const {
+    const auto& links = places_[p].links;
+    return std::any_of(links.begin(), links.end(), [&](int link) { return link != ground_link && is_driven(link); });
+  }
+
   std::string effector_text() {
     int link = ground_link;
     std::optional<PlaceIndex> at;
@@ -287,13 +304,12 @@ class Writer : private Drawing {
     for (std::size_t l = s_.links.size(); l-- > 0 && !at;) {
       const auto own = order_.find(static_cast<int>(l));
       if (s_.links[l].dropped || s_.links[l].helper || own == order_.end()) continue;
-      const bool driven = std::any_of(s_.joints.begin(), s_.joints.end(), [&](const SourceJoint& joint) {
-        return !joint.dropped && joint.actuated &&
-               (joint.from == static_cast<int>(l) || joint.to == static_cast<int>(l));
-      });
-      if (driven) continue;
-      for (const PlaceIndex p : own->second)
-        if (!at && !is_still(p)) take(static_cast<int>(l), places_[p].at, "the source says none");
+      if (is_driven(static_cast<int>(l))) continue;
+      // Where two legs meet rather than where one is driven.
+      for (const bool far : {true, false})
+        for (const PlaceIndex p : own->second)
+          if (!at && !is_still(p) && !(far && has_driven(p)))
+            take(static_cast<int>(l), places_[p].at, "the source says none");
     }
     for (std::size_t l = s_.links.size(); l-- > 0 && !at;)
       if (const auto own = order_.find(static_cast<int>(l));

@@ -130,6 +130,23 @@ TEST(Urdf, SaysByHowMuchALoopStaysOpen) {
   }
 }
 
+/// Loops of 6d whose frames turn on pins of their own: the link between the two pins turns idly.
+TEST(Urdf, FixesABushThatTurnsIdly) {
+  std::string text = bytes_of(path_of("urdf/four_bar.urdf"));
+  for (const std::string name : {"end_weld", "foot_weld"}) {
+    const std::size_t at = text.find("\"fixed\"", text.find(name)), end = text.find("</joint>", at);
+    text.insert(end, "<axis xyz=\"0 1 0\"/>");
+    text.replace(at, 7, "\"continuous\"");
+  }
+  ImportOptions options;
+  options.side = "closed_loop: [[end, foot]]\ntype: ['6d']\nname_mot: motor\n";
+  const Imported own = import_text(text, "robot.urdf", options);
+  EXPECT_TRUE(has_note(own, "link end turns idly between pins end_weld and foot_weld and was fixed to link coupler"))
+      << own.text;
+  EXPECT_EQ(section(own, "links").size(), 3U);
+  EXPECT_EQ(section(own, "joints").size(), 4U);
+}
+
 TEST(Mjcf, MakesAPinOfTwoBalls) {
   const Imported own = imported("mjcf/pin_of_two_connects.xml");
   EXPECT_TRUE(has_note(own, "balls C and C2 between link coupler and link rocker are one pin"));
@@ -240,6 +257,39 @@ TEST(Sdf, RefusesByName) {
   EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><link name='a'><pose relative_to='b'/></link></model></sdf>")
                 .find("refers to 'b'"),
             std::string::npos);
+  EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><drake:linear_bushing_rpy/></model></sdf>")
+                .find("<drake:linear_bushing_rpy> holds two links together"),
+            std::string::npos);
+}
+
+/// Wherever it stands: in an axis since SDF 1.11, in the joint in the words of one program.
+TEST(Sdf, RefusesJointsThatFollowOthers) {
+  const std::string text = bytes_of(path_of("sdf/four_bar_1_6.sdf"));
+  for (const std::string place : {"</axis>", "</joint>"}) {
+    std::string own = text;
+    own.insert(own.find(place), place == "</axis>" ? "<mimic joint='B'/>" : "<drake:mimic joint='B'/>");
+    EXPECT_NE(refusal_of(own).find("follows another one (mimic)"), std::string::npos) << own;
+  }
+}
+
+TEST(Mjcf, RefusesAFreeJointWithoutAName) {
+  EXPECT_NE(refusal_of("<mujoco><worldbody><body name='a'><joint type='free'/></body></worldbody></mujoco>")
+                .find("a joint without a name leaves its body free"),
+            std::string::npos);
+}
+
+TEST(Urdf, WithoutJointsIsToldSo) {
+  EXPECT_NE(refusal_of("<robot name='r'><link name='a'/></robot>").find("the URDF file has no joints"),
+            std::string::npos);
+}
+
+TEST(Motors, ThatAreChosenAreNamedAsInTheFile) {
+  // Two cranks on one pin.
+  const Imported own = import_text(
+      "M[J[R, P[0.0, 0.0], L[ground, L1, L2]], J[R, P[-20.0, 30.0], L[L1, L3]], J[R, P[30.0, 25.0], L[L2, L4]], "
+      "J[R, P[5.0, 70.0], L[L3, L4]]]",
+      "m.txt");
+  EXPECT_TRUE(has_note(own, "the source names no motor: P0 and P0_2 drive the mechanism here")) << own.text;
 }
 
 }  // namespace

@@ -231,6 +231,50 @@ describe("other mechanisms", () => {
   });
 });
 
+describe("another program's file", () => {
+  const folder = join(source, "tests", "mechanism", "import", "files");
+  const opened = async (page: Page, path: string): Promise<void> => give(page, path.split("/").at(-1) ?? "", readFileSync(join(folder, path), "utf8"));
+
+  it("is opened, edited by the hand and on the thing itself, saved, and opened again", async () => {
+    const page = await start();
+    await opened(page, "linkage/tracer.linkage2"); // in inches
+    const sheet = new Sheet(page);
+    const imported = await sheet.file();
+    expect(imported).toMatch(/^# From tracer\.linkage2, Linkage\.\n# - /);
+    await expect.poll(() => legend(page)).toBeGreaterThan(0);
+    await shot(page, "imported");
+    await sheet.press("Draw");
+    await sheet.take("select");
+    await sheet.drag([25.4, 50.8], [10, 60]); // the end of the crank, from (1, 2) in
+    const dragged = await sheet.file();
+    expect(dragged).toMatch(/ {2}C1: \[0\.\d+, 2\.\d+\]\n/);
+    expect(dragged.replace(/ {2}C1: .*\n/, "")).toBe(imported.replace(/ {2}C1: .*\n/, "")); // comments and all
+    await sheet.click([114.3, 50.8]); // halfway along the rocker
+    await page.getByLabel("length", { exact: true }).fill("4.2");
+    await page.getByLabel("length", { exact: true }).press("Enter");
+    await rest(page);
+    expect(await sheet.said()).toEqual(["", ""]);
+    await shot(page, "imported-edited");
+    const text = await saved(page);
+    expect(text).toContain("  L2: {points: [C2, C3], length: 4.2}\n");
+    await give(page, "saved.yaml", text);
+    expect(await sheet.file()).toBe(text);
+    await expect.poll(() => legend(page), { timeout: 30_000 }).toBeGreaterThan(0);
+  });
+
+  it("that cannot be read is refused by name, and the last mechanism stays", async () => {
+    const page = await start({ width: 400, height: 844 });
+    await opened(page, "pmks/six_bar.txt");
+    await expect.poll(() => page.locator("h1").textContent(), { timeout: 30_000 }).toBe("PMKS+");
+    await expect.poll(() => legend(page), { timeout: 30_000 }).toBeGreaterThan(0);
+    await shot(page, "imported-narrow");
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(400);
+    await opened(page, "linkage/gears.linkage2");
+    await expect.poll(() => page.locator(".said").textContent()).toContain("gear");
+    expect(await page.locator("h1").textContent()).toBe("PMKS+");
+  });
+});
+
 describe("a file", () => {
   const original = readFileSync(join(source, "examples", "five_bar.yaml"), "utf8");
 

@@ -230,7 +230,7 @@ export class Workbench {
       this.atRest();
       return this.tell("state", "kind", "loci", "pose", "zones", "model", "modes", "verify", ...Object.keys(now).map((key) => `state.${key}`));
     }
-    if (changed("text", "mode", "joints", "quantities") || (now.drawing && !this.picture && !this.fault)) {
+    if (changed("file", "text", "mode", "joints", "quantities") || (now.drawing && !this.picture && !this.fault)) {
       if (this.traceable) this.lanes.loci.want(this.lociQuestion(), made);
       this.zonesStale = true;
       if (!now.zones) this.zones = undefined;
