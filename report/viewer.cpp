@@ -191,7 +191,11 @@ Json sketch_object(const core::Sketch& sketch) {
   if (sketch.end_effector && !sketch.end_effector->name.empty())
     body["end_effector"] = {{"name", printable(sketch.end_effector->name)}, {"at", sketch.end_effector->at}};
   for (const core::SketchSpring& spring : sketch.springs)
-    body["springs"].push_back({{"from", spring.from}, {"to", spring.to}, {"torsion", spring.torsion}});
+    body["springs"].push_back({{"from", spring.from},
+                               {"to", spring.to},
+                               {"torsion", spring.torsion},
+                               {"from_ground", spring.from_ground},
+                               {"to_ground", spring.to_ground}});
   return body;
 }
 

@@ -4,7 +4,7 @@ import { roundText } from "../data/exact";
 import { areaWords, lengthWords } from "../data/units";
 import type { Adjustable } from "../data/model_text";
 import { groupKey, idsOf } from "../draw/loci";
-import { drawSketch, placesOf } from "../draw/mechanism";
+import { boxAround, drawSketch, placesOf } from "../draw/mechanism";
 import { fit } from "../draw/view";
 import { h, replace, section } from "./dom";
 import { legendSample } from "./legend_sample";
@@ -224,12 +224,10 @@ function thumbnail(sketch: Sketch | undefined, theme: Workbench["theme"]): HTMLC
   const size = { width: 84, height: 62 };
   const canvas = h("canvas", { width: size.width * ratio, height: size.height * ratio, "aria-hidden": "true" });
   const context = canvas.getContext("2d");
-  if (!context || !sketch) return canvas;
-  const places = placesOf(sketch);
-  const xs = places.map((at) => at[0]);
-  const ys = places.map((at) => at[1]);
+  const box = sketch && boxAround(placesOf(sketch));
+  if (!context || !box) return canvas;
   context.scale(ratio, ratio);
-  drawSketch(context, fit({ low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] }, size, true, 7), sketch, theme, 4);
+  drawSketch(context, fit(box, size, true, 7), sketch, theme, 4);
   return canvas;
 }
 
