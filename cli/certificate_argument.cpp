@@ -11,7 +11,9 @@ namespace clearloci::cli {
 
 void add_certificate_argument(CLI::App& command, std::string& file) {
   command
-      .add_option("--certificate", file, "Also what was proven and how, for clearloci check; over two lengths, planar")
+      .add_option(
+          "--certificate", file,
+          "Also write a certificate of what was proven, for clearloci check; planar mechanisms over two lengths")
       ->type_name("FILE");
 }
 
