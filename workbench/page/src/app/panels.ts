@@ -22,10 +22,10 @@ export function readingPanel(bench: Workbench, stage: Stage): Panel {
   const body = h("div", { class: "reading", "aria-live": "polite" });
   const hint = (): string =>
     bench.coordinates.length === 1
-      ? "The marks along the strip below are the loci: what lets go there stands in the legend. Drag the end effector, or along the strip."
+      ? "The marks on the strip below are the loci; the legend names the reactions that vanish there. Drag the end effector, or along the strip."
       : !bench.traceable
         ? "No loci are drawn over more than three coordinates. Set the pose and a task by their numbers."
-        : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.`;
+        : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: this panel shows which reactions vanish there, the condition and the formula. Drag the end effector, the joints on the ground, or the empty plane.`;
   const zoneWords = (zone: Zone): string =>
     `${zone.id}: ${areaWords(zone.area, bench.units)}, largest circle of radius ${lengthWords(zone.inscribed_circle.radius, bench.units)}${zone.certified ? ", proven" : ", not proven"}`;
   const show = (): void => {
@@ -88,7 +88,7 @@ export function legendPanel(bench: Workbench): Panel {
 export function incompleteWords(loci: { open?: readonly unknown[] }): string {
   const places = (loci.open ?? []).length;
   if (places === 0) return "incomplete: stopped at the time limit";
-  return `incomplete: ${places} ${places === 1 ? "place" : "places"} at which a locus is not settled`;
+  return `incomplete: ${places} ${places === 1 ? "place" : "places"} at which a locus is not proven`;
 }
 
 /** Reactions that no load reaches are told in one note, not in one each. */
@@ -96,7 +96,7 @@ export function notesInShort(notes: readonly string[]): string[] {
   const idle = / is zero in every pose: no load reaches it$/;
   const names = notes.filter((note) => idle.test(note)).map((note) => note.replace(idle, ""));
   const others = notes.filter((note) => !idle.test(note));
-  return names.length > 1 ? [...others, `${names.join(", ")} are zero in every pose: no load reaches them`] : [...notes];
+  return names.length > 1 ? [...others, `${names.join(", ")} are zero in every pose under these loads`] : [...notes];
 }
 
 const groups: [Adjustable["group"], string, boolean][] = [

@@ -440,4 +440,4 @@ export class Stage {
   }
 }
 
-const flashTime = 1500; // ms, long enough to read what lets go
+const flashTime = 1500; // ms, long enough to read what vanishes

@@ -51,7 +51,7 @@ export interface Loci {
   units?: string[];
   box: [number, number][];
   complete: boolean;
-  /** Places at which a locus is not settled; over two coordinates. */
+  /** Places at which a locus is not proven; over two coordinates. */
   open?: { cause: string; working_mode: ModeNames; from: number[]; to: number[] }[];
   curves: Curve[];
   surfaces?: Surface[];
