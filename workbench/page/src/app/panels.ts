@@ -93,7 +93,7 @@ export function incompleteWords(loci: { open?: readonly unknown[] }): string {
 
 /** Reactions that no load reaches are told in one note, not in one each. */
 export function notesInShort(notes: readonly string[]): string[] {
-  const idle = / is zero in every pose: no load reaches it$/;
+  const idle = / is zero in every pose under these loads$/;
   const names = notes.filter((note) => idle.test(note)).map((note) => note.replace(idle, ""));
   const others = notes.filter((note) => !idle.test(note));
   return names.length > 1 ? [...others, `${names.join(", ")} are zero in every pose under these loads`] : [...notes];
