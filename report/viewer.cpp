@@ -155,13 +155,13 @@ struct Happening {
 constexpr std::array happenings = {
     Happening{core::LocusKind::contact_loss,
               "the force in a joint vanishes: the pin crosses its clearance, and the end effector jumps"},
-    Happening{core::LocusKind::backlash, "an actuator bears nothing: its play is crossed"},
+    Happening{core::LocusKind::backlash, "the effort of an actuator vanishes: the actuator crosses its play"},
     Happening{core::LocusKind::component, "a component of a reaction vanishes and changes its sign"},
-    Happening{core::LocusKind::margin, "a reaction is as small as it may be"},
+    Happening{core::LocusKind::margin, "a reaction has the least size that is allowed"},
     Happening{core::LocusKind::direct_singularity,
               "the mechanism is singular: reactions grow without bound and change their sign"},
-    Happening{core::LocusKind::workspace_boundary, "a leg is stretched out or folded: the end of what can be reached"},
-    Happening{core::LocusKind::no_limit, "what the reaction is there depends on where one comes from"}};
+    Happening{core::LocusKind::workspace_boundary, "a leg is stretched out or folded: the workspace ends"},
+    Happening{core::LocusKind::no_limit, "the reaction depends on the direction from which the pose is reached"}};
 
 /// What the page shows: as told_unit, so degrees unless the file says otherwise.
 Json units_object(const core::Units& units) {
