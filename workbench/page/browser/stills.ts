@@ -20,7 +20,7 @@ await page.mouse.up();
 await drag(page, await pose(page), [0.25, -0.62]);
 await page.getByRole("button", { name: "Keep to compare" }).click();
 await type(page, "L", "23/50");
-await still("Change a length: loci and zones change; dashed: the kept design");
+await still("Change a length: loci and zones change; faint: the kept design");
 await page.getByRole("button", { name: "Undo" }).click();
 await page.getByRole("button", { name: "Drop the kept design" }).click();
 await page.getByText("Task", { exact: true }).click();
