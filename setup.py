@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 from setuptools import Extension, setup
@@ -19,13 +20,11 @@ class BuildByCMake(build_ext):
     def build_extension(self, extension: Extension) -> None:
         tree = Path(os.environ.get("CLEARLOCI_BUILD") or self.build_temp).resolve()
         if "CLEARLOCI_BUILD" not in os.environ:
-            options = {"BUILD_TYPE": "Release"}
-            own = {"PYTHON": "ON", "BUILD_TESTS": "OFF", "WORKBENCH": "OFF", "UNITY": "ON"}
-            subprocess.check_call(
-                ["cmake", "-S", str(root), "-B", str(tree), "-G", "Ninja"]
-                + [f"-DCMAKE_{name}={value}" for name, value in options.items()]
-                + [f"-DCLEARLOCI_{name}={value}" for name, value in own.items()]
-            )
+            # The Python that runs pip, whatever other one CMake would find first.
+            options = {"CMAKE_BUILD_TYPE": "Release", "Python3_EXECUTABLE": sys.executable, "CLEARLOCI_PYTHON": "ON"}
+            options |= {"CLEARLOCI_BUILD_TESTS": "OFF", "CLEARLOCI_WORKBENCH": "OFF", "CLEARLOCI_UNITY": "ON"}
+            configure = ["cmake", "-S", str(root), "-B", str(tree), "-G", "Ninja"]
+            subprocess.check_call(configure + [f"-D{name}={value}" for name, value in options.items()])
             subprocess.check_call(["cmake", "--build", str(tree), "--target", "clearloci_python"])
         built = next((tree / "python" / "clearloci").glob("_clearloci*.so"))
         target = Path(self.get_ext_fullpath(extension.name))

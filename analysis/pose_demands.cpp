@@ -23,7 +23,7 @@ std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>&
       names += (names.empty() ? "" : ", ") + core::to_string(demands[d].quantity) + "_" + demands[d].joint;
   }
   if (!names.empty())
-    notes.push_back(names + ": zero, to rounding, at every pose looked at; taken as never loaded, and not asked for");
+    notes.push_back(names + ": zero within rounding errors at every computed pose; treated as unloaded in every pose");
   return loaded;
 }
 

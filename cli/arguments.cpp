@@ -51,12 +51,12 @@ std::optional<int> whole_number(std::string_view text) {
 }  // namespace
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
-  command.add_option("MODEL", arguments.model, "The mechanism file (YAML), or one that import reads")
+  command.add_option("MODEL", arguments.model, "The mechanism file (YAML), or a file that the command import reads")
       ->required()
       ->type_name("FILE");
   command
       .add_option("--set", arguments.overrides,
-                  "Override a parameter of the file: name=value, in the unit of the file (repeatable)")
+                  "Give a parameter another value, in the unit in which the file writes it (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
   command
@@ -65,15 +65,17 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
           [&arguments](const std::vector<std::string>& words) {
             for (const std::string& word : words) arguments.overrides.push_back("preload_" + word);
           },
-          "Give a free effort of the file: joint=value, N m or N (repeatable)")
+          "Give a motor of free effort its effort, in N m or N (repeatable)")
       ->allow_extra_args(false)
       ->type_name("JOINT=VALUE");
-  command.add_option("-o,--output", arguments.output, "Folder for the files that are written")->type_name("DIR");
-  command.add_flag("--quiet", arguments.quiet, "No table, no progress bar");
-  command.add_flag("--json", arguments.json, "The result as JSON on standard output instead of the table");
+  command.add_option("-o,--output", arguments.output, "Folder for the files (default: ./out/<name of MODEL>)")
+      ->type_name("DIR");
+  command.add_flag("--quiet", arguments.quiet, "Print no table and no progress bar");
+  command.add_flag("--json", arguments.json, "Print the answer as JSON in place of the table");
   command
-      .add_option("--time-limit", arguments.time_limit,
-                  "Seconds; when they are over, what is known is written, marked incomplete, and the exit status is 3")
+      .add_option(
+          "--time-limit", arguments.time_limit,
+          "Largest time. When it is over, the program writes what it knows, marked as incomplete; exit status 3")
       ->type_name("SECONDS");
 }
 

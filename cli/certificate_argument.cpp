@@ -24,7 +24,7 @@ report::CertificateSource source_of(const std::string& command, const CommonArgu
 }  // namespace
 
 void add_certificate_argument(CLI::App& command, std::string& file, const std::string& of) {
-  command.add_option("--certificate", file, "Also what was proven and how, for clearloci check; " + of)
+  command.add_option("--certificate", file, "Also write a certificate of what was proven, for clearloci check; " + of)
       ->type_name("FILE");
 }
 

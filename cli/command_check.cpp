@@ -65,15 +65,17 @@ Command add_check_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("check", "Check a certificate against the model, with independent code");
   const auto arguments = std::make_shared<CheckCommand>();
   app->add_option("MODEL", arguments->common.model, "The mechanism file that the certificate was made for")->required();
-  app->add_option("FILE", arguments->certificate, "What --certificate of loci, zones or verify wrote")->required();
+  app->add_option("FILE", arguments->certificate,
+                  "The certificate, which the option --certificate of loci, zones or verify wrote")
+      ->required();
   app->add_option("--time-limit", arguments->common.time_limit,
-                  "Seconds after which the check gives up, with exit status 3")
+                  "Largest time. When it is over, the check ends with exit status 3")
       ->type_name("SECONDS");
-  app->add_flag("--json", arguments->common.json, "Print the examination as JSON");
+  app->add_flag("--json", arguments->common.json, "Print the result of the check as JSON");
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --certificate out/five_bar.cert\n"
       "         clearloci check examples/five_bar.yaml out/five_bar.cert\n"
-      "Exit status: 0 every claim is shown; 1 a claim is not; 2 a file cannot be read.");
+      "Exit status: 0 every claim is confirmed; 1 a claim is not; 2 a file cannot be read.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

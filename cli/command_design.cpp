@@ -135,12 +135,13 @@ int run(const DesignCommand& arguments, TimeLimit& limit) {
 }  // namespace
 
 Command add_design_command(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("design", "Judge many designs by a task, and find the best");
+  CLI::App* app = program.add_subcommand("design", "Check many designs for a task, and find the best one");
   const auto arguments = std::make_shared<DesignCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("STUDY", arguments->study, "The study file: what varies, the task, the goal, the method")->required();
-  app->add_flag("--resume", arguments->resume, "Go on where a run of the same study was stopped");
-  app->add_option("--threads", arguments->threads, "Designs judged at a time (default: as many as there are cores)")
+  app->add_flag("--resume", arguments->resume, "Continue a run of the same study that was stopped");
+  app->add_option("--threads", arguments->threads,
+                  "Number of designs that are checked at the same time (default: the number of cores)")
       ->type_name("COUNT");
   app->add_option(
          "--export", arguments->formats,
@@ -149,8 +150,8 @@ Command add_design_command(CLI::App& program) {
       ->capture_default_str();
   app->footer(
       "Example: clearloci design examples/five_bar.yaml examples/studies/link_lengths.yaml\n"
-      "Exit status 3: the time limit came first; --resume goes on. The same study gives the same files\n"
-      "whatever the number of threads. They go to ./out/<name of MODEL>, or to the folder of -o.");
+      "Exit status 3: the time limit was reached; --resume continues. The same study gives the same files with any\n"
+      "number of threads.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

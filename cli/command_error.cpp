@@ -111,30 +111,33 @@ Command add_error_command(CLI::App& program) {
                   "Cells along each coordinate (default: 400x400, over three 40x40x40), or steps along a single one "
                   "(default: 720)")
       ->type_name("NXxNY|NXxNYxNZ|N");
-  app->add_option("--slice", arguments->slices,
-                  "Over three coordinates: which layers of cells are drawn, such as z=0.3, once or more (default: the "
-                  "middle of the last coordinate)")
+  app->add_option(
+         "--slice", arguments->slices,
+         "Over three coordinates: draw the layer of cells at this value, such as z=0.3 (repeatable; default: the "
+         "middle of the last coordinate)")
       ->type_name("NAME=VALUE");
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides error.json, comma-separated: {}; over one coordinate without vtk",
                               fmt::join(report::error_formats(2), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
-  app->add_flag("--no-loci", arguments->without_loci, "Pictures without the loci drawn over them");
-  app->add_flag("--no-worst-case", arguments->without_worst_case, "Only the error under the file's load");
-  app->add_flag("--zones", arguments->zones, "Also the sizes of the errors in each discontinuity-free zone");
-  app->add_option("--cells", arguments->zone_cells,
-                  "With --zones over one to three coordinates that are not two lengths: cells to look at in each mode")
+  app->add_flag("--no-loci", arguments->without_loci, "Draw no loci over the pictures");
+  app->add_flag("--no-worst-case", arguments->without_worst_case,
+                "Compute only the error under the load of the file, not the worst case over all loads");
+  app->add_flag("--zones", arguments->zones, "Also print the size of the errors in each zone");
+  app->add_option(
+         "--cells", arguments->zone_cells,
+         "With --zones over one to three coordinates that are not two lengths: the number of cells in each mode")
       ->check(CLI::Range(1L, 100'000'000L))
       ->capture_default_str();
   app->footer(
       "Example: clearloci error examples/five_bar.yaml --grid 300x400 --export png,csv,vtk\n"
       "Writes error.json, a picture for each component (error-dx.png, ...) and for the worst case over all take-ups\n"
-      "(error-worst-dx.png, ...) to ./out/<name of MODEL>, or to the folder of -o. With one free coordinate the "
+      "(error-worst-dx.png, ...). With one free coordinate the "
       "error,\n"
       "the take-up of every joint and the reactions are drawn over it (error.png, take-up.png, reactions.png), and "
       "the\n"
-      "table lists how far the end effector jumps at each locus: clearloci error examples/four_bar.yaml");
+      "table lists the jumps of the end effector at the loci: clearloci error examples/four_bar.yaml");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

@@ -51,22 +51,23 @@ Command add_import_command(CLI::App& program) {
   auto arguments = std::make_shared<ImportCommand>();
   CLI::App* command = program.add_subcommand("import", "Write another program's file as a mechanism file");
   command
-      ->add_option("file", arguments->file,
+      ->add_option("FILE", arguments->file,
                    "A file of PMKS+, Linkage, MJCF, URDF, SDF, DXF, pyslvs or CUIK; or an address of PMKS+, in quotes")
       ->required();
-  command->add_option("-o,--output", arguments->output, "File to write; without it the text is printed");
-  command->add_option("--clearance", arguments->clearance,
-                      "Radial clearance of pins and balls of which the file says none, m (20e-6) or with its unit");
+  command->add_option("-o,--output", arguments->output, "The file to write; without this option the text is printed");
+  command->add_option(
+      "--clearance", arguments->clearance,
+      "Radial clearance of pins and balls, for which the file gives none, in m or with a unit (default: 20e-6)");
   command->add_option("--loops", arguments->loops,
-                      "The file with closed_loop: of a URDF; otherwise robot.yaml beside robot.urdf");
-  command->add_flag("--json", arguments->json, "Print text and notes as JSON");
-  command->add_flag("--quiet", arguments->quiet, "Print nothing but what is asked for");
+                      "With a URDF: the file with the key closed_loop (default: robot.yaml beside robot.urdf)");
+  command->add_flag("--json", arguments->json, "Print the text and the notes as JSON");
+  command->add_flag("--quiet", arguments->quiet, "Print no notes");
   command->footer(
       "Examples:\n"
       "  clearloci import linkage.linkage2 -o own.yaml\n"
       "  clearloci import 'https://app.pmksplus.com/?...' -o own.yaml --clearance '30 um'\n"
       "  clearloci loci robot.urdf\n"
-      "All commands take such files directly. What of each format is read: docs/import.md.");
+      "All commands take such files directly. docs/import.md lists what is read of each format.");
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -108,13 +108,12 @@ Command add_loci_command(CLI::App& program) {
       ->type_name("LIST")
       ->capture_default_str();
   app->add_flag("--exact", arguments->exact,
-                "Irrational numbers of closed forms in the table as roots, not as decimals");
-  add_certificate_argument(*app, arguments->certificate, "over two lengths, planar");
+                "Print irrational numbers of closed forms in the table as roots, not as decimals");
+  add_certificate_argument(*app, arguments->certificate, "planar mechanisms over two lengths");
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"
       "With three free coordinates the loci are surfaces:\n"
-      "  clearloci loci examples/gough_stewart.yaml --mesh-size 1/48 --export png,stl,obj,vtk\n"
-      "The files go to ./out/<name of MODEL>, or to the folder of -o.");
+      "  clearloci loci examples/gough_stewart.yaml --mesh-size 1/48 --export png,stl,obj,vtk");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

@@ -27,12 +27,16 @@ int run(const NormalizeCommand& arguments) {
 
 Command add_normalize_command(CLI::App& program) {
   auto arguments = std::make_shared<NormalizeCommand>();
-  CLI::App* command = program.add_subcommand("normalize", "Write what is drawn as points with constructions");
-  command->add_option("model", arguments->model, "Mechanism file")->required();
-  command->add_option("-o,--output", arguments->output, "File to write; without it the text is printed");
-  command->add_option("--set", arguments->overrides, "Another value of a parameter: name=value");
-  command->add_flag("--json", arguments->json, "Print text and notes as JSON");
-  command->add_flag("--quiet", arguments->quiet, "Print nothing but what is asked for");
+  CLI::App* command = program.add_subcommand(
+      "normalize", "Find the construction of every point of a drawn mechanism, and write the file");
+  command->add_option("MODEL", arguments->model, "The mechanism file (YAML), or a file that the command import reads")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", arguments->output, "The file to write; without this option the text is printed");
+  command->add_option("--set", arguments->overrides,
+                      "Give a parameter another value, in the unit in which the file writes it (repeatable)");
+  command->add_flag("--json", arguments->json, "Print the text and the notes as JSON");
+  command->add_flag("--quiet", arguments->quiet, "Print no notes");
   command->footer("Example: clearloci normalize sketch.yaml -o own.yaml\nThe drawn form: docs/drawn-form.md.");
   return {command, [arguments] { return run(*arguments); }};
 }

@@ -93,19 +93,19 @@ Command add_pose_command(CLI::App& program) {
   const auto arguments = std::make_shared<PoseCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("--at", arguments->at,
-                  "The pose: one value for each free coordinate, e.g. 0.25,-0.7 or y=-0.7,x=0.25")
+                  "The pose: one value for each free coordinate, such as 0.25,-0.7 or y=-0.7,x=0.25")
       ->required()
       ->type_name("POSE");
   app->add_option("--velocity", arguments->velocity,
-                  "Rates of the coordinates, m/s or rad/s: reactions with the links' inertia")
+                  "Rates of the coordinates, m/s or rad/s: include the inertia of the links in the reactions")
       ->type_name("RATES");
-  app->add_option("--acceleration", arguments->acceleration, "Likewise their accelerations, m/s^2 or rad/s^2")
+  app->add_option("--acceleration", arguments->acceleration, "Accelerations of the coordinates, m/s^2 or rad/s^2")
       ->type_name("RATES");
   app->add_option("--working-mode", arguments->working_mode,
-                  "left or right for every dyad, e.g. right,left (default: the file's), or all")
+                  "left or right for every dyad, such as right,left; or all (default: the mode of the file)")
       ->type_name("SIDES");
   app->add_flag("--iterate", arguments->iterate,
-                "Also the pose error beyond the linear step: the mechanism closed with its clearances taken up");
+                "Also solve the mechanism with its clearances taken up, without linearisation");
   app->footer(
       "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7 --iterate\n"
       "With -o, DIR/pose.json is written.");

@@ -106,16 +106,18 @@ Command add_trajectory_command(CLI::App& program) {
   const auto arguments = std::make_shared<TrajectoryCommand>();
   add_common_arguments(*app, arguments->common);
   app->add_option("PATH", arguments->path, "The trajectory file (YAML)")->required()->type_name("FILE");
-  app->add_option("--period", arguments->period, "The cycle's period (default: the file's)")->type_name("S");
+  app->add_option("--period", arguments->period, "Period of the cycle (default: that of the file)")->type_name("S");
   app->add_option("--periods", arguments->periods,
-                  "Also the error over a range of periods: first:last:step, e.g. 0.5:3:0.02")
+                  "Also compute the error over a range of periods, first:last:step, such as 0.5:3:0.02")
       ->type_name("RANGE");
   app->add_option("--min-force", arguments->min_force,
-                  "Contact counts as lost at this force (default: 1 % of the largest at rest)")
+                  "Contact counts as lost at or below this force (default: 1 % of the largest force at rest)")
       ->type_name("N");
-  app->add_option("--samples", arguments->samples, "Instants a cycle")->type_name("COUNT")->capture_default_str();
+  app->add_option("--samples", arguments->samples, "Number of instants in a cycle")
+      ->type_name("COUNT")
+      ->capture_default_str();
   app->add_option("--working-mode", arguments->working_mode,
-                  "left or right for every dyad, e.g. right,left (default: the file's)")
+                  "left or right for every dyad, such as right,left (default: the mode of the file)")
       ->type_name("SIDES");
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides trajectory.json, comma-separated: {}",
@@ -125,7 +127,7 @@ Command add_trajectory_command(CLI::App& program) {
   app->footer(
       "Example: clearloci trajectory examples/pick_and_place/manipulator.yaml examples/pick_and_place/path.yaml "
       "--periods 0.5:3:0.02\n"
-      "Writes trajectory.json, trajectory.csv and pictures to ./out/<name of MODEL>, or to the folder of -o.");
+      "Writes trajectory.json, trajectory.csv and pictures.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

@@ -140,10 +140,10 @@ Command add_verify_command(CLI::App& program) {
       ->required();
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
-  app->add_option(
-         "--fit", arguments->fit,
-         "Move the task: to the nearest place that verifies, or to the best, with the largest margin; or scale it, to "
-         "the largest that verifies")
+  app->add_option("--fit", arguments->fit,
+                  "Move the task to the nearest place at which it verifies, or to the best place, that of the largest "
+                  "margin; or "
+                  "scale it to the largest size that verifies")
       ->type_name("nearest|best|largest")
       ->expected(0, 1)
       ->default_str("nearest");
@@ -152,12 +152,11 @@ Command add_verify_command(CLI::App& program) {
                               fmt::join(report::format_names<core::Verification>(), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
-  add_certificate_argument(*app, arguments->certificate, "where the task is verified");
+  add_certificate_argument(*app, arguments->certificate, "only if the task is verified");
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
-      "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a witness is confirmed\n"
-      "numerically; 3 undecided within the time limit or the resolution of doubles.\n"
-      "The files go to ./out/<name of MODEL>, or to the folder of -o.");
+      "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a pose at which the\n"
+      "task fails is confirmed numerically; 3 undecided within the time limit or the resolution of doubles.");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

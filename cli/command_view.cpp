@@ -54,20 +54,22 @@ int run(const ViewCommand&) {
 }  // namespace
 
 Command add_view_command(CLI::App& program) {
-  CLI::App* app =
-      program.add_subcommand("view", "Open the workbench in a browser: draw, drag, and loci and zones follow");
+  CLI::App* app = program.add_subcommand(
+      "view", "Open the workbench in a browser: draw and change a mechanism; loci and zones are updated at once");
   const auto arguments = std::make_shared<ViewCommand>();
-  app->add_option("MODEL", arguments->common.model,
-                  "The mechanism file (YAML), or one that import reads; without it, a gallery and an empty sheet")
+  app->add_option(
+         "MODEL", arguments->common.model,
+         "The mechanism file (YAML), or a file that the command import reads; without it the page shows a gallery")
       ->type_name("FILE");
-  app->add_option("--set", arguments->common.overrides, "Override a parameter of the file: name=value (repeatable)")
+  app->add_option("--set", arguments->common.overrides,
+                  "Give a parameter another value, in the unit in which the file writes it (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE");
   constexpr int largest_port = 65535;
   app->add_option("--port", arguments->port, "The port to listen on (default: one that is free)")
       ->check(CLI::Range(1, largest_port))
       ->type_name("PORT");
-  app->add_option("--time-limit", arguments->common.time_limit, "Seconds an answer may take (default: 20)")
+  app->add_option("--time-limit", arguments->common.time_limit, "Largest time for one answer (default: 20)")
       ->type_name("SECONDS");
   app->footer(
       "Examples: clearloci view\n"

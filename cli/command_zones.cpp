@@ -74,16 +74,13 @@ Command add_zones_command(CLI::App& program) {
                      fmt::join(report::zone_formats(2, false), ", "), fmt::join(report::zone_formats(3, true), ", ")))
       ->type_name("LIST")
       ->capture_default_str();
-  app->add_option(
-         "--cells", arguments->cells,
-         "Over one to three coordinates that are not two lengths: cells to look at in each mode; more part zones "
-         "sharper")
+  app->add_option("--cells", arguments->cells,
+                  "Over one to three coordinates that are not two lengths: the number of cells in each mode; more "
+                  "cells leave less in doubt")
       ->check(CLI::Range(1L, 100'000'000L))
       ->capture_default_str();
-  add_certificate_argument(*app, arguments->certificate, "over two lengths, planar");
-  app->footer(
-      "Example: clearloci zones examples/five_bar.yaml --working-mode all\n"
-      "The files go to ./out/<name of MODEL>, or to the folder of -o.");
+  add_certificate_argument(*app, arguments->certificate, "planar mechanisms over two lengths");
+  app->footer("Example: clearloci zones examples/five_bar.yaml --working-mode all");
   return {app, [arguments] {
             return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
           }};

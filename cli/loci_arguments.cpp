@@ -32,33 +32,38 @@ double parse_tolerance(const std::string& text, const mechanism::Mechanism& mech
 
 void add_tracing_arguments(CLI::App& command, LociArguments& arguments) {
   command
-      .add_option("--joint", arguments.joints,
-                  "A joint whose reactions count (repeatable; default: all with a clearance, or all)")
+      .add_option(
+          "--joint", arguments.joints,
+          "Consider the reactions of this joint (repeatable; default: all joints with a clearance, or all joints)")
       ->allow_extra_args(false)
       ->type_name("NAME");
   command
       .add_option("--working-mode", arguments.working_mode,
-                  "left or right for every dyad, e.g. right,left, or all (default: the file's)")
+                  "left or right for every dyad, such as right,left; or all (default: the mode of the file)")
       ->type_name("SIDES");
   command
-      .add_option("--engine", arguments.engine,
-                  "exact (arrangement of curves), adaptive (subdivision), or both: adaptive-then-exact")
+      .add_option(
+          "--engine", arguments.engine,
+          "How curves are traced: exact (arrangement of polynomials), adaptive (subdivision), adaptive-then-exact")
       ->type_name("ENGINE")
       ->capture_default_str();
 }
 
 void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
-  command.add_option("--quantity", arguments.quantities, "What vanishes: f, N, T, M, F, fx to mz, comma-separated")
+  command
+      .add_option("--quantity", arguments.quantities,
+                  "Reactions whose zeros are traced: f, N, T, M, F, fx to mz, comma-separated")
       ->type_name("LIST")
       ->capture_default_str();
-  command.add_option("--min-force", arguments.min_force, "Also the curves on which a contact force has this value")
+  command
+      .add_option("--min-force", arguments.min_force, "Also trace the curves on which a contact force has this size")
       ->type_name("N");
-  command.add_option("--min-couple", arguments.min_couple, "Also the curves on which a couple has this value")
+  command.add_option("--min-couple", arguments.min_couple, "Also trace the curves on which a couple has this size")
       ->type_name("NM");
   command
       .add_option("--tolerance", arguments.tolerance,
-                  "Largest distance of a chord from its curve, in the file's unit of length (default: 1e-5 m, of a "
-                  "mechanism of some metres)")
+                  "Largest distance of a drawn chord from its curve, in the unit of length of the file (default: about "
+                  "1e-5 of the size of the mechanism)")
       ->type_name("M");
 }
 

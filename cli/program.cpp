@@ -67,7 +67,7 @@ int parse_and_run(int argc, const char* const* argv) {
   program.require_subcommand(1);
   program.footer(
       "Example: clearloci loci examples/five_bar.yaml\n" + wrapped_keys() +
-      "Exit status: 0 done; 1 a check said no; 2 the input or the call is wrong; 3 a limit of time or memory was "
+      "Exit status: 0 done; 1 a check failed; 2 the input or the call is wrong; 3 a limit of time or memory was "
       "reached;\n"
       "70 an error of the program itself.");
   const std::vector<Command> commands = {

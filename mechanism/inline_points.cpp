@@ -83,7 +83,7 @@ class Hoist {
   Node section(const std::string& name) {
     const Node content = part(name);
     if (name == "end_effector") return entry(content, {{"at", Slot::one}}, "E");
-    return entries_of(content, sections().at(name), name);
+    return entries_of(content, sections().at(name), name.substr(0, name.size() - 1));
   }
   Node entries_of(const Node& content, const Slots& slots, const std::string& name) {
     if (content.IsMap()) {
@@ -94,8 +94,16 @@ class Hoist {
     }
     if (!content.IsSequence()) return content;
     std::vector<Node> items;
-    for (const Node& one : content.items()) items.push_back(entry(one, slots, name + std::to_string(items.size() + 1)));
+    for (const Node& one : content.items()) items.push_back(entry(one, slots, owner_of(one, name, items.size() + 1)));
     return Node::sequence(std::move(items), content.where());
+  }
+
+  /// The name of an entry of a list; where it has none, what it is with its number: "spring1".
+  static std::string owner_of(const Node& item, const std::string& kind, std::size_t number) {
+    if (item.IsMap())
+      for (const auto& [key, content] : item.pairs())
+        if (key.IsScalar() && key.Scalar() == "name" && content.IsScalar()) return content.Scalar();
+    return kind + std::to_string(number);
   }
 
   /// `owner` gives the new points their names.

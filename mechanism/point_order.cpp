@@ -118,11 +118,13 @@ class OrderCheck {
                                       [&](const std::string& point) { return is_coordinates(point); });
       if (driven || pivot == link.points.end()) continue;
       driven = true;
-      mend = "let the angle of link " + link.name + " about " + *pivot + " be the free coordinate, with " + *through +
-             " at its cos and sin, so that one dyad closes after the other; the motor may stay at its joint";
+      mend = "make the angle of link " + link.name + " about " + *pivot + " the free coordinate, with " + *through +
+             " written by its cos and sin, so that each dyad uses points above it; the motor may stay at its joint; or "
+             "write the points as a group";
     }
     std::string together;
-    if (closed.size() > 1) together = "; the links " + join(closed) + " close together, none before the others";
+    if (closed.size() > 1)
+      together = "; the links " + join(closed) + " have positions that follow only from common equations";
     throw InputError(points_[closing].where, "the points use each other in a cycle: " + cycle + together, mend);
   }
 

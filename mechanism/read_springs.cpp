@@ -23,11 +23,19 @@ std::string usual_name(const Mechanism& mechanism) {
   return name;
 }
 
-Expression part(const Mechanism& mechanism, const Mapping& mapping, const char* key, Sign sign, const Spring& spring) {
+Number part(const Mechanism& mechanism, const Mapping& mapping, const char* key, Sign sign, const Spring& spring) {
   Value value = mapping.at(key);
   value.what = std::string("the ") + key + " of spring " + spring.name;
   if (spring.kind == Spring::Kind::torsion && value.field == "stiffness") value.field = "torsion_stiffness";
-  return read_number(mechanism, value, sign).expression;
+  return read_number(mechanism, value, sign);
+}
+
+/// Plain stiffnesses are in N/m in every file. In a file in mm they may have been meant in N/mm.
+void note_unit_of(const Number& stiffness, const Spring& spring, Mechanism& mechanism) {
+  const std::string& length = mechanism.units.length.name;
+  if (!stiffness.plain || length == "m") return;
+  mechanism.notes.push_back("spring " + spring.name +
+                            ": its stiffness has no unit and is therefore in N/m; write the unit, such as N/" + length);
 }
 
 void read_ends(const Mechanism& mechanism, const Mapping& mapping, Spring& spring) {
@@ -85,12 +93,12 @@ void read_torsion(const Mechanism& mechanism, const Mapping& mapping, Spring& sp
                      "torsion springs are in revolute joints; elsewhere write links: [..., ...], at: [..., ...]");
   spring.from = own.from;
   spring.to = own.to;
-  spring.stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring);
-  if (mapping.find("rest")) spring.rest = part(mechanism, mapping, "rest", Sign::any, spring);
+  spring.stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring).expression;
+  if (mapping.find("rest")) spring.rest = part(mechanism, mapping, "rest", Sign::any, spring).expression;
   for (const LinkIndex link : {spring.from, spring.to}) check_direction(mechanism, spring, link);
 }
 
-Spring read_spring(const Mechanism& mechanism, const Value& described) {
+Spring read_spring(Mechanism& mechanism, const Value& described) {
   const std::vector<std::string> between = {"name", "links", "at", "stiffness", "free_length", "force"};
   const std::vector<std::string> in_joint = {"name", "joint", "stiffness", "rest"};
   const bool torsion = described.node.has("joint");
@@ -119,14 +127,16 @@ Spring read_spring(const Mechanism& mechanism, const Value& described) {
                      "write two springs, or one of the two");
   if (force) {
     spring.kind = Spring::Kind::constant_force;
-    spring.force = part(mechanism, mapping, "force", Sign::any, spring);
+    spring.force = part(mechanism, mapping, "force", Sign::any, spring).expression;
     return spring;
   }
-  spring.stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring);
+  const Number stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring);
+  note_unit_of(stiffness, spring, mechanism);
+  spring.stiffness = stiffness.expression;
   if (!mapping.find("free_length"))
     throw InputError(described.where, "spring " + spring.name + " has no free_length",
-                     "add the length at which it pulls no more; 0 is one");
-  spring.free_length = part(mechanism, mapping, "free_length", Sign::not_negative, spring);
+                     "add the length at which it exerts no force; 0 is allowed");
+  spring.free_length = part(mechanism, mapping, "free_length", Sign::not_negative, spring).expression;
   return spring;
 }
 

@@ -279,7 +279,9 @@ Rational read_parameter_value(const Mechanism& mechanism, const Parameter& param
 
 Number read_number(const Mechanism& mechanism, const Value& value, Sign sign) {
   Number number;
-  number.expression = read_expression(mechanism, value, Scope::parameters);
+  const InSi read = read_in_si(mechanism, value, Scope::parameters);
+  number.expression = read.expression;
+  number.plain = !read.has_unit && read.dimension == Dimension{};
   number.value = evaluate_at(number.expression, mechanism, value).value;
   const std::string written = told(number, value, mechanism);
   if (sign != Sign::any && sgn(number.value) < 0)

@@ -22,6 +22,7 @@ std::string name_of(const std::optional<Value>& value, const std::string& file);
 struct Number {
   Expression expression;
   Rational value;
+  bool plain = false;  ///< without any unit
 };
 
 enum class Sign { any, not_negative, positive };

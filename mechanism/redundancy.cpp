@@ -219,9 +219,9 @@ Advice too_many(const Mechanism& m, std::size_t count) {
   if (!found || found->joints.size() + found->motors.size() == 0) return {"", general_excess};
   const std::string number = std::to_string(count) + " of ";
   if (found->motors.empty() && found->rods.empty())
-    return {": joints " + listed(found->joints) + " brace against each other",
+    return {": joints " + listed(found->joints) + " work against each other",
             m.space == Space::spatial
-                ? "let some of them bear less: spherical, universal or cylindrical instead of revolute or prismatic"
+                ? "use joints with more freedoms: spherical, universal or cylindrical instead of revolute or prismatic"
                 : "leave out " + number + "the links between them, with one of its joints"};
   std::string problem, mend;
   if (!found->motors.empty()) {
@@ -234,7 +234,7 @@ Advice too_many(const Mechanism& m, std::size_t count) {
     problem += (problem.empty() ? "" : " and ") + named("rod", found->rods);
     mend += (mend.empty() ? number : ", or leave out ") + "these rods with their joints";
   }
-  return {": " + problem + " brace against each other", "leave out " + mend};
+  return {": " + problem + " work against each other", "leave out " + mend};
 }
 
 Advice too_few(const Mechanism& m) {
@@ -242,7 +242,7 @@ Advice too_few(const Mechanism& m) {
   const std::string general = "add joints or actuate more of them (actuated: true)";
   if (!found || found->loose.empty()) return {"", general};
   const bool one = found->loose.size() == 1;
-  return {": " + named("link", found->loose) + (one ? " moves" : " move") + " while every motor stands still",
+  return {": " + named("link", found->loose) + (one ? " moves" : " move") + " although every motor stands still",
           std::string("actuate a joint of ") + (one ? "it" : "these") + " (actuated: true), or join " +
               (one ? "it" : "them") + " to more links"};
 }
@@ -257,8 +257,8 @@ Advice misplaced(const Mechanism& m) {
   else if (!found->rods.empty())
     braced = named("rod", found->rods);
   return {": " + named("link", found->loose) + (found->loose.size() == 1 ? " moves" : " move") +
-              " while every motor stands still, and " + braced + " brace against each other",
-          "actuate a joint of the former, and let one of the latter go"};
+              " although every motor stands still, and " + braced + " work against each other",
+          "actuate a joint of the former, and leave out one of the latter"};
 }
 
 }  // namespace clearloci::mechanism

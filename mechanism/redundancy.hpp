@@ -37,7 +37,7 @@ struct Redundancy {
   std::vector<std::string> motors;  ///< any one of them can be left out, and the rest still holds the mechanism
   std::vector<std::string> rods;    ///< links between two pins or balls that nothing drives, the same
   std::vector<std::string> joints;  ///< all joints that brace against each other
-  std::vector<std::string> loose;   ///< links that move while every motor stands still
+  std::vector<std::string> loose;   ///< links that move although every motor stands still
 };
 
 /// Nothing where no posture was found, or where all depends on the posture.

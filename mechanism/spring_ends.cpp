@@ -132,7 +132,8 @@ std::vector<std::string> notes_of_spring_ends(const Mechanism& mechanism) {
   std::vector<std::string> notes;
   for (const Limit& limit : mechanism.limits)
     if (const auto words = words_of_spring_ends(mechanism, limit))
-      notes.push_back(*words + ": there its force turns round and reactions jump; the workspace ends as at a limit");
+      notes.push_back(*words +
+                      ": there its force reverses and reactions jump; so the workspace ends there, as at a limit");
   return notes;
 }
 

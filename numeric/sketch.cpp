@@ -203,7 +203,8 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     if (spring.kind == mechanism::Spring::Kind::torsion)
       result.springs.push_back({point_of(p, m.joints[static_cast<std::size_t>(spring.joint)].at), {}, true});
     else
-      result.springs.push_back({point_of(p, spring.from_point), point_of(p, spring.to_point), false});
+      result.springs.push_back({point_of(p, spring.from_point), point_of(p, spring.to_point), false,
+                                spring.from == mechanism::ground, spring.to == mechanism::ground});
   }
   result.gravity = in_plane(p.gravity);
   const auto& end = m.points[static_cast<std::size_t>(m.end_effector_point)];

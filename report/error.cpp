@@ -160,7 +160,7 @@ std::string jumps_text(const core::Errors& errors, const core::ModeErrors& mode)
         heading.push_back({turns.size() == 1 ? fmt::format("turn [{}]", turn.name)
                                              : fmt::format("turn about {} [{}]", "xyz"[c], turn.name),
                            0, Alignment::point});
-      heading.push_back({"what lets go"});
+      heading.push_back({"what vanishes"});
     }
     Row& row = rows.emplace_back(Row{engineering(along.per_si * event.point.at.front(), place_digits)});
     for (const double jump : places) row.push_back(size(jump, lengths, length));

@@ -424,6 +424,10 @@ void draw_links(const Context& context, const Layout& layout, const core::Sketch
   for (const auto& joint : sketch.joints) {
     if (joint.on_ground) draw_ground(context, layout.page(joint.at));
   }
+  for (const auto& spring : sketch.springs) {
+    if (spring.from_ground) draw_ground(context, layout.page(spring.from));
+    if (spring.to_ground) draw_ground(context, layout.page(spring.to));
+  }
   for (const auto& slide : sketch.slides) draw_slide(context, layout, slide);
   for (const auto& link : sketch.links) {
     std::vector<Point2> path;

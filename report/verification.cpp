@@ -323,8 +323,9 @@ std::string verification_text(const core::Verification& result) {
                             words.pose(result.open->lower, place_digits), words.pose(result.open->upper, place_digits),
                             open_words(result)));
   for (const core::LeastReaction& own : result.least)
-    put("least", fmt::format("|{}| at least {} over the task, proven; {} met", reaction_name(own.reaction),
-                             words.effort(own.reaction, own.proven), words.effort(own.reaction, own.met)));
+    put("least",
+        fmt::format("|{}| at least {} over the task, proven; least value found {}", reaction_name(own.reaction),
+                    words.effort(own.reaction, own.proven), words.effort(own.reaction, own.met)));
   for (const std::string& note : told_once(core::in_file_units(result.notes, result.units, result.angles)))
     text += printable(note) + "\n";
   return text;

@@ -155,13 +155,13 @@ struct Happening {
 constexpr std::array happenings = {
     Happening{core::LocusKind::contact_loss,
               "the force in a joint vanishes: the pin crosses its clearance, and the end effector jumps"},
-    Happening{core::LocusKind::backlash, "an actuator bears nothing: its play is crossed"},
+    Happening{core::LocusKind::backlash, "the effort of an actuator vanishes: the actuator crosses its play"},
     Happening{core::LocusKind::component, "a component of a reaction vanishes and changes its sign"},
-    Happening{core::LocusKind::margin, "a reaction is as small as it may be"},
+    Happening{core::LocusKind::margin, "a reaction has the least size that is allowed"},
     Happening{core::LocusKind::direct_singularity,
               "the mechanism is singular: reactions grow without bound and change their sign"},
-    Happening{core::LocusKind::workspace_boundary, "a leg is stretched out or folded: the end of what can be reached"},
-    Happening{core::LocusKind::no_limit, "what the reaction is there depends on where one comes from"}};
+    Happening{core::LocusKind::workspace_boundary, "a leg is stretched out or folded: the workspace ends"},
+    Happening{core::LocusKind::no_limit, "the reaction depends on the direction from which the pose is reached"}};
 
 /// What the page shows: as told_unit, so degrees unless the file says otherwise.
 Json units_object(const core::Units& units) {
@@ -191,7 +191,11 @@ Json sketch_object(const core::Sketch& sketch) {
   if (sketch.end_effector && !sketch.end_effector->name.empty())
     body["end_effector"] = {{"name", printable(sketch.end_effector->name)}, {"at", sketch.end_effector->at}};
   for (const core::SketchSpring& spring : sketch.springs)
-    body["springs"].push_back({{"from", spring.from}, {"to", spring.to}, {"torsion", spring.torsion}});
+    body["springs"].push_back({{"from", spring.from},
+                               {"to", spring.to},
+                               {"torsion", spring.torsion},
+                               {"from_ground", spring.from_ground},
+                               {"to_ground", spring.to_ground}});
   return body;
 }
 

@@ -178,8 +178,8 @@ std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> 
 }
 
 std::vector<std::string> told_once(const std::vector<std::string>& notes) {
-  // "fBx is zero in every pose: no load reaches it" is said of many.
-  const std::string said = " is zero in every pose: no load reaches it";
+  // "fBx is zero in every pose under these loads" is said of many.
+  const std::string said = " is zero in every pose under these loads";
   std::vector<std::string> sentences, named;
   std::size_t place = 0;
   for (const std::string& note : notes) {
@@ -196,7 +196,7 @@ std::vector<std::string> told_once(const std::vector<std::string>& notes) {
   if (named.size() == 1) sentences.insert(sentences.begin() + static_cast<std::ptrdiff_t>(place), named.front() + said);
   if (named.size() > 1)
     sentences.insert(sentences.begin() + static_cast<std::ptrdiff_t>(place),
-                     joined(named, ", ") + " are zero in every pose: no load reaches them");
+                     joined(named, ", ") + " are zero in every pose under these loads");
   return sentences;
 }
 

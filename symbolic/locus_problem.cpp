@@ -280,7 +280,7 @@ class Derivation {
       const FactoredPoly& numerator = reaction.numerator;
       if (vanishes_everywhere(numerator)) {
         if (selected(joint) && is_asked_for(joint, reaction.quantity)) {
-          result_.notes.push_back(reaction.name + " is zero in every pose: no load reaches it");
+          result_.notes.push_back(reaction.name + " is zero in every pose under these loads");
         }
         result_.problem.always_zero.push_back({joint, reaction.quantity});
         continue;

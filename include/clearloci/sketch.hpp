@@ -44,6 +44,7 @@ struct SketchLoad {
 struct SketchSpring {
   Point2 from{}, to{};
   bool torsion = false;  ///< in a joint at `from`
+  bool from_ground = false, to_ground = false;
 };
 
 /// The end effector's point.

@@ -144,7 +144,7 @@ class Freedoms {
     return {links.begin(), links.end()};
   }
 
-  /// Rods, and joints where there are none, that brace against each other.
+  /// Rods, and joints where there are none, that work against each other.
   void braced(std::vector<std::string>& rods, std::vector<std::string>& joints) const {
     std::set<JointIndex> own;
     for (const std::size_t c : dependence_of(balances_of(m_, passive_, places_)).columns) own.insert(passive_[c].joint);
@@ -165,7 +165,7 @@ class Freedoms {
     return names;
   }
 
-  /// Whether motors alone brace against each other: any one of them may go.
+  /// Whether motors alone work against each other: any one of them may go.
   std::vector<std::string> motors_too_many() const {
     std::vector<BorneReaction> columns = passive_;
     columns.insert(columns.end(), motors_.begin(), motors_.end());
@@ -266,7 +266,7 @@ void check_braced(const Drawing& d, const Freedoms& freedoms) {
   const std::size_t more = freedoms.reactions() + d.coordinates.size() - freedoms.rows();
   if (rods.empty())
     throw InputError({d.mechanism.file},
-                     "joints " + listed(joints) + " brace against each other: " + counts(d, freedoms),
+                     "joints " + listed(joints) + " work against each other: " + counts(d, freedoms),
                      "leave out " + counted(more, "link", "links") + " between them with a joint each");
   throw InputError({d.mechanism.file},
                    "rods " + listed(rods) + " hold the links between them more than once: " +
@@ -364,9 +364,8 @@ void check_drawing(const Drawing& d) {
                      "leave out " + counted(d.coordinates.size() - freedoms.mobility(), "coordinate", "coordinates"));
   if (freedoms.motors() > freedoms.mobility()) {
     const std::vector<std::string> names = freedoms.motors_too_many();
-    throw InputError({d.mechanism.file},
-                     "motors " + listed(names) + " brace against each other: " + counts(d, freedoms),
-                     "let one of them go (actuated: false), or give it a known effort (actuated: {effort: 0})");
+    throw InputError({d.mechanism.file}, "motors " + listed(names) + " work against each other: " + counts(d, freedoms),
+                     "leave out one of them (actuated: false), or give it a known effort (actuated: {effort: 0})");
   }
   if (freedoms.motors() < freedoms.mobility()) {
     const std::vector<LinkIndex> undriven = freedoms.undriven();
@@ -381,7 +380,8 @@ void check_drawing(const Drawing& d) {
 void refuse_rest(const Drawing& d, const std::vector<LinkIndex>& open) {
   throw InputError(
       place_of(d, open),
-      link_words(d, open) + " close together, none before the others: a group that has no construction here",
+      link_words(d, open) +
+          " have positions that follow only from common equations, and no construction of such a group is known here",
       "name a coordinate of one of them under workspace, such as {angle: [0, 360 deg], of: " + d.name_of(open.front()) +
           "}, or give one of their points a construction under points");
 }

@@ -352,7 +352,7 @@ class Writer : private Drawing {
   }
 
   std::string default_load_text() {
-    s_.note("the source has no loads: 100 N downwards at the end effector stand for yours");
+    s_.note("the source has no loads: 100 N downwards at the end effector were assumed; replace them by yours");
     return "  - {link: " + link_name(effector_.first) + ", at: " + places_[effector_.second].name +
            ", force: " + (s_.planar ? "[0, -100]" : "[0, 0, -100]") + "}  # put yours here\n";
   }

@@ -10,8 +10,8 @@
 
     m.pose((0.25, -0.7)).error             # how far the clearances displace the end effector
 
-Units are SI throughout: m, rad, N, N m. `help(cl.Model)` explains every question and what its arguments mean; answers keep
-their values as attributes, print `table()`, give `json()` and write files by `export(folder, formats)`.
+Units are SI throughout: m, rad, N, N m. `help(cl.Model)` explains every method and its arguments. Answers have
+their values as attributes, and the methods `table()`, `json()` and `export(folder, formats)`.
 """
 
 from . import _needs  # first: says in a line what is missing

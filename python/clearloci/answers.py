@@ -25,7 +25,7 @@ Mode = "dict[str, str]"  # point -> side
 
 @dataclass(frozen=True)
 class Curve:
-    """One curve in one working mode, with everything that vanishes on it there."""
+    """One curve in one working mode, with all reactions that vanish on it."""
 
     id: str
     kind: str  #: "contact-loss", "backlash", "component", "margin", "direct-singularity", "workspace-boundary"
@@ -81,7 +81,7 @@ class IsolatedPoint:
 
 @dataclass(frozen=True)
 class OpenRegion:
-    """A place at which a locus is not settled: what was found holds outside of it."""
+    """A place at which a locus is not proven; the answer holds outside of it."""
 
     kind: str
     vanishing: list[str]
@@ -229,7 +229,7 @@ def ask(make: Callable[[Any], Any], name: str, model: Model, *arguments: Any, **
 
 @dataclass(frozen=True)
 class Validation(Asked):
-    """Loci compared with reactions that are solved numerically: true where nothing contradicts them.
+    """Loci compared with reactions that are computed numerically: true if nothing contradicts them.
 
     What is counted are edges between neighbouring nodes of a grid, over all reactions: the sign of a reaction changes along
     an edge as often as the loci say that it does (confirmed), or not (contradicted); or the edge meets a boundary, or the

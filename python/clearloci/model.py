@@ -1,4 +1,4 @@
-"""A mechanism, of which every question is asked."""
+"""A mechanism, and the questions about it."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class NormalizedFile(NamedTuple):
 
 
 class ImportedFile(NamedTuple):
-    """Another program's file as a mechanism file in the drawn form."""
+    """A file of another program as a mechanism file in the drawn form."""
 
     text: str
     #: "PMKS+", "Linkage", "MJCF", "URDF", "SDF", "DXF", "pyslvs" or "CUIK"; "" of a mechanism file.
@@ -41,7 +41,7 @@ class ImportedFile(NamedTuple):
 
 
 class Model:
-    """What a mechanism file says, with values of parameters put in::
+    """A mechanism file with values of its parameters::
 
         m = clearloci.read("five_bar.yaml")
         m.coordinates                         # {'x': (-0.5, 1.0), 'y': (-1.0, 1.0)}, m
@@ -103,9 +103,9 @@ class Model:
 
     @property
     def units(self) -> dict[str, str]:
-        """What tables, pictures and plots speak in, {"length": "mm", "angle": "deg", "force": "N"}: the units of the file.
+        """The units of tables, pictures and plots, {"length": "mm", "angle": "deg", "force": "N"}: those of the file.
 
-        Arguments and values of answers are in SI units all the same.
+        Arguments and values of answers are always in SI units.
         """
         return {what: name for what, (name, _) in self._handle.units.items()}
 
@@ -115,18 +115,18 @@ class Model:
 
     @property
     def working_mode(self) -> dict[str, str]:
-        """The file's: point -> side."""
+        """The working mode of the file: point -> side."""
         return self._handle.working_mode
 
     def with_parameters(self, **values: Value) -> Model:
         """The same mechanism with new values: m.with_parameters(L="0.45", d=0.6).
 
-        Numbers are taken as they print, in the units of the file; what does not depend on them is derived once.
+        Numbers are in the units of the file. Equations that do not depend on them are derived only once.
         """
         return Model(self._handle.with_parameters(**{name: _plain(name, value) for name, value in values.items()}))
 
     def normalize(self) -> NormalizedFile:
-        """The file in which every point has its construction; what is drawn is constructed (docs/drawn-form.md)."""
+        """The file in which every point has its construction; the drawn form is replaced by constructions (docs/drawn-form.md)."""
         return NormalizedFile(*self._handle.normalize())
 
     def loci(
@@ -178,7 +178,7 @@ class Model:
         cells: int = 300_000,
         by_cells: bool = False,
     ) -> Zones:
-        """The discontinuity-free zones, over one to three coordinates: the parts into which the loci cut the workspace.
+        """The discontinuity-free zones, over one to three coordinates: the parts into which the loci divide the workspace.
 
         Over two lengths they are the faces between curves; over other coordinates they are found by so many `cells` in
         each mode, with proven bounds of their sizes. `by_cells`: over two lengths, too.
@@ -211,7 +211,7 @@ class Model:
         engine: Engine | None = None,
         time_limit: float | None = None,
     ) -> Verification:
-        """Whether a task over one to six coordinates keeps clear of every locus: true where that is proven.
+        """Whether a task over one to six coordinates is free of loci: true if that is proven.
 
         `task`: a task file, its content as a dictionary ({"box": {"x": [0.1, 0.4], "y": [-0.8, -0.6]}, "margin": 0.01,
         "min_force": 5}), or an array (n, coordinates) of poses, which is a path; in the units of the mechanism file.
@@ -236,7 +236,7 @@ class Model:
         engine: Engine | None = None,
         time_limit: float | None = None,
     ) -> Validation:
-        """The loci compared with reactions that are solved numerically at the nodes of a grid: true where nothing
+        """The loci compared with reactions that are computed numerically at the nodes of a grid: true if nothing
         contradicts them.
 
         `grid`: so many nodes along each coordinate; 400 each over two, 4000 over one, 40 each over three where none are
@@ -341,7 +341,7 @@ class Model:
     ) -> Trajectory:
         """What happens along a motion file: reactions with inertia, take-up, contact losses, critical periods.
 
-        `period` (s) takes the place of the file's; `samples`: instants a cycle; `min_force` (N): below it contact counts
+        `period` (s) replaces that of the file; `samples`: instants in a cycle; `min_force` (N): below it contact counts
         as lost, 1 % of the largest force at rest unless said; `periods` (s, ascending): the error of each, `sweep`.
         """
         given = arguments.options(self, working_mode=_single(working_mode))
@@ -408,7 +408,7 @@ def import_file(
     clearance: str | float | None = None,
     loops: str | os.PathLike[str] | None = None,
 ) -> ImportedFile:
-    """Another program's file as a mechanism file (docs/import.md); `read` takes such files directly.
+    """A file of another program as a mechanism file (docs/import.md); `read` also reads such files directly.
 
     `path`: of a file, or an address of PMKS+. `clearance`: of pins and balls of which the file says none, m or a text with
     its unit; None: 20e-6 m. `loops`: the file with `closed_loop:` of a URDF; None: robot.yaml beside robot.urdf.

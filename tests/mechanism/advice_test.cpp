@@ -107,7 +107,7 @@ TEST(Advice, NamesRodsThatAreTooMany) {
 
 TEST(Advice, NamesTheLinksThatAMissingMotorLetsGo) {
   const std::string said = refusal(with(five_bar_text, "at: A2, actuated: true", "at: A2"));
-  EXPECT_TRUE(says(said, "under-actuated by 1: links B1P, PB2, B2A2 move while every motor stands still")) << said;
+  EXPECT_TRUE(says(said, "under-actuated by 1: links B1P, PB2, B2A2 move although every motor stands still")) << said;
   const std::string over = refusal(with(five_bar_text, "at: B1, ", "at: B1, actuated: true, "));
   EXPECT_TRUE(says(over, "over-constrained by 1: motors A1, B1, A2")) << over;
 }
@@ -116,7 +116,7 @@ TEST(Advice, NamesTheLinksOfACycleOfPoints) {
   const std::string text = refused_file("cycle_of_points.yaml");
   const std::string said = refusal(text);
   EXPECT_TRUE(says(said, "C -> A -> C; the links a (O2, A), t (A, B, C), c (C, D) close together")) << said;
-  EXPECT_TRUE(says(said, "let the angle of link a about O2 be the free coordinate, with A at its cos and sin")) << said;
+  EXPECT_TRUE(says(said, "make the angle of link a about O2 the free coordinate, with A written by its cos and sin")) << said;
   // So it is written: the motor stays at O6.
   const std::size_t from = text.find("  D: ["), to = text.find("links:");
   const std::string driven = std::string(text).replace(from, to - from,

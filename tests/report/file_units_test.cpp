@@ -55,7 +55,7 @@ TEST(FileUnits, AreThoseOfTablesCsvAndDrawings) {
 TEST(ZonesTable, AlignsAndLeavesOutWhatNothingLoads) {
   core::Zones map;
   map.loci = line_in_mm();
-  map.loci.notes = {"NS is zero in every pose: no load reaches it"};
+  map.loci.notes = {"NS is zero in every pose under these loads"};
   core::Zone zone;
   zone.id = "z1";
   zone.assembly_mode = 1;
@@ -152,10 +152,10 @@ TEST(Wording, SaysByVirtualWorkWhatAFactorMeans) {
 }
 
 TEST(Wording, TellsEachNoteOnce) {
-  const std::vector<std::string> notes = {"a", "fAx is zero in every pose: no load reaches it", "b", "a",
-                                          "TP is zero in every pose: no load reaches it"};
+  const std::vector<std::string> notes = {"a", "fAx is zero in every pose under these loads", "b", "a",
+                                          "TP is zero in every pose under these loads"};
   EXPECT_EQ(told_once(notes),
-            (std::vector<std::string>{"a", "fAx, TP are zero in every pose: no load reaches them", "b"}));
+            (std::vector<std::string>{"a", "fAx, TP are zero in every pose under these loads", "b"}));
 }
 
 }  // namespace

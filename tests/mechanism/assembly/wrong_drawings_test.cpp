@@ -55,7 +55,7 @@ const std::vector<WrongDrawing>& wrong_drawings() {
        "leave out 1 coordinate"},
       {"a motor too many",
        {{pin_d, "  D: {revolute: [ground, CD], at: D, actuated: true}\n"}},
-       "motors A and D brace against each other: 1 freedom",
+       "motors A and D work against each other: 1 freedom",
        "actuated: false"},
       {"no motor",
        {{"at: A, actuated: true}", "at: A}"}},

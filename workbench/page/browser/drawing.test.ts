@@ -80,7 +80,7 @@ describe("a five-bar from nothing", () => {
     await sheet.drag([0, 0], [-100, 150]);
     await sheet.click([-100, 150], [100, 300]); // a link by two clicks
     await sheet.drag([100, 300], [300, 150]);
-    expect(await sheet.said()).toEqual(["Nothing drives it: put a motor at a joint", "joint A"]);
+    expect(await sheet.said()).toEqual(["No motor: put one at a joint", "joint A"]);
     await sheet.drag([300, 150], [200, 0]);
     await sheet.take("motor");
     await sheet.click([0, 0]);
@@ -180,7 +180,7 @@ describe("other mechanisms", () => {
     await shot(page, "drawing-slider-crank");
     const before = await picture(page);
     await page.locator(".stage-column .play button").click();
-    await expect.poll(() => page.locator(".stage-column .losses").textContent(), { timeout: 30_000 }).toContain("lets go");
+    await expect.poll(() => page.locator(".stage-column .losses").textContent(), { timeout: 30_000 }).toContain("vanishes");
     await shot(page, "drawing-play");
     await page.locator(".stage-column .play button").click();
     await rest(page);
@@ -310,7 +310,7 @@ describe("a file", () => {
     await sheet.take("spring");
     await sheet.drag(at("B1"), at("A2"));
     expect(await sheet.said()).toEqual(["", ""]);
-    expect(await saved(page)).toContain("springs:\n  - {links: [A1B1, ground], at: [B1, A2], stiffness: 1000, free_length: 0}\n");
+    expect(await saved(page)).toContain("springs:\n  - {links: [A1B1, ground], at: [B1, A2], stiffness: 1000 N/m, free_length: 0}\n");
     await expect.poll(() => legend(page)).toBeGreaterThan(0);
   });
 

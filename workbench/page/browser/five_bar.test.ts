@@ -59,7 +59,7 @@ describe("the hand", () => {
     expect(await page.getByRole("alert").getByText("out of reach").textContent()).toContain("cannot be placed");
   });
 
-  it("hears what lets go on a locus that it crosses", async () => {
+  it("tells what vanishes on a locus that it crosses", async () => {
     const page = await start();
     await drag(page, await pose(page), [0.4, -0.3]);
     const stage = page.locator(".stage:not(.space)");

@@ -3,7 +3,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Locator, Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
-import { drag, exact, rest, shot, source, type } from "./program";
+import { drag, exact, onPage, rest, shot, source, type } from "./program";
 import { session } from "./session";
 
 const start = session("five_bar.yaml");
@@ -45,6 +45,19 @@ describe("one coordinate", () => {
     expect(Number(await strip.getAttribute("aria-valuenow"))).toBeCloseTo(Number(at) + 0.02 * Math.PI, 6);
     await expect.poll(() => page.locator(".plot canvas").count()).toBeGreaterThanOrEqual(3);
     await shot(page, "four-bar");
+  });
+});
+
+describe("a spring to the ground", () => {
+  it("is shown whole", async () => {
+    const page = await example("five_bar_preloaded.yaml");
+    await page.getByText("Points on the ground", { exact: true }).click();
+    await type(page, "H y", "1.7");
+    await page.locator(".stage:not(.space)").first().press("0");
+    const [x, y] = await onPage(page, [await exact(page, "H x").inputValue().then(Number), 1.7]);
+    const box = await page.locator(".stage:not(.space)").first().boundingBox();
+    expect(x).toBeGreaterThan(box?.x ?? Infinity);
+    expect(y).toBeGreaterThan(box?.y ?? Infinity);
   });
 });
 

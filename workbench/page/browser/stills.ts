@@ -15,18 +15,18 @@ const still = async (words: string): Promise<void> => {
 
 await drag(page, await pose(page), [0.76, -0.1]);
 await drag(page, await pose(page), [0.76, -0.01], false); // just across: the flash is at its brightest
-await still("Drag the end effector: a crossed locus says what lets go");
+await still("Drag the end effector: a locus that it crosses flashes");
 await page.mouse.up();
 await drag(page, await pose(page), [0.25, -0.62]);
 await page.getByRole("button", { name: "Keep to compare" }).click();
 await type(page, "L", "23/50");
-await still("Change a length: loci and zones follow; a kept design stays");
+await still("Change a length: loci and zones change; faint: the kept design");
 await page.getByRole("button", { name: "Undo" }).click();
 await page.getByRole("button", { name: "Drop the kept design" }).click();
 await page.getByText("Task", { exact: true }).click();
 await page.getByRole("button", { name: "box", exact: true }).click();
 await rest(page);
-await still("Draw a task: proven, with its margin, while it moves");
+await still("Draw a task: it is verified while you move it");
 
 await montage(browser, stills, process.argv[3] ?? "stills.png");
 await browser.close();

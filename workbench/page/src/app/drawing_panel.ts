@@ -36,7 +36,7 @@ export function drawingPanel(bench: Workbench): Panel {
   replace(
     body,
     h("label", { class: "on-field" }, h("span", {}, "name"), name),
-    h("div", {}, ...selects.map((one) => one.row), h("p", { class: "quiet" }, "Numbers stay as they are written: another unit makes another size.")),
+    h("div", {}, ...selects.map((one) => one.row), h("p", { class: "quiet" }, "If you choose another unit, the numbers do not change.")),
     parameters,
     add,
     section("Clearances and fits", false, h("p", { class: "quiet" }, "A number, or a fit of ISO 286 with its diameter: H7/g6 12."), clearances),

@@ -28,7 +28,7 @@ export class DrawingStage {
     class: "sheet",
     tabindex: 0,
     role: "application",
-    "aria-label": "The sheet. The letters in the toolbar take up tools, Delete removes what is selected, arrow keys move it; + and - zoom, 0 shows all.",
+    "aria-label": "The sheet. The letters in the toolbar choose tools, Delete removes what is selected, arrow keys move it; + and - zoom, 0 shows all.",
   });
   tool: Tool = selectTool;
   selected: Element | undefined;

@@ -31,7 +31,7 @@ export async function openFiles(bench: Workbench, files: File[]): Promise<string
 async function openForeign(bench: Workbench, file: string, text: string, side: object = {}): Promise<string[]> {
   try {
     const answer = await ask<Imported>("import", { file, text, ...side, lane: "import" });
-    if (answer.source === "") return [`${file} is no mechanism file (.yaml), and of no other form that is read`];
+    if (answer.source === "") return [`${file} is not a mechanism file (.yaml), nor of another format that can be read`];
     bench.open(`${file.replace(/\.[^.]*$/, "")}.yaml`, answer.text);
     return answer.notes;
   } catch (error) {

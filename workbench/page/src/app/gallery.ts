@@ -8,17 +8,17 @@ import { h } from "./dom";
 import type { Workbench } from "./workbench";
 
 const shown: [file: string, title: string, words: string][] = [
-  ["five_bar.yaml", "Five-bar", "Two motors place a point in the plane. On the curves a pin lets go of its hole."],
-  ["four_bar.yaml", "Four-bar", "One crank, one cycle: where along it the pins change sides."],
+  ["five_bar.yaml", "Five-bar", "Two motors place a point in the plane. On the curves a pin loses contact with its hole."],
+  ["four_bar.yaml", "Four-bar", "One crank: the angles of its cycle at which a reaction changes its sign."],
   ["slider_crank.yaml", "Slider-crank", "A piston and its crank: clearance in the pins and in the guide."],
   ["three_rrr.yaml", "3-RRR platform", "Three cranks carry a platform that keeps its orientation."],
   ["prrrp.yaml", "Two sliders", "Two carriages on a rail place a point: a fast pick-and-place machine."],
-  ["rprpr.yaml", "Two cylinders", "Two struts push a point: their own backlash counts as well."],
+  ["rprpr.yaml", "Two cylinders", "Two struts push a point; their backlash is considered, too."],
   ["watt_six_bar.yaml", "Watt six-bar", "Two four-bars, one behind the other."],
-  ["toggle_press.yaml", "Toggle press", "A small force in the middle is a large one at the end."],
-  ["klann_leg.yaml", "Klann leg", "A walking leg: which pin is loose at which part of the step."],
-  ["excavator.yaml", "Excavator", "Boom and bucket by cylinders, with the weight of all that they carry."],
-  ["gough_stewart.yaml", "Gough–Stewart platform", "Six struts in space: surfaces on which one of them carries nothing."],
+  ["toggle_press.yaml", "Toggle press", "A small force at the crank causes a large one at the ram."],
+  ["klann_leg.yaml", "Klann leg", "A walking leg: where in its step each pin loses contact."],
+  ["excavator.yaml", "Excavator", "Boom and arm on cylinders, with their weights."],
+  ["gough_stewart.yaml", "Gough–Stewart platform", "Six struts in space: surfaces on which the force in a strut vanishes."],
   ["delta.yaml", "Delta robot", "Three arms in space, for picking: its loci are surfaces."],
 ];
 
@@ -40,7 +40,7 @@ export class Gallery {
     });
     const unit = h("select", { "aria-label": "unit of lengths of the new sheet" }, ...["mm", "cm", "m", "in"].map((one) => h("option", { value: one }, one)));
     this.element.append(
-      h("h2", {}, "Where does a mechanism lose contact? Draw it, bring it, or begin with one of these"),
+      h("h2", {}, "Where does a mechanism lose contact? Draw one, open a file, or choose one of these"),
       h("div", { class: "buttons" },
         h("button", { type: "button", class: "primary", id: "new-sheet", click: () => bench.open("mechanism.yaml", newFile(unit.value), true) }, "New: an empty sheet"),
         unit,

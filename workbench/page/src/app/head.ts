@@ -34,8 +34,8 @@ export function buildHead(bench: Workbench): HTMLElement {
   });
   const undo = h("button", { type: "button", title: "Undo (Ctrl+Z)", click: () => bench.undo() }, "Undo");
   const redo = h("button", { type: "button", title: "Redo (Ctrl+Shift+Z)", click: () => bench.redo() }, "Redo");
-  const keep = h("button", { type: "button", title: "Keep this design: its loci stay, faint, while you change it", click: () => bench.change({ kept: bench.state.kept ? undefined : { text: bench.state.text, mode: bench.state.mode } }) });
-  const link = h("button", { type: "button", title: "Copy the part of the address that holds everything shown", click: () => void copyLink(link) }, "Copy link");
+  const keep = h("button", { type: "button", title: "Keep the loci of this design visible, in faint colours, while you change it", click: () => bench.change({ kept: bench.state.kept ? undefined : { text: bench.state.text, mode: bench.state.mode } }) });
+  const link = h("button", { type: "button", title: "Copy the address, which contains the mechanism and the view", click: () => void copyLink(link) }, "Copy link");
   const theme = h("button", { type: "button", title: "Light or dark", click: () => {
     localStorage.setItem("clearloci-theme", bench.dark ? "light" : "dark");
     window.dispatchEvent(new Event("clearloci-theme"));
@@ -45,7 +45,7 @@ export function buildHead(bench: Workbench): HTMLElement {
     replace(title, bench.facts?.name ?? (bench.drawing.name || "clearloci"));
     const planar = bench.facts?.spatial !== true;
     draw.disabled = bench.nothing || !planar;
-    draw.title = planar ? "Change the mechanism itself, with tools" : "Mechanisms in space are not drawn here: change their file";
+    draw.title = planar ? "Change the mechanism itself, with tools" : "Mechanisms in space cannot be drawn: edit their file";
     draw.setAttribute("aria-pressed", String(bench.state.drawing));
     store.disabled = keep.disabled = link.disabled = bench.nothing;
     undo.disabled = !bench.history.canUndo;

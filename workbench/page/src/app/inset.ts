@@ -1,5 +1,5 @@
 // The mechanism in its pose where the plane of the loci is not its own: a small picture in a corner.
-import { drawSketch, placesOf, projected } from "../draw/mechanism";
+import { boxAround, drawSketch, placesOf, projected } from "../draw/mechanism";
 import { Layer } from "../draw/surface";
 import { fit } from "../draw/view";
 import { h } from "./dom";
@@ -30,10 +30,7 @@ export class Inset {
     this.layer.resize(size);
     const context = this.layer.begin();
     const sketch = bench.pose.sketch ?? projected(bench.pose, bench.facts);
-    const places = placesOf(sketch);
-    if (places.length === 0) return;
-    const xs = places.map((at) => at[0]);
-    const ys = places.map((at) => at[1]);
-    drawSketch(context, fit({ low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] }, size, true, 14), sketch, bench.theme, 5);
+    const box = boxAround(placesOf(sketch));
+    if (box) drawSketch(context, fit(box, size, true, 14), sketch, bench.theme, 5);
   }
 }

@@ -78,10 +78,10 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
     panels.forEach((panel) => panel.update(news));
     const unplaced = bench.fault && !bench.fault.field ? bench.fault.message : "";
     const why = unplaced || (bench.fault ? `${nameOfField(bench)} is refused: ${bench.fault.message}` : "");
-    const words = drawing ? "" : why ? `${why}${bench.picture ? " — grey is the last design that works" : ""}` : bench.poseFault ?? bench.missing?.words ?? "";
+    const words = drawing ? "" : why ? `${why}${bench.picture ? " — grey: the last design that works" : ""}` : bench.poseFault ?? bench.missing?.words ?? "";
     const busy = bench.progress ? computing(bench.progress) : "";
     document.documentElement.dataset["stale"] = String(bench.fault !== undefined);
-    const beyond = bench.traceable ? "" : "Loci are drawn over one to three free coordinates: here are the pose, what the joints bear, and tasks.";
+    const beyond = bench.traceable ? "" : "Loci are drawn over one to three free coordinates. For this mechanism the page shows the pose, the reactions and tasks.";
     notice.textContent = words || busy || beyond;
     notice.className = words ? "notice fault" : "notice";
     document.title = `${bench.facts?.name ?? "clearloci"} — clearloci workbench`;

@@ -4,7 +4,7 @@ import { roundText } from "../data/exact";
 import { areaWords, lengthWords } from "../data/units";
 import type { Adjustable } from "../data/model_text";
 import { groupKey, idsOf } from "../draw/loci";
-import { drawSketch, placesOf } from "../draw/mechanism";
+import { boxAround, drawSketch, placesOf } from "../draw/mechanism";
 import { fit } from "../draw/view";
 import { h, replace, section } from "./dom";
 import { legendSample } from "./legend_sample";
@@ -22,10 +22,10 @@ export function readingPanel(bench: Workbench, stage: Stage): Panel {
   const body = h("div", { class: "reading", "aria-live": "polite" });
   const hint = (): string =>
     bench.coordinates.length === 1
-      ? "The marks along the strip below are the loci: what lets go there stands in the legend. Drag the end effector, or along the strip."
+      ? "The marks on the strip below are the loci; the legend names the reactions that vanish there. Drag the end effector, or along the strip."
       : !bench.traceable
         ? "No loci are drawn over more than three coordinates. Set the pose and a task by their numbers."
-        : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: what lets go there, why, and its formula stand here. Drag the end effector, the joints on the ground, or the empty plane.`;
+        : `Point at a ${bench.coordinates.length === 3 ? "surface" : "curve"}: this panel shows which reactions vanish there, the condition and the formula. Drag the end effector, the joints on the ground, or the empty plane.`;
   const zoneWords = (zone: Zone): string =>
     `${zone.id}: ${areaWords(zone.area, bench.units)}, largest circle of radius ${lengthWords(zone.inscribed_circle.radius, bench.units)}${zone.certified ? ", proven" : ", not proven"}`;
   const show = (): void => {
@@ -88,15 +88,15 @@ export function legendPanel(bench: Workbench): Panel {
 export function incompleteWords(loci: { open?: readonly unknown[] }): string {
   const places = (loci.open ?? []).length;
   if (places === 0) return "incomplete: stopped at the time limit";
-  return `incomplete: ${places} ${places === 1 ? "place" : "places"} at which a locus is not settled`;
+  return `incomplete: ${places} ${places === 1 ? "place" : "places"} at which a locus is not proven`;
 }
 
 /** Reactions that no load reaches are told in one note, not in one each. */
 export function notesInShort(notes: readonly string[]): string[] {
-  const idle = / is zero in every pose: no load reaches it$/;
+  const idle = / is zero in every pose under these loads$/;
   const names = notes.filter((note) => idle.test(note)).map((note) => note.replace(idle, ""));
   const others = notes.filter((note) => !idle.test(note));
-  return names.length > 1 ? [...others, `${names.join(", ")} are zero in every pose: no load reaches them`] : [...notes];
+  return names.length > 1 ? [...others, `${names.join(", ")} are zero in every pose under these loads`] : [...notes];
 }
 
 const groups: [Adjustable["group"], string, boolean][] = [
@@ -224,12 +224,10 @@ function thumbnail(sketch: Sketch | undefined, theme: Workbench["theme"]): HTMLC
   const size = { width: 84, height: 62 };
   const canvas = h("canvas", { width: size.width * ratio, height: size.height * ratio, "aria-hidden": "true" });
   const context = canvas.getContext("2d");
-  if (!context || !sketch) return canvas;
-  const places = placesOf(sketch);
-  const xs = places.map((at) => at[0]);
-  const ys = places.map((at) => at[1]);
+  const box = sketch && boxAround(placesOf(sketch));
+  if (!context || !box) return canvas;
   context.scale(ratio, ratio);
-  drawSketch(context, fit({ low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] }, size, true, 7), sketch, theme, 4);
+  drawSketch(context, fit(box, size, true, 7), sketch, theme, 4);
   return canvas;
 }
 

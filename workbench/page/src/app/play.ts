@@ -1,4 +1,4 @@
-// One coordinate goes through its range and back, or round a full turn; what lets go on the way is said.
+// One coordinate goes through its range and back, or round a full turn; the reactions that vanish on the way are named.
 import { h } from "./dom";
 import { reactionName, type Picture, type Point } from "../data/answers";
 import { shownOf } from "../draw/loci";
@@ -53,7 +53,7 @@ export function playBar(bench: Workbench, over: (n: number) => boolean): HTMLEle
     const to = at.map((one, i) => (i === k ? value : one));
     const names = bench.picture && Math.abs(value - before) < (range.upper - range.lower) / 2 ? passed(bench.picture, at, to) : [];
     if (names.length > 0) {
-      said.textContent = `lets go: ${names.join("; ")}`;
+      said.textContent = `vanishes: ${names.join("; ")}`;
       shownUntil = now + 1200;
     } else if (now > shownUntil) said.textContent = "";
     bench.change({ at: to }, "play");

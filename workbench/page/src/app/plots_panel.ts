@@ -13,7 +13,7 @@ export function plotsPanel(bench: Workbench): Panel {
   const forces = new Plot("Reactions");
   const couples = new Plot("Actuators");
   const errors = new Plot("Pose error");
-  const hint = h("p", { class: "quiet" }, "Draw a task: reactions and errors along its outline stand here.");
+  const hint = h("p", { class: "quiet" }, "Draw a task to see reactions and errors along its outline.");
   const plots = h("div", {}, forces.element, couples.element, errors.element);
   const element = section("Plots", false, hint, plots);
   let way: Way | undefined;
@@ -96,7 +96,7 @@ export function plotsPanel(bench: Workbench): Panel {
       if (news.has("model") || news.has("state") || news.has("loci")) askAgain();
       if (["sweep", "theme", "loci", "model", "state"].some((one) => news.has(one))) show();
       if (cycle() && news.has("model")) element.open = true;
-      replace(hint, cycle() ? "" : "Draw a task: reactions and errors along its outline stand here.");
+      replace(hint, cycle() ? "" : "Draw a task to see reactions and errors along its outline.");
     },
   };
 }

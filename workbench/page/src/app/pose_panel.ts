@@ -95,7 +95,8 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
     const lost = new Set(pose.vanishing.map((one) => one.joint));
     replace(
       table,
-      h("tbody", {}, ...Object.entries(pose.reactions).map(([joint, parts]) => h("tr", lost.has(joint) ? { class: "lost" } : {}, h("th", { scope: "row" }, joint), h("td", {}, reactionCells(parts, largest, bench.units), lost.has(joint) ? " — lets go" : "")))),
+      h("caption", {}, `Reactions, ${bench.units.force.name} and N m`),
+      h("tbody", {}, ...Object.entries(pose.reactions).map(([joint, parts]) => h("tr", lost.has(joint) ? { class: "lost" } : {}, h("th", { scope: "row" }, joint), h("td", {}, reactionCells(parts, largest, bench.units), lost.has(joint) ? " — vanishes" : "")))),
     );
   };
   return {

@@ -11,7 +11,7 @@ import type { Space as SpaceScene } from "../space/scene";
 import { Space } from "../space/scene";
 
 export class SpaceStage implements Panel {
-  readonly element = h("div", { class: "stage space", tabindex: 0, role: "application", "aria-label": "Surfaces on which reactions vanish. Arrow keys turn them, + and - zoom; the ball is the end effector, which is dragged." });
+  readonly element = h("div", { class: "stage space", tabindex: 0, role: "application", "aria-label": "Surfaces on which reactions vanish. Arrow keys turn them, + and - zoom; drag the ball, which is the end effector." });
   readonly controls: HTMLElement;
   private scene: SpaceScene | undefined;
   private fault: string | undefined;

@@ -5,7 +5,7 @@ import { unitOf } from "../data/units";
 import { slotOf, type ValuePath } from "../data/file_text";
 import { drawBox, drawGrid, type AxisNames } from "../draw/axes";
 import { drawCurves, drawPoints, drawWorkspace, drawZoneNames, drawZones, shownOf, type Shown } from "../draw/loci";
-import { drawLoads, drawNames, drawReactions, drawSketch, drawSprings, drawTakeUp, placesOf, reactionArrows } from "../draw/mechanism";
+import { boxAround, drawLoads, drawNames, drawReactions, drawSketch, drawSprings, drawTakeUp, placesOf, reactionArrows } from "../draw/mechanism";
 import { crossed, curveAt, zoneAt } from "../draw/pick";
 import { Layer } from "../draw/surface";
 import { fit, moved, page, plane, zoomed, type Box, type Size, type View } from "../draw/view";
@@ -98,24 +98,12 @@ export class Stage {
     const box = this.bench.picture?.loci.box;
     const [x, y] = box ?? [];
     if (!x || !y) return undefined;
-    const low: Point = [x[0], y[0]];
-    const high: Point = [x[1], y[1]];
-    for (const joint of this.sketch?.joints ?? []) {
-      low[0] = Math.min(low[0], joint.at[0]);
-      low[1] = Math.min(low[1], joint.at[1]);
-      high[0] = Math.max(high[0], joint.at[0]);
-      high[1] = Math.max(high[1], joint.at[1]);
-    }
-    return { low, high };
+    return boxAround([[x[0], y[0]], [x[1], y[1]], ...(this.sketch ? placesOf(this.sketch) : [])]);
   }
 
   private cycleBox(): Box | undefined {
     const places = (this.bench.sweep?.answer.places ?? []).flatMap((at) => (at ? [[at[0] ?? 0, at[1] ?? 0] as Point] : []));
-    const all = [...places, ...(this.bench.pose?.sketch ? placesOf(this.bench.pose.sketch) : [])];
-    if (all.length === 0) return undefined;
-    const xs = all.map((at) => at[0]);
-    const ys = all.map((at) => at[1]);
-    return { low: [Math.min(...xs), Math.min(...ys)], high: [Math.max(...xs), Math.max(...ys)] };
+    return boxAround([...places, ...(this.bench.pose?.sketch ? placesOf(this.bench.pose.sketch) : [])]);
   }
 
   private get angles(): [boolean, boolean] {
@@ -452,4 +440,4 @@ export class Stage {
   }
 }
 
-const flashTime = 1500; // ms, long enough to read what lets go
+const flashTime = 1500; // ms, long enough to read what vanishes

@@ -1,4 +1,4 @@
-// What the stage alone draws: the task, its verdict, the path of a linkage, a flash on what lets go.
+// What the stage alone draws: the task, its verdict, the path of a linkage, a flash on the locus that is crossed.
 import { reactionName, type Curve, type Point, type Theme, type Verdict } from "../data/answers";
 import { colourOf, drawMarker, trace } from "../draw/loci";
 import { page, type View } from "../draw/view";
@@ -82,7 +82,7 @@ export function drawPoseCross(context: CanvasRenderingContext2D, at: Point, them
   context.restore();
 }
 
-/** What lets go on these curves: "f_A1, f_B1; direct singularity". */
+/** What vanishes on these curves: "f_A1, f_B1; direct singularity". */
 export function crossingWords(curves: Curve[]): string {
   const words = new Set(curves.map((curve) => curve.vanishing.map(reactionName).join(", ") || curve.kind.replace("-", " ")));
   return [...words].join("; ");

@@ -87,7 +87,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
   const drawing = h("p", { class: "quiet" });
   stage.onArmed = (kind) => {
     for (const button of shapes.querySelectorAll("button")) button.setAttribute("aria-pressed", String(button.textContent === kind));
-    drawing.textContent = kind ? `Drag on the empty plane to draw the ${kind} (Esc: no more), or move what is there.` : "";
+    drawing.textContent = kind ? `Drag on the empty plane to draw the ${kind} (Esc ends this), or move the task.` : "";
   };
   const set = (part: Partial<TaskState>): void => {
     if (bench.state.task) bench.change({ task: { ...bench.state.task, ...part } });
@@ -104,17 +104,17 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     try {
       const verdict = await ask<Verdict>("verify", { text: bench.state.text, mode: bench.state.mode ?? [], task: bench.taskFile(task), fit: goal, lane: "fit" });
       if (verdict.moved_by) set({ shape: movedShape(task.shape, verdict.moved_by) });
-      else words.textContent = verdict.verified ? "It fits where it is." : "No place was found that verifies.";
+      else words.textContent = verdict.verified ? "It fits where it is." : "No place was found at which the task is verified.";
     } catch (error) {
       if (!(error instanceof AskingError)) throw error;
       fault.textContent = error.fault.message;
     }
   };
   tools.append(
-    h("button", { type: "button", title: "Move it to the nearest place that verifies", click: () => void fit("nearest") }, "Fit nearest"),
-    h("button", { type: "button", title: "Move it to the place with the largest margin", click: () => void fit("best") }, "Fit best"),
+    h("button", { type: "button", title: "Move the task to the nearest place where it is verified", click: () => void fit("nearest") }, "Fit nearest"),
+    h("button", { type: "button", title: "Move the task to the place with the largest margin", click: () => void fit("best") }, "Fit best"),
     h("button", { type: "button", click: () => addPoint() }, "Add a point"),
-    h("button", { type: "button", title: "Move the end effector to where the task fails, in the design that fails", click: () => goToWitness() }, "Show the witness"),
+    h("button", { type: "button", title: "Show the pose and the design at which the task fails", click: () => goToWitness() }, "Show the witness"),
     h("button", { type: "button", click: () => bench.state.task && download("task.yaml", bench.taskFile(bench.state.task), "application/yaml") }, "Download"),
     h("button", { type: "button", click: () => {
       stage.arm(undefined);
@@ -144,7 +144,7 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     field("loadsWithin", "loads off by", "", "{load: 1, radius: 20}"),
     field("tolerances", "tolerances", "", toleranceHint(bench)),
   );
-  const intro = h("p", { class: "quiet" }, "What the end effector has to reach without losing contact:");
+  const intro = h("p", { class: "quiet" }, "The poses that the end effector has to reach without a loss of contact:");
   const element = section("Task", false, intro, shapes, drawing, words, fault, ranges, fields, tools);
   let offered = "";
   const offer = (): void => {

@@ -29,7 +29,7 @@ export function textPanel(bench: Workbench, sheet: DrawingStage): Panel {
     text.setSelectionRange(...range);
     text.scrollTop = (text.scrollHeight * bench.state.text.slice(0, range[0]).split("\n").length) / bench.state.text.split("\n").length - text.clientHeight / 2;
   });
-  const element = section("File", false, h("p", { class: "quiet" }, "Both ways: what you draw stands here, what you type here is drawn."), text, fault);
+  const element = section("File", false, h("p", { class: "quiet" }, "The file of the drawing: a change of the text changes the drawing."), text, fault);
   element.addEventListener("toggle", () => update());
   const update = (): void => {
     if (!element.open) return;

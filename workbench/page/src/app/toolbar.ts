@@ -38,7 +38,7 @@ export function toolbar(stage: DrawingStage): HTMLElement {
     h("div", { class: "tools", role: "toolbar", "aria-label": "Tools" },
       ...buttons.map(([, button]) => button),
       toggle("grid", "Grid", "Snap to the grid"),
-      toggle("lengths", "Lengths", "Snap to round lengths and to those of other links; they are written down"),
+      toggle("lengths", "Lengths", "Snap to round lengths and to those of other links, and write them as given lengths"),
       look("Fit", "Show all (0)", () => stage.showAll()),
       look("+", "Nearer (+)", () => stage.zoom(1.25)),
       look("−", "Farther (-)", () => stage.zoom(0.8))),

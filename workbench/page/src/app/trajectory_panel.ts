@@ -66,7 +66,7 @@ export function trajectoryPanel(bench: Workbench): Panel {
     const small = smallUnit(bench.units);
     const column = (name: string): (number | null)[] => (trajectory.samples[name] ?? []).map((value) => (value === null ? null : value / small.size));
     errors.show({ xLabel: "time (s)", yLabel: small.name, x: times, series: ["dx", "dy"].map((name) => ({ label: name, values: column(name) })), marks: trajectory.contact_losses.map((loss) => loss.time) }, theme);
-    replace(losses, ...trajectory.contact_losses.slice(0, 40).map((loss) => h("li", {}, h("button", { type: "button", click: () => goTo(loss.time) }, `${loss.time.toFixed(4)} s`), ` ${loss.quantity}_${loss.joint} (${loss.kind})`)), trajectory.contact_losses.length === 0 ? h("li", { class: "good" }, "contact is never lost") : undefined, ...trajectory.stages.map((stage) => h("li", { class: "quiet" }, `${stage.from} to ${stage.to}: free of losses above a period of ${shortNumber(stage.critical_period)} s`)));
+    replace(losses, ...trajectory.contact_losses.slice(0, 40).map((loss) => h("li", {}, h("button", { type: "button", click: () => goTo(loss.time) }, `${loss.time.toFixed(4)} s`), ` ${loss.quantity}_${loss.joint} (${loss.kind})`)), trajectory.contact_losses.length === 0 ? h("li", { class: "good" }, "contact is never lost") : undefined, ...trajectory.stages.map((stage) => h("li", { class: "quiet" }, `${stage.from} to ${stage.to}: no contact lost above a period of ${shortNumber(stage.critical_period)} s`)));
   };
   errors.onCursor = goTo;
   return { element, update: (news) => (news.has("trajectory") || news.has("theme") || news.has("state")) && update() };

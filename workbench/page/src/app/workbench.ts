@@ -45,6 +45,8 @@ export class Workbench {
   progress: { fraction: number; stage: string } | undefined;
   /** The field that the hand changed last. */
   private touched: string | undefined;
+  /** The last file that was not refused: plain numbers keep its units, not that of a value that was refused. */
+  private accepted: ModelText;
   private watchers: ((what: Set<string>) => void)[] = [];
   private news = new Set<string>();
   private factsStale = false;
@@ -67,7 +69,7 @@ export class Workbench {
   constructor(readonly start: Start, state: State) {
     this.rules = start.rules;
     this.history = new History(state);
-    this.model = new ModelText(state.text);
+    this.model = this.accepted = new ModelText(state.text);
     setInterval(() => this.sayBusy(), 60);
   }
 
@@ -200,7 +202,7 @@ export class Workbench {
 
   setValue(id: string, value: string, gesture?: string): void {
     const one = this.adjustable(id);
-    if (one && value.trim() !== "") this.change({ text: this.model.writeNumber(one.path, value.trim()).text }, gesture, id);
+    if (one && value.trim() !== "") this.change({ text: this.model.writeNumber(one.path, value.trim(), this.accepted).text }, gesture, id);
   }
 
   /** Asks for everything anew. */
@@ -223,7 +225,10 @@ export class Workbench {
     document.documentElement.dataset["busy"] = "true";
     const changed = (...keys: (keyof State)[]): boolean => !before || keys.some((key) => before[key] !== now[key]);
     if (changed("text")) this.model = new ModelText(now.text);
-    if (changed("file")) this.forget();
+    if (changed("file")) {
+      this.accepted = this.model;
+      this.forget();
+    }
     this.missing = this.nothing ? { words: "" } : now.drawing || !this.facts ? missingIn(drawingOf(now.text)) : undefined;
     if (this.missing) {
       this.forget();
@@ -339,6 +344,7 @@ export class Workbench {
     const kindOf = (one: ModelFacts): string => JSON.stringify({ ...one, parameters: undefined, sample: undefined });
     if (!known || kindOf(known) !== kindOf(facts)) this.tell("kind");
     this.facts = facts;
+    if (!this.traceable) this.accepted = this.model;
     const at = this.state.at;
     const fits = at && at.length === facts.coordinates.length;
     if (!fits && facts.sample) {
@@ -356,6 +362,7 @@ export class Workbench {
     this.progress = undefined;
     this.fault = undefined;
     if (this.picture && closesNowhere(picture)) return this.onFault({ status: 0, message: picture.loci.notes.at(-1) ?? "", line: 0, column: 0 });
+    if (!this.lanes.loci.busy) this.accepted = this.model;
     this.picture = picture;
     this.moves.push({ name: "loci", made });
     if (this.state.zones) this.askZones();

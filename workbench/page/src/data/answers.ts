@@ -51,7 +51,7 @@ export interface Loci {
   units?: string[];
   box: [number, number][];
   complete: boolean;
-  /** Places at which a locus is not settled; over two coordinates. */
+  /** Places at which a locus is not proven; over two coordinates. */
   open?: { cause: string; working_mode: ModeNames; from: number[]; to: number[] }[];
   curves: Curve[];
   surfaces?: Surface[];
@@ -123,7 +123,7 @@ export interface Sketch {
   slides: { from: Point; to: Point; rail: boolean }[];
   joints: { name: string; at: Point; on_ground: boolean; actuated: boolean }[];
   loads: { at: Point; force: Point; couple: number }[];
-  springs?: { from: Point; to: Point; torsion: boolean }[];
+  springs?: { from: Point; to: Point; torsion: boolean; from_ground?: boolean; to_ground?: boolean }[];
   gravity: Point;
   /** The end effector's point. */
   end_effector?: { name: string; at: Point };

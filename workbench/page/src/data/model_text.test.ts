@@ -27,6 +27,8 @@ describe("a mechanism file", () => {
     expect(model.writeNumber(["parameters", "k"], "3").read(["parameters", "k"])).toBe("3 N/mm");
     expect(model.writeNumber(["parameters", "turn"], "0.5 rad").read(["parameters", "turn"])).toBe("0.5 rad");
     expect(model.writeNumber(["parameters", "L"], "7/20").read(["parameters", "L"])).toBe("7/20");
+    const refused = model.write(["parameters", "k"], "2 mm");
+    expect(refused.writeNumber(["parameters", "k"], "3", model).read(["parameters", "k"])).toBe("3 N/mm");
     expect(model.units).toMatchObject({ declared: true, length: { name: "mm", size: 1e-3 }, angle: { name: "deg" } });
   });
   it("keeps a wrong value one value", () => {

@@ -52,9 +52,9 @@ export class ModelText {
     return new ModelText(this.text.slice(0, from) + written + this.text.slice(to));
   }
 
-  /** The same with a plain number in the unit in which the old value is written: 3 in the place of `2 N/mm` is `3 N/mm`. */
-  writeNumber(path: ValuePath, value: string): ModelText {
-    const unit = /^\s*[-+0-9.eE/]+\s+([A-Za-z][\w^*/ ]*?)\s*$/.exec(this.read(path) ?? "")?.[1];
+  /** The same with a plain number in the unit in which the old value is written, or that of `accepted`: 3 in the place of `2 N/mm` is `3 N/mm`. */
+  writeNumber(path: ValuePath, value: string, accepted: ModelText = this): ModelText {
+    const unit = /^\s*[-+0-9.eE/]+\s+([A-Za-z][\w^*/ ]*?)\s*$/.exec(accepted.read(path) ?? "")?.[1];
     return this.write(path, unit && parseExact(value) ? `${value} ${unit}` : value);
   }
 

@@ -60,7 +60,7 @@ export function placesOf(sketch: Sketch): Point[] {
     ...sketch.joints.map((joint) => joint.at),
     ...sketch.links.flatMap((link) => link.points),
     ...sketch.slides.flatMap((slide) => [slide.from, slide.to]),
-    ...(sketch.springs ?? []).flatMap((spring) => [spring.from, spring.to]),
+    ...(sketch.springs ?? []).flatMap((spring) => (spring.torsion ? [spring.from] : [spring.from, spring.to])),
   ];
 }
 
@@ -136,12 +136,14 @@ export function drawSketch(context: CanvasRenderingContext2D, view: View, sketch
 /** A zigzag from end to end; of a torsion spring a coil around its joint. */
 export function drawSprings(context: CanvasRenderingContext2D, view: View, sketch: Sketch, theme: Theme): void {
   context.save();
-  context.strokeStyle = theme.load;
-  context.lineWidth = 1.4;
   context.lineJoin = "round";
   for (const spring of sketch.springs ?? []) {
     const from = page(view, spring.from);
     const to = page(view, spring.to);
+    if (spring.from_ground) drawGround(context, from, theme);
+    if (spring.to_ground) drawGround(context, to, theme);
+    context.strokeStyle = theme.load;
+    context.lineWidth = 1.4;
     context.beginPath();
     if (spring.torsion) {
       for (let k = 0; k <= 48; ++k) {

@@ -111,7 +111,7 @@ loads:
   });
   it("has plates, pins on links, springs, masses and free coordinates", () => {
     const sheet = fiveBar().use("plate", [25, 450], [100, 650]).use("pin", [600, 150]).use("spring", [-200, 300], [700, 300]).use("mass", [25, 450]).use("free", [25, 450]);
-    expect(sheet.lines).toEqual(expect.arrayContaining(["  CD: {points: [C, D, F], mass: 1}", "gravity: [0, -9.81]", "  - {links: [AC, DE], at: [C, E], stiffness: 1000, free_length: 0}", "  theta: {angle: [0 deg, 360 deg], of: CD}"]));
+    expect(sheet.lines).toEqual(expect.arrayContaining(["  CD: {points: [C, D, F], mass: 1}", "gravity: [0, -9.81]", "  - {links: [AC, DE], at: [C, E], stiffness: 1000 N/m, free_length: 0}", "  theta: {angle: [0 deg, 360 deg], of: CD}"]));
     expect(sheet.drawing.links.find((one) => one.name === "BE")?.points).toEqual(["B", "E", "G"]);
     sheet.use("link", [600, 150], [600, 400]);
     expect(sheet.lines).toContain("  G: {revolute: [BE, GH], at: G}");

@@ -247,7 +247,7 @@ export function addSpring(drawing: Drawing, from: string, to: string): Edit {
   const second = linkOf(to) === first ? others(to, first) : linkOf(to);
   if (first === second) return undefined;
   const placed = again(drawing, withPlace(withPlace(drawing, from), to).text);
-  return appendItem(placed.text, ["springs"], `{links: [${first}, ${second}], at: [${from}, ${to}], stiffness: 1000, free_length: 0}`);
+  return appendItem(placed.text, ["springs"], `{links: [${first}, ${second}], at: [${from}, ${to}], stiffness: 1000 N/m, free_length: 0}`);
 }
 
 /** The link on which a load at this point acts: the end effector's, else the last that was drawn there. */

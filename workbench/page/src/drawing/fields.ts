@@ -49,7 +49,7 @@ export function fieldsOf(drawing: Drawing, element: Element): Field[] {
     case "load":
       return ["fx", "fy"].map((label, axis) => field(drawing, label, ["loads", element.index, "force", axis], force));
     case "spring":
-      return [field(drawing, "stiffness", ["springs", element.index, "stiffness"], "N/m"), field(drawing, "free length", ["springs", element.index, "free_length"], length, "0"), field(drawing, "force", ["springs", element.index, "force"], force, "by stiffness")];
+      return [field(drawing, "stiffness", ["springs", element.index, "stiffness"], /[A-Za-z]/.test(wordAt(drawing.text, ["springs", element.index, "stiffness"]) ?? "") ? "" : "N/m"), field(drawing, "free length", ["springs", element.index, "free_length"], length, "0"), field(drawing, "force", ["springs", element.index, "force"], force, "by stiffness")];
     case "coordinate":
       return coordinateFields(drawing, element.name, length);
   }

@@ -25,7 +25,7 @@ export function sketchOf(drawing: Drawing): Sketch {
     loads: [],
     springs: drawing.springs.flatMap((spring) => {
       const [from, to] = places(spring.at);
-      return from && to ? [{ from, to, torsion: false }] : [];
+      return from && to ? [{ from, to, torsion: false, from_ground: spring.links[0] === "ground", to_ground: spring.links[1] === "ground" }] : [];
     }),
     gravity: [0, 0],
   };

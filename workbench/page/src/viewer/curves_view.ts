@@ -14,7 +14,7 @@ import { themeOf, type LociView, type Settings } from "./view";
 
 export class CurvesView implements LociView {
   readonly element = h("div", { class: "viewer-stage", tabindex: 0, "aria-label": "Loci; + and - zoom, arrow keys move, 0 shows all" });
-  readonly hint = "Wheel: zoom. Drag: move. Double click: show all. Point at a curve to read what lets go there.";
+  readonly hint = "Wheel: zoom. Drag: move. Double click: show all. Point at a curve to see which reactions vanish there.";
   private readonly layer: Layer;
   private view: View | undefined;
   private size: Size = { width: 0, height: 0 };

@@ -3,18 +3,18 @@ import { h } from "../app/dom";
 
 const words: [string, string][] = [
   ["|A|", "determinant of the equations of force balance; where it is zero the mechanism is singular"],
-  ["backlash", "the play of an actuator, which is crossed where its couple or force changes its sign"],
-  ["contact loss", "the force in a joint is zero: the pin leaves one side of its clearance and crosses to another"],
+  ["backlash", "the play of an actuator; the actuator crosses it where its couple or force changes its sign"],
+  ["contact loss", "the force in a joint is zero: the pin crosses its clearance from one side to another"],
   ["direct singularity", "a pose in which |A| = 0: the actuators cannot hold the end effector"],
   ["dyad", "two links that place a point at given distances from two others; it closes to the left or to the right"],
-  ["excited", "of a direct singularity: some reaction grows without bound there under this load"],
-  ["margin locus", "where a reaction is as small as it is allowed to be"],
+  ["excited", "said of a direct singularity at which some reaction grows without bound under this load"],
+  ["margin locus", "the poses at which a reaction has the least size that is allowed"],
   ["take-up", "how far the parts of a joint are displaced by its clearance, in the direction of its force"],
-  ["working mode", "to which side each dyad is assembled"],
+  ["working mode", "the list of sides to which the dyads are assembled"],
   ["workspace", "the poses that the end effector can reach in this working mode"],
-  ["zone", "a part of the workspace that no locus passes: inside it no clearance changes its side"],
+  ["zone", "a part of the workspace without loci: inside it no joint crosses its clearance"],
 ];
 
 export function glossary(): HTMLElement {
-  return h("details", { class: "glossary" }, h("summary", {}, "Words"), h("dl", {}, ...words.flatMap(([word, meaning]) => [h("dt", {}, word), h("dd", {}, meaning)])));
+  return h("details", { class: "glossary" }, h("summary", {}, "Glossary"), h("dl", {}, ...words.flatMap(([word, meaning]) => [h("dt", {}, word), h("dd", {}, meaning)])));
 }

@@ -12,7 +12,7 @@ const margin = 34;
 
 export class RangeView implements LociView {
   readonly element = h("div", { class: "viewer-stage", tabindex: 0, "aria-label": "Marks where reactions vanish; + and - zoom, arrow keys move, 0 shows all" });
-  readonly hint = "Wheel: zoom. Drag: move. Double click: show all. Point at a mark to read what lets go there.";
+  readonly hint = "Wheel: zoom. Drag: move. Double click: show all. Point at a mark to see which reactions vanish there.";
   private readonly layer: Layer;
   private size: Size = { width: 0, height: 0 };
   private range: [number, number];

@@ -8,7 +8,7 @@ import { themeOf, type LociView, type Settings } from "./view";
 
 export class SurfacesView implements LociView {
   readonly element = h("div", { class: "viewer-stage", tabindex: 0, "aria-label": "Surfaces; arrow keys turn them, + and - zoom" });
-  readonly hint = "Drag: turn. Wheel: zoom. Point at a surface to read what lets go there.";
+  readonly hint = "Drag: turn. Wheel: zoom. Point at a surface to see which reactions vanish there.";
   private readonly space: Space | undefined;
   private readonly slice: Slice = { axis: 2, at: 0, on: false };
 
@@ -17,7 +17,7 @@ export class SurfacesView implements LociView {
       this.space = new Space(this.element);
     } catch {
       this.space = undefined;
-      this.element.append(h("p", { class: "fault" }, "This browser has no WebGL, which draws the surfaces."));
+      this.element.append(h("p", { class: "fault" }, "This browser has no WebGL, which is needed to draw surfaces."));
     }
     this.element.append(this.controls());
     new ResizeObserver(() => this.space?.resize(this.element.clientWidth, this.element.clientHeight)).observe(this.element);

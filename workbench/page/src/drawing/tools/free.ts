@@ -5,7 +5,7 @@ export const freeTool: Tool = {
   id: "free",
   label: "Free coordinate",
   key: "q",
-  hint: "The angle of a link, the stroke of a slider or the place of a point is free, or no more; drag its handles for the range",
+  hint: "Click on a link, slider or point: its angle, stroke or place becomes a free coordinate, or no longer; drag the handles of its range",
   icon: "M4 20 H20 M4 20 L16 6 M13 20 a9 9 0 0 0 -3.2 -6.8",
   takes: "place",
   act: ({ drawing, element, to, over }) => {

@@ -5,7 +5,7 @@ export const motorTool: Tool = {
   id: "motor",
   label: "Motor",
   key: "m",
-  hint: "At a joint: a motor drives it, or no more",
+  hint: "Click on a joint: adds a motor, or removes it",
   icon: "M12 5 a7 7 0 1 0 .1 0 M9 15 V9 L12 13 L15 9 V15",
   takes: "place",
   act: ({ drawing, to, element }) => {

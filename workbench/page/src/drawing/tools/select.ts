@@ -10,7 +10,7 @@ export const selectTool: Tool = {
   id: "select",
   label: "Select",
   key: "v",
-  hint: "Drag points, arrows and handles; click on a thing to type its numbers",
+  hint: "Drag points, arrows and handles; click on an element to type its numbers",
   icon: "M5 3 L18 12 L12 13 L15 20 L12.5 21 L9.5 14 L5 18 Z",
   takes: "grip",
   act: ({ drawing, to, element }) => (element?.kind === "point" ? movePoint(drawing, element.name, to.texts) : undefined),

@@ -14,7 +14,7 @@ export const sliderTool: Tool = {
   id: "slider",
   label: "Slider",
   key: "s",
-  hint: "From a point along the way it slides, on a block; from a link, and the link itself slides; released on another link, it is along that",
+  hint: "From a point in the direction in which a block slides; from a link: the link slides; release on another link: along that link",
   icon: "M2 17 H22 M7 8 H17 V16 H7 Z",
   takes: "way",
   preview: "line",
