@@ -10,6 +10,7 @@
 
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
+#include "analysis/pose_efforts.hpp"
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
@@ -332,15 +333,16 @@ DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides
   return sides;
 }
 
-Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
-                const PoseRequest& request) {
-  require_values(mechanism, at.size());
-  require_rates(mechanism, request);
+namespace {
+
+/// With an effort of every free actuator.
+Pose solve_given(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                 const PoseRequest& request) {
   const std::vector<numeric::Bounded> values = with_rounding(at);
   if (const std::optional<Framed> own = framed_where_far(mechanism)) {
     std::vector<core::Rational> inside = at;
     for (std::size_t i = 0; i < inside.size(); ++i) inside[i] -= own->frame.from[i];
-    Pose pose = from_frame(solve_pose(own->mechanism, inside, request), mechanism, own->frame);
+    Pose pose = from_frame(solve_given(own->mechanism, inside, request), mechanism, own->frame);
     for (std::size_t i = 0; i < values.size(); ++i) pose.at[i] = values[i].value;
     note_outside(mechanism, pose);
     return pose;
@@ -360,6 +362,23 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   pose.working_mode = named_mode(mechanism, sides);
   if (!mechanism.frame) note_outside(mechanism, pose);  // else in the coordinates of the file, by the caller
   solve_at(numeric::compile(mechanism), values, sides, request, pose);
+  return pose;
+}
+
+}  // namespace
+
+Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                const PoseRequest& request) {
+  require_values(mechanism, at.size());
+  require_rates(mechanism, request);
+  if (mechanism::preloaded_joints(mechanism).empty()) return solve_given(mechanism, at, request);
+  const std::vector<numeric::Bounded> values = with_rounding(at);
+  const DyadSides sides = sides_of(mechanism, request.working_mode);
+  PoseEfforts chosen = pose_efforts(mechanism, values, sides, request);
+  Pose pose = solve_given(chosen.mechanism, at, request);
+  for (std::string& note : chosen.notes) pose.notes.push_back(std::move(note));
+  const bool at_rest = request.velocity.empty() && request.acceleration.empty();
+  if (at_rest && pose.unreachable.empty() && pose.beyond_limit.empty()) pose.efforts = std::move(chosen.efforts);
   return pose;
 }
 

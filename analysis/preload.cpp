@@ -9,13 +9,14 @@
 #include <string>
 #include <utility>
 
-#include "analysis/pose.hpp"
+#include "analysis/pose_efforts.hpp"
 #include "analysis/preload_judges.hpp"
+#include "analysis/preload_law.hpp"
 #include "analysis/proven_cells.hpp"
 #include "analysis/task_demands.hpp"
+#include "analysis/wanted_efforts.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
-#include "core/task.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci {
@@ -30,20 +31,8 @@ const Rational finest(1, 1 << 18);
 /// That are looked at, of one effort and of several.
 constexpr long cells_of_one = 4'000, cells_of_several = 2'000;
 
-/// A free effort without a value, and where it is looked for.
-struct Wanted {
-  std::string joint, parameter;
-  bool force = false;
-  Rational lower = {}, upper = {};
-  double size_of_one = 1;  ///< what an effort of 1 N or 1 N m counts
-};
-
-Rational nearest_to_none(const Rational& lower, const Rational& upper) {
-  return lower > 0 ? lower : upper < 0 ? upper : Rational();
-}
-
 /// The size of the smallest preload of a box.
-double least_size(const std::vector<Wanted>& wanted, const std::vector<ExactRange>& ranges) {
+double least_size(const std::vector<WantedEffort>& wanted, const std::vector<ExactRange>& ranges) {
   double size = 0;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const Rational least = abs(nearest_to_none(ranges[i].first, ranges[i].second));
@@ -52,107 +41,22 @@ double least_size(const std::vector<Wanted>& wanted, const std::vector<ExactRang
   return size;
 }
 
-Model with_efforts(const Model& model, const std::vector<Wanted>& wanted, const std::vector<Rational>& efforts) {
-  std::vector<Model::Value> values;
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    values.emplace_back(wanted[i].parameter,
-                        "(" + core::to_string(efforts[i]) + ")" + (wanted[i].force ? " N" : " N m"));
-  return model.with(values);
-}
-
-/// The mechanism under its loads, and with each part of a load that a task lets differ as much larger as it may be.
-std::vector<Mechanism> under_larger_loads(const Mechanism& mechanism, const Task& task) {
-  std::vector<Mechanism> all = {mechanism};
-  if (task.loads)
-    for (Mechanism& own : under_loads_of(task, mechanism)) all.push_back(std::move(own));
-  const auto add = [&](std::size_t load, const Rational& by, const auto& part_of) {
-    Mechanism own = mechanism;
-    core::Expression& part = part_of(own.loads[load]);
-    part = core::Expression::apply(core::Expression::Kind::add, {part, core::Expression::number(by)});
-    all.push_back(std::move(own));
-  };
-  for (const core::LoadWithin& within : task.loads_within) {
-    for (std::size_t c = 0; c < mechanism.loads[within.load].force.size() && within.force > 0; ++c)
-      add(within.load, within.force, [c](mechanism::Load& load) -> core::Expression& { return load.force[c]; });
-    if (within.couple > 0)
-      add(within.load, within.couple, [](mechanism::Load& load) -> core::Expression& { return load.couple; });
-  }
-  return all;
-}
-
-/// Beyond which effort no reaction changes its sign at some poses of the task, times eight: reactions are linear in it.
-Rational range_without_bounds(const Model& model, const std::vector<Wanted>& wanted, std::size_t own, const Task& task,
-                              const VerifyRequest& request) {
-  std::vector<Rational> efforts(wanted.size(), 0);
-  const std::vector<Mechanism> without =
-      under_larger_loads(with_efforts(model, wanted, efforts).content().mechanism, task);
-  efforts[own] = 1;
-  const Model with_one = with_efforts(model, wanted, efforts);
-  PoseRequest asked;
-  asked.working_mode = requested_modes(model.content().mechanism, request.loci).front();
-  const auto reactions_of = [&](const Mechanism& some, const core::RationalPose& at) {
-    std::vector<double> list;
-    const Pose pose = solve_pose(some, at, asked);
-    if (pose.unreachable.empty() && pose.beyond_limit.empty())
-      for (const core::JointReaction& joint : pose.reactions)
-        for (const core::ReactionComponent& part : joint.components) list.push_back(part.value);
-    return list;
-  };
-  const std::array<core::RationalPose, 2> corners = core::bounds(task.shape);
-  double most = 1;
-  for (const auto& [first, second] : {std::pair{1, 1}, {1, 3}, {2, 2}, {3, 1}, {3, 3}}) {
-    core::RationalPose at;
-    for (std::size_t c = 0; c < corners[0].size(); ++c)
-      at.push_back(corners[0][c] + (corners[1][c] - corners[0][c]) * (c % 2 == 0 ? first : second) / 4);
-    const std::vector<double> one = reactions_of(with_one.content().mechanism, at);
-    const std::vector<double> none = reactions_of(without.front(), at);
-    constexpr double no_bound = 1e9;
-    for (const Mechanism& larger : without) {
-      const std::vector<double> reached = reactions_of(larger, at);
-      if (none.size() != one.size() || none.size() != reached.size()) continue;
-      for (std::size_t r = 0; r < none.size(); ++r)
-        if (const double effort = std::abs(reached[r] / (one[r] - none[r])); effort < no_bound)
-          most = std::max(most, effort);
-    }
-  }
-  return Rational(8 * std::exp2(std::ceil(std::log2(most))));
-}
-
-std::vector<Wanted> wanted_efforts(const Model& model, const Task& task, const VerifyRequest& request) {
-  const Mechanism& mechanism = model.content().mechanism;
-  std::vector<const mechanism::Joint*> joints;
-  for (const mechanism::JointIndex j : mechanism::joints_without_preload(mechanism))
-    joints.push_back(&mechanism.joints[static_cast<std::size_t>(j)]);
-  std::vector<Wanted> wanted;
-  for (const mechanism::Joint* joint : joints)
-    wanted.push_back(
-        {joint->name, joint->free_effort->parameter, mechanism::traits(*joint).actuator == core::Quantity::F});
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    Wanted& own = wanted[i];
-    if (const auto& within = joints[i]->free_effort->within) {
-      own.lower = within->first;
-      own.upper = within->second;
-      own.size_of_one = 1 / core::to_double(std::max(abs(own.lower), abs(own.upper)));
-    } else {
-      own.upper = range_without_bounds(model, wanted, i, task, request);
-      own.lower = -own.upper;
-    }
-  }
-  return wanted;
-}
-
 /// Boxes of efforts, of which those of the smallest size come first, each proven as a whole or cut in halves.
 class PreloadSearch {
  public:
-  PreloadSearch(const Mechanism& mechanism, std::vector<Wanted> wanted, const Task& task, const VerifyRequest& request)
+  PreloadSearch(const Mechanism& mechanism, std::vector<WantedEffort> wanted, const Task& task,
+                const VerifyRequest& request)
       : wanted_(std::move(wanted)),
         request_(request),
-        judge_(preload_judge(mechanism, ranges_of(wanted_), task, request.loci)) {}
+        judge_(preload_judge(mechanism, ranges_of(wanted_), task, request.loci)) {
+    for (const WantedEffort& own : wanted_)
+      own_gaps_.push_back(own_gap(mechanism, own.joint, request_of(task, request.loci).min_couple));
+  }
 
   /// Of one effort all boxes are decided. Of several each is first tried alone, then all together among smaller ones.
   core::PreloadAnswer run() {
     std::vector<ExactRange> whole, none;
-    for (const Wanted& own : wanted_) {
+    for (const WantedEffort& own : wanted_) {
       whole.emplace_back(own.lower, own.upper);
       const Rational least = nearest_to_none(own.lower, own.upper);
       none.emplace_back(least, least);
@@ -189,7 +93,7 @@ class PreloadSearch {
       queue_.pop();
       if (!extent.all && smallest_ && box.size >= smallest_->size) return;
       const bool over = cells >= extent.cells || out_of_time();
-      const BoxVerdict verdict = over ? BoxVerdict{} : judge_->judge(box.ranges, is_finest(box.ranges));
+      const BoxVerdict verdict = over ? BoxVerdict{} : judged(box.ranges);
       answer_.cells += over ? 0 : 1;
       const Status status = status_of(verdict.verdict);
       if (status == Status::undecided && !over && !is_finest(box.ranges)) {
@@ -203,9 +107,23 @@ class PreloadSearch {
     }
   }
 
-  static std::vector<mechanism::ParameterRange> ranges_of(const std::vector<Wanted>& wanted) {
+  /// Of the free actuators' own backlash, then of all else.
+  BoxVerdict judged(const std::vector<ExactRange>& ranges) {
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      if (!own_gaps_[i]) continue;
+      const double from = core::to_double(ranges[i].first), to = core::to_double(ranges[i].second),
+                   least = own_gaps_[i]->to;
+      if (-least <= from && to <= least && (least > 0 || (from == 0 && to == 0)))
+        return {core::Verdict::refuted, "backlash in " + wanted_[i].joint};
+      if (from < least && to > -least) return {};
+      if (least == 0 && from <= 0 && to >= 0) return {};
+    }
+    return judge_->judge(ranges, is_finest(ranges));
+  }
+
+  static std::vector<mechanism::ParameterRange> ranges_of(const std::vector<WantedEffort>& wanted) {
     std::vector<mechanism::ParameterRange> ranges;
-    for (const Wanted& own : wanted) ranges.push_back({own.parameter, own.lower, own.upper});
+    for (const WantedEffort& own : wanted) ranges.push_back({own.parameter, own.lower, own.upper});
     return ranges;
   }
 
@@ -257,7 +175,7 @@ class PreloadSearch {
   }
 
   core::PreloadAnswer finished() {
-    for (const Wanted& own : wanted_) {
+    for (const WantedEffort& own : wanted_) {
       answer_.joints.push_back(own.joint);
       answer_.forces.push_back(own.force);
       answer_.lower.push_back(core::to_double(own.lower));
@@ -287,9 +205,10 @@ class PreloadSearch {
     return core::simplest_rational_near((range.first + range.second) / 2, (range.second - range.first) / 2);
   }
 
-  std::vector<Wanted> wanted_;
+  std::vector<WantedEffort> wanted_;
   const VerifyRequest& request_;
   std::unique_ptr<PreloadJudge> judge_;
+  std::vector<std::optional<numeric::EffortGap>> own_gaps_;
   std::priority_queue<Box> queue_;
   std::vector<core::StudyCell> cells_;
   std::optional<Box> smallest_;
@@ -297,16 +216,10 @@ class PreloadSearch {
   core::PreloadAnswer answer_;
 };
 
-std::string named_efforts(const std::vector<Wanted>& wanted) {
-  std::string names;
-  for (const Wanted& own : wanted) names += (names.empty() ? "" : ", ") + own.joint;
-  return names;
-}
-
 }  // namespace
 
 Verification verify_preloaded(const Model& model, const Task& task, const VerifyRequest& request) {
-  std::vector<Wanted> given;
+  std::vector<WantedEffort> given;
   std::vector<Rational> efforts;
   for (const auto& [name, effort] : task.preload)
     for (const mechanism::Joint& joint : model.content().mechanism.joints) {
@@ -323,17 +236,18 @@ Verification verify_preloaded(const Model& model, const Task& task, const Verify
 
 Verification verify_with_preload(const Model& model, const Task& task, const VerifyRequest& request) {
   const Mechanism& mechanism = model.content().mechanism;
-  const std::vector<Wanted> wanted = wanted_efforts(model, task, request);
+  const std::vector<WantedEffort> wanted = wanted_efforts(model, task, request);
   if (request.fit != TaskFit::none)
     throw core::InputError({task.file},
                            "the task is to be moved, and the effort of " + named_efforts(wanted) + " is free",
                            "give it by --preload, or leave --fit out");
+  if (task.controlled_preload) return verify_with_law(model, task, request);
   // The search knows efforts that are given: those that are looked for are open in it.
   PreloadSearch search(mechanism, wanted, task, request);
   core::PreloadAnswer answer = search.run();
   const bool found = answer.value.has_value();
   std::vector<Rational> efforts;
-  for (const Wanted& own : wanted) efforts.push_back(nearest_to_none(own.lower, own.upper));
+  for (const WantedEffort& own : wanted) efforts.push_back(nearest_to_none(own.lower, own.upper));
   if (found) efforts = search.smallest();
   Verification result = verify(with_efforts(model, wanted, efforts), task, request);
   if (!found && answer.size[0] < std::numeric_limits<double>::infinity()) {

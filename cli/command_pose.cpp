@@ -22,7 +22,7 @@ namespace {
 struct PoseCommand {
   CommonArguments common;
   std::string at;
-  std::string velocity, acceleration;
+  std::string velocity, acceleration, min_force, min_couple;
   std::string working_mode;
   bool iterate = false;
 };
@@ -31,6 +31,10 @@ PoseRequest request_of(const PoseCommand& arguments, const mechanism::Mechanism&
   PoseRequest request{.iterate = arguments.iterate};
   request.velocity = parse_rates(arguments.velocity, "--velocity", mechanism);
   request.acceleration = parse_rates(arguments.acceleration, "--acceleration", mechanism);
+  if (!arguments.min_force.empty())
+    request.min_force = parse_positive(arguments.min_force, "--min-force", mechanism, "min_force");
+  if (!arguments.min_couple.empty())
+    request.min_couple = parse_positive(arguments.min_couple, "--min-couple", mechanism, "min_couple");
   return request;
 }
 
@@ -106,6 +110,10 @@ Command add_pose_command(CLI::App& program) {
       ->type_name("SIDES");
   app->add_flag("--iterate", arguments->iterate,
                 "Also solve the mechanism with its clearances taken up, without linearisation");
+  app->add_option("--min-force", arguments->min_force,
+                  "Of free efforts: those with which every contact force is at least this large are feasible")
+      ->type_name("N");
+  app->add_option("--min-couple", arguments->min_couple, "Of free efforts: the same for the couples of actuators")->type_name("NM");
   app->footer(
       "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7 --iterate\n"
       "With -o, DIR/pose.json is written.");

@@ -125,6 +125,17 @@ std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism) {
   return joints_where(mechanism, [](const Joint& joint) { return joint.free_effort && !joint.free_effort->given; });
 }
 
+void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort) {
+  FreeEffort& own = *mechanism.joints[static_cast<std::size_t>(joint)].free_effort;
+  own.given = true;
+  for (Parameter& parameter : mechanism.parameters) {
+    if (parameter.name != own.parameter) continue;
+    parameter.expression = Expression::number(effort);
+    parameter.value = effort;
+    parameter.exact = true;
+  }
+}
+
 std::vector<int> working_mode(const Mechanism& mechanism) {
   std::vector<int> signs;
   for (const Point& point : mechanism.points) {

@@ -324,6 +324,8 @@ struct Mechanism {
 std::vector<JointIndex> preloaded_joints(const Mechanism& mechanism);
 /// Those of which no value is given: none has forces before.
 std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism);
+/// Of a joint whose effort is free: gives it this one, N or N m.
+void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort);
 
 /// A mass of a link and where it sits: that of its body and its point masses.
 struct Mass {

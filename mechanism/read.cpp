@@ -61,7 +61,7 @@ Assembled constructed(const Value& written, const std::vector<Override>& overrid
 }
 
 Mechanism read_document(const Value& written, const std::string& file, const std::vector<Override>& overrides) {
-  const Assembled assembled = constructed(written, overrides);
+  const Assembled assembled = constructed(written, without_efforts(overrides));
   const Mapping root(assembled.document, top_keys);
 
   Mechanism mechanism;
@@ -70,12 +70,14 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   mechanism.file = file;
   mechanism.name = name_of(root.find("name"), file);
   mechanism.units = read_units(root.find("units"));
-  read_parameters(mechanism, root.find("parameters"), free_effort_parameters(root.at("joints")), overrides);
+  const GivenEfforts efforts = given_efforts(root.at("workspace"), overrides);
+  read_parameters(mechanism, root.find("parameters"), free_effort_parameters(root.at("joints"), efforts.laws),
+                  efforts.values);
   read_workspace(mechanism, root.at("workspace"));
   read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
-  give_free_efforts(mechanism, overrides);
+  give_free_efforts(mechanism, efforts);
   fill_inertia(mechanism);
   read_end_effector(mechanism, root.at("end_effector"));
   read_loads(mechanism, root.find("loads"));

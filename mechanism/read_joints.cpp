@@ -155,10 +155,6 @@ void check_place(const Mechanism& mechanism, const Joint& joint, const Value& at
   refuse_joint_point(mechanism, joint, on_from ? joint.to : joint.from, at);
 }
 
-bool is_free_effort(const Value& effort) { return effort.is_scalar() && text_of(effort) == "free"; }
-
-std::string free_effort_parameter(const std::string& joint) { return "preload_" + joint; }
-
 /// [-5, 5]: what a motor can exert.
 std::pair<Rational, Rational> read_within(const Mechanism& mechanism, Value value, const std::string& field) {
   value.field = field;
@@ -169,11 +165,6 @@ std::pair<Rational, Rational> read_within(const Mechanism& mechanism, Value valu
   if (!(lower < upper))
     throw InputError(value.where, value.what + " is empty or reversed", "write [least, most] with least below most");
   return {lower, upper};
-}
-
-[[noreturn]] void refuse_effort(const Joint& joint, const core::SourcePosition& where) {
-  throw InputError(where, "the effort of joint " + joint.name + " is beyond its range",
-                   "choose one that the motor can exert");
 }
 
 /// true, false, {effort: 3.5} of an actuator whose effort is known, or {effort: free, within: [-5, 5]}.
@@ -247,44 +238,6 @@ std::vector<Expression> read_varying_vector(const Mechanism& mechanism, const Va
 }
 
 }  // namespace
-
-std::vector<Entry> written_free_efforts(const Value& joints) {
-  std::vector<Entry> efforts;
-  if (!joints.is_map()) return efforts;
-  for (const Entry& joint : entries(joints)) {
-    if (!joint.value.is_map()) continue;
-    const std::vector<Entry> keys = entries(joint.value);
-    const bool slides = std::any_of(keys.begin(), keys.end(),
-                                    [](const Entry& key) { return key.key == to_string(JointType::prismatic); });
-    for (const Entry& own : keys) {
-      if (own.key != "actuated" || !own.value.is_map()) continue;
-      for (Entry& effort : entries(own.value)) {
-        if (effort.key != "effort" || !is_free_effort(effort.value)) continue;
-        effort.value.field = slides ? "force" : "couple";
-        efforts.push_back({free_effort_parameter(joint.key), effort.where, effort.value});
-      }
-    }
-  }
-  return efforts;
-}
-
-std::vector<Entry> free_effort_parameters(const Value& joints) {
-  std::vector<Entry> parameters = written_free_efforts(joints);
-  for (Entry& own : parameters) own.value.node = Node::scalar(own.value.field == "force" ? "0 N" : "0 N m", own.where);
-  return parameters;
-}
-
-void give_free_efforts(Mechanism& mechanism, const std::vector<Override>& overrides) {
-  for (Joint& joint : mechanism.joints) {
-    if (!joint.free_effort) continue;
-    FreeEffort& own = *joint.free_effort;
-    own.given = std::any_of(overrides.begin(), overrides.end(),
-                            [&](const Override& override) { return override.first == own.parameter; });
-    if (!own.given || !own.within) continue;
-    const Rational value = value_of(*joint.effort, mechanism);
-    if (value < own.within->first || value > own.within->second) refuse_effort(joint, joint.where);
-  }
-}
 
 void read_joints(Mechanism& mechanism, const Value& value) {
   for (const Entry& entry : entries(value)) {

@@ -103,8 +103,8 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
   return all;
 }
 
-/// constant, or {A4: 3.5}: what joints of free effort exert.
-std::vector<std::pair<std::string, Rational>> read_preload(const Mechanism& mechanism, const Value& value) {
+/// constant, controlled, or {A4: 3.5}: what joints of free effort exert.
+void read_preload(const Mechanism& mechanism, const Value& value, core::Task& task) {
   std::vector<std::string> known;
   for (const JointIndex j : preloaded_joints(mechanism))
     known.push_back(mechanism.joints[static_cast<std::size_t>(j)].name);
@@ -112,12 +112,13 @@ std::vector<std::pair<std::string, Rational>> read_preload(const Mechanism& mech
     throw InputError(value.where, "no joint of " + mechanism.file + " has a free effort",
                      "write actuated: {effort: free} at a motor more than the mechanism needs");
   if (value.is_scalar()) {
-    if (text_of(value) == "constant") return {};
+    task.controlled_preload = text_of(value) == "controlled";
+    if (task.controlled_preload || text_of(value) == "constant") return;
     throw InputError(
         value.where, "the preload is '" + text_of(value) + "'",
-        "write constant, one choice for the whole task, or an effort for each joint: {" + known.front() + ": 3.5}");
+        "write constant, one choice for the whole task, controlled, a law over it, or an effort for each joint: {" +
+            known.front() + ": 3.5}");
   }
-  std::vector<std::pair<std::string, Rational>> efforts;
   for (Entry& entry : entries(value)) {
     if (std::find(known.begin(), known.end(), entry.key) == known.end())
       throw InputError(entry.where, "no joint of free effort is called " + entry.key,
@@ -127,9 +128,8 @@ std::vector<std::pair<std::string, Rational>> read_preload(const Mechanism& mech
         entry.value.what = "the effort of " + entry.key;
         entry.value.field = traits(joint).actuator == core::Quantity::F ? "force" : "couple";
       }
-    efforts.emplace_back(entry.key, read_number(mechanism, entry.value, Sign::any).value);
+    task.preload.emplace_back(entry.key, read_number(mechanism, entry.value, Sign::any).value);
   }
-  return efforts;
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ core::Task task_of(const Value& document, const Mechanism& mechanism, const Hand
   if (const auto loads = root.find("loads_from")) task.loads = read_loads_from(mechanism, *loads);
   if (const auto error = root.find("pose_error"))
     task.pose_error = read_number(mechanism, *error, Sign::positive).value;
-  if (const auto preload = root.find("preload")) task.preload = read_preload(mechanism, *preload);
+  if (const auto preload = root.find("preload")) read_preload(mechanism, *preload, task);
   if (const auto all = root.find("tolerances")) task.tolerances = read_tolerances(mechanism, *all);
   if (const auto all = root.find("loads_within")) task.loads_within = read_loads_within(mechanism, *all);
   return task;

@@ -98,14 +98,27 @@ void read_links(Mechanism& mechanism, const Value& value);
 /// the ground, where it cannot turn. After the joints are read.
 void fill_inertia(Mechanism& mechanism);
 
-// --- read_joints.cpp: joints, end effector, loads
-void read_joints(Mechanism& mechanism, const Value& value);
+// --- free_efforts.cpp
+/// The word `free`.
+bool is_free_effort(const Value& effort);
+std::string free_effort_parameter(const std::string& joint);
+[[noreturn]] void refuse_effort(const Joint& joint, const core::SourcePosition& where);
 /// Of joints as they are written: the word `free` of every effort that is, by the name of its parameter.
 std::vector<Entry> written_free_efforts(const Value& joints);
-/// A parameter for each.
-std::vector<Entry> free_effort_parameters(const Value& joints);
-/// Those that have a value, which is within what the motor can exert.
-void give_free_efforts(Mechanism& mechanism, const std::vector<Override>& overrides);
+/// Overrides: efforts that vary with the pose, by the names of their parameters, and all else.
+struct GivenEfforts {
+  std::vector<Override> laws, values;
+};
+GivenEfforts given_efforts(const Value& workspace, const std::vector<Override>& overrides);
+/// The others.
+std::vector<Override> without_efforts(std::vector<Override> overrides);
+/// A parameter for each free effort that has no law.
+std::vector<Entry> free_effort_parameters(const Value& joints, const std::vector<Override>& laws);
+/// Those that have a value, which is within what the motor can exert, or a law.
+void give_free_efforts(Mechanism& mechanism, const GivenEfforts& efforts);
+
+// --- read_joints.cpp: joints, end effector, loads
+void read_joints(Mechanism& mechanism, const Value& value);
 void read_end_effector(Mechanism& mechanism, const Value& value);
 void read_loads(Mechanism& mechanism, const std::optional<Value>& value);
 void read_gravity(Mechanism& mechanism, const std::optional<Value>& value);

@@ -4,6 +4,7 @@
 
 #include "report/files.hpp"
 #include "report/loci_json.hpp"
+#include "report/preload.hpp"
 #include "report/table_json.hpp"
 #include "report/wording.hpp"
 
@@ -93,6 +94,8 @@ Json pose_object(const core::Pose& pose) {
                  {"vanishing", vanishing_array(pose.vanishing)},
                  {"singular", pose.singular},
                  {"worst_case", std::move(worst)}};
+  for (const core::FeasibleEfforts& own : pose.efforts)
+    result["feasible_efforts"][own.joint] = feasible_efforts_object(own);
   if (pose.units.declared) result["units"] = "SI";
   if (!pose.relative_to.empty()) result["relative_to"] = pose.relative_to;
   if (!pose.notes.empty()) result["notes"] = pose.notes;

@@ -10,6 +10,7 @@
 
 #include "report/file_units.hpp"
 #include "report/pose.hpp"
+#include "report/preload.hpp"
 #include "report/text_table.hpp"
 #include "report/wording.hpp"
 
@@ -242,6 +243,7 @@ std::string pose_text(const core::Pose& pose) {
   text += points_table(pose) + "\n" + reactions_table(pose);
   put(text, "\n|A| = {}, condition number {}\n", engineering(pose.determinant, size_digits),
       std::isfinite(pose.condition) ? engineering(pose.condition, few_digits) : "unbounded");
+  for (const core::FeasibleEfforts& own : pose.efforts) text += "\n" + feasible_efforts_text(own, pose.units);
   if (!pose.take_up.empty()) text += "\n" + take_up_table(pose) + "\n" + error_table(pose);
   for (const std::string& note : pose.notes) put(text, "{}\n", note);
   return text;

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/shown_units.hpp"
+#include "report/loci_json.hpp"
 #include "report/table_json.hpp"
 #include "report/wording.hpp"
 
@@ -43,7 +45,15 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
   for (std::size_t i = 0; i < preload.joints.size(); ++i)
     looked_for += fmt::format("{}{} from {} to {}", i == 0 ? "" : ", ", preload.joints[i],
                               efforts.told(i, preload.lower[i]), efforts.told(i, preload.upper[i]));
-  if (preload.value) {
+  if (preload.law) {
+    lines.push_back(fmt::format("{} = {}: verifies", preload.joints.front(), preload.law->expression));
+    lines.push_back(fmt::format(
+        "{} takes {} to {} over the task; {}the smallest size of a law is at most {:.4g}", preload.joints.front(),
+        efforts.told(0, preload.law->within[0]), efforts.told(0, preload.law->within[1]),
+        preload.size[0] > 0 ? fmt::format("laws of a size below {:.4g} fail, proven, and ", preload.size[0])
+                            : std::string(),
+        preload.size[1]));
+  } else if (preload.value) {
     std::string line;
     bool none = true;
     for (std::size_t i = 0; i < preload.joints.size(); ++i) {
@@ -77,11 +87,49 @@ nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
   }
   for (const core::ProvenRange& own : preload.ranges)
     ranges.push_back({{"from", own.from}, {"to", own.to}, {"below", own.below}, {"above", own.above}});
-  return {{"value", preload.value ? std::move(value) : Json(nullptr)},
+  Json law = nullptr;
+  if (preload.law) law = {{"expression", preload.law->expression}, {"within", preload.law->within}};
+  return {{"law", std::move(law)},
+          {"value", preload.value ? std::move(value) : Json(nullptr)},
           {"size", {number_json(preload.size[0]), number_json(preload.size[1])}},
           {"ranges", std::move(ranges)},
           {"looked_for", std::move(looked_for)},
           {"cells", preload.cells}};
+}
+
+std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units) {
+  const core::ShownUnit unit = core::told_unit(efforts.force ? "N" : "N m", units);
+  const auto told = [&](double value) {
+    return fmt::format("{} {}", engineering(value * unit.per_si, digits), unit.name);
+  };
+  const auto end = [&](const char* word, double value, const std::vector<core::Vanishing>& fails) {
+    if (!std::isfinite(value)) return std::string();
+    return fmt::format("{} {}{}", word, told(value), fails.empty() ? "" : " (" + reaction_names(fails) + ")");
+  };
+  std::string text = fmt::format("effort of {} = {}{}\n", efforts.joint, told(efforts.effort),
+                                 efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
+  if (!efforts.never.empty()) text += "  " + reaction_names(efforts.never) + ": lost whatever the effort\n";
+  for (const core::EffortRange& own : efforts.ranges) {
+    const std::string from = end("from", own.from, own.below),
+                      to = end(from.empty() ? "up to" : "to", own.to, own.above);
+    text += "  " + (from.empty() && to.empty() ? "any" : from + (from.empty() || to.empty() ? "" : " ") + to) + "\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& efforts) {
+  using Json = nlohmann::ordered_json;
+  Json ranges = Json::array();
+  for (const core::EffortRange& own : efforts.ranges)
+    ranges.push_back({{"from", number_json(own.from)},
+                      {"to", number_json(own.to)},
+                      {"below", vanishing_array(own.below)},
+                      {"above", vanishing_array(own.above)}});
+  return {{"effort", efforts.effort},
+          {"given", efforts.given},
+          {"within", efforts.within ? Json(*efforts.within) : Json(nullptr)},
+          {"ranges", std::move(ranges)},
+          {"never", vanishing_array(efforts.never)}};
 }
 
 }  // namespace clearloci::report

@@ -1,11 +1,12 @@
 // What is known of the efforts that were free (clearloci/verify.hpp, PreloadAnswer; docs/preload.md), as lines of the
-// table and in verify.json.
+// table and in verify.json; those that are feasible at one pose (clearloci/pose.hpp), in its text and in pose.json.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
 
 namespace clearloci::report {
@@ -14,5 +15,12 @@ namespace clearloci::report {
 std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const core::Units& units);
 
 nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload);
+
+/// "B2 = 0 N m; feasible", then a line each: "up to -6.08 N m, where M_A1 vanishes".
+std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units);
+
+/// {"effort": 0, "given": false, "within": null, "ranges": [{"from", "to", "below", "above"}], "never": []}; null at an
+/// infinite end.
+nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& efforts);
 
 }  // namespace clearloci::report

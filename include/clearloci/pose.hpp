@@ -11,6 +11,7 @@
 // and three (about x, y, z), in rad; forces are in N, couples in N m.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -53,6 +54,26 @@ struct JointTakeUp {
   std::optional<double> normal;      ///< across a planar guide, m
   std::optional<double> tilt;        ///< in a planar guide, rad
   std::optional<double> axial;       ///< play of an actuator that slides, m
+};
+
+/// Efforts of a free actuator from one at which a demanded reaction fails to the next, N or N m.
+struct EffortRange {
+  double from = 0, to = 0;  ///< infinite where nothing ends it
+  std::vector<Vanishing> below,
+      above;  ///< what fails at either end; empty where the motor's own range ends, or nothing
+};
+
+/// Which efforts of one free actuator keep every demanded reaction at a pose, the efforts of other free ones held
+/// (docs/preload.md). At each end of a range a reaction vanishes or, where a least one is asked for, has it: known to
+/// rounding, on the range's side.
+struct FeasibleEfforts {
+  std::string joint;
+  bool force = false;  ///< N, else N m
+  double effort = 0;   ///< that the pose is of
+  bool given = false;  ///< else chosen: the smallest that is feasible
+  std::optional<std::array<double, 2>> within = {};
+  std::vector<EffortRange> ranges = {};  ///< in order
+  std::vector<Vanishing> never = {};     ///< fail at every effort: then there are no ranges
 };
 
 /// Of the end effector.
@@ -106,12 +127,13 @@ struct Pose {
   std::vector<JointTakeUp> take_up;      ///< of the joints with a clearance
   std::optional<PoseError> error;        ///< to the first order; absent where a take-up is undefined
   WorstCase worst;
-  std::vector<std::string> undefined;   ///< joints whose take-up is
-  std::vector<Vanishing> vanishing;     ///< reactions that leave it so
-  std::optional<ActualPose> actual;     ///< where it is asked for
-  std::string relative_to = {};         ///< the link that errors are relative to; empty: the ground
-  Units units = {};                     ///< of the mechanism file: what tables speak in
-  std::vector<std::string> notes = {};  ///< such as what a clearance stands for
+  std::vector<std::string> undefined;         ///< joints whose take-up is
+  std::vector<Vanishing> vanishing;           ///< reactions that leave it so
+  std::optional<ActualPose> actual;           ///< where it is asked for
+  std::vector<FeasibleEfforts> efforts = {};  ///< of free actuators, at rest and where |A| is not zero
+  std::string relative_to = {};               ///< the link that errors are relative to; empty: the ground
+  Units units = {};                           ///< of the mechanism file: what tables speak in
+  std::vector<std::string> notes = {};        ///< such as what a clearance stands for
 };
 
 /// A pose in one of the working modes.
@@ -148,10 +170,13 @@ struct PoseRequest {
   /// not with `iterate`. Reactions, take-up and error then are those with the links' inertia.
   std::vector<double> velocity = {};
   std::vector<double> acceleration = {};
+  /// What the efforts of free actuators are to keep in every joint, N and N m.
+  std::optional<Rational> min_force = {}, min_couple = {};
 };
 
 /// `at`: one value a free coordinate, m or, of an angle (Model::coordinates), rad. A double stands for the shortest
-/// decimal that reads back as it: 0.1 is 1/10, and a pose on a locus there is told to be on it.
+/// decimal that reads back as it: 0.1 is 1/10, and a pose on a locus there is told to be on it. A free effort without a
+/// value is the smallest feasible one, or 0, and a note says so.
 /// Throws InputError where the number of values or of sides is wrong, a value is no finite number, the equations are
 /// not square, or |A| vanishes in every pose of the working mode.
 Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request = {});

@@ -85,6 +85,8 @@ struct Task {
   std::optional<Rational> angle_length = {};  ///< m a radian; without it margins are of lengths alone
   /// Joints of free effort and what each exerts, N or N m. Of the others one choice for the whole task is looked for.
   std::vector<std::pair<std::string, Rational>> preload = {};
+  /// A law is looked for instead: an effort that varies with the pose. Of one free effort.
+  bool controlled_preload = false;
 };
 
 /// What is not proven is never called refuted.
@@ -164,8 +166,15 @@ struct ProvenRange {
   std::string below = {}, above = {};  ///< why values beyond fail; empty where what was looked at ends there
 };
 
-/// Which constant efforts of the free actuators make a task verify (docs/preload.md). The size of a preload is the
-/// largest of its efforts, each as a part of the larger bound of its `within`, or of 1 N or 1 N m where it has none.
+/// An effort that varies with the pose and keeps a task free of loci.
+struct PreloadLaw {
+  std::string expression;          ///< in the coordinates, with units: "-6.1 N m + 25 N*(x - 0.05 m)"
+  std::array<double, 2> within{};  ///< what it takes over the task: between these, proven
+};
+
+/// Which constant efforts of the free actuators make a task verify (docs/preload.md), or which law. The size of a
+/// preload is the largest of its efforts, each as a part of the larger bound of its `within`, or of 1 N or 1 N m where
+/// it has none.
 struct PreloadAnswer {
   std::vector<std::string> joints;   ///< of free effort, those without a value
   std::vector<bool> forces;          ///< N, else N m
@@ -175,7 +184,10 @@ struct PreloadAnswer {
   /// What the smallest size that verifies is at least and at most: proven. Without `value` the second is infinite.
   std::array<double, 2> size{};
   std::vector<ProvenRange> ranges;  ///< of one free effort: all that verify, in order
-  long cells = 0;                   ///< boxes of efforts that were looked at
+  long cells = 0;                   ///< boxes of efforts, or laws, that were looked at
+  /// Of a task with `controlled_preload`; `value` and `ranges` are empty then. `size` is that of any law, at least and
+  /// at most.
+  std::optional<PreloadLaw> law = {};
 };
 
 struct Verification {

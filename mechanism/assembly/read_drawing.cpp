@@ -40,7 +40,7 @@ class DrawingReader {
     m.file = document.where.file;
     m.units = read_units(section("units"));
     if (const auto space = section("space")) m.space = text_of(*space) == "spatial" ? Space::spatial : Space::planar;
-    read_parameters(m, section("parameters"), free_effort_parameters(required("joints")), overrides);
+    read_parameters(m, section("parameters"), free_effort_parameters(required("joints"), {}), overrides);
     result_.unit = length_unit();
     coordinates_.emplace(section("workspace"), required("joints"), document.where, result_);
     plain_.workspace = coordinates_->plain_workspace();

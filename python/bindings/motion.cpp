@@ -51,6 +51,29 @@ py::dict dict_of(const std::vector<JointTakeUp>& all) {
   return joints;
 }
 
+py::dict dict_of(const std::vector<FeasibleEfforts>& all) {
+  py::dict joints;
+  for (const FeasibleEfforts& own : all) {
+    py::list ranges;
+    for (const EffortRange& range : own.ranges) {
+      py::dict one;
+      one["from"] = range.from;
+      one["to"] = range.to;
+      one["below"] = names_of(range.below);
+      one["above"] = names_of(range.above);
+      ranges.append(one);
+    }
+    py::dict one;
+    one["effort"] = own.effort;
+    one["given"] = own.given;
+    one["within"] = own.within;
+    one["ranges"] = ranges;
+    one["never"] = names_of(own.never);
+    joints[py::str(own.joint)] = one;
+  }
+  return joints;
+}
+
 py::dict dict_of(const Pose& pose) {
   py::dict mode, points, reactions, worst, all;
   for (const auto& [point, side] : pose.working_mode) mode[py::str(point)] = side;
@@ -81,6 +104,7 @@ py::dict dict_of(const Pose& pose) {
   all["worst"] = known(worst);
   all["undefined"] = pose.undefined;
   all["vanishing"] = names_of(pose.vanishing);
+  all["feasible_efforts"] = dict_of(pose.efforts);
   all["notes"] = in_python(pose.notes);
   all["actual"] = pose.actual && pose.actual->converged ? py::object(dict_of(pose.actual->error)) : py::none();
   return all;
@@ -213,6 +237,14 @@ DyadSides only_mode(const Model& model, const py::kwargs& options) {
   return request.working_modes.empty() ? DyadSides{} : request.working_modes.front();
 }
 
+PoseRequest pose_request(const Model& model, bool iterate, const py::kwargs& options) {
+  const LociRequest request = request_of(model, options);
+  return {.working_mode = only_mode(model, options),
+          .iterate = iterate,
+          .min_force = request.min_force,
+          .min_couple = request.min_couple};
+}
+
 }  // namespace
 
 void put_error(py::dict& to, const PoseError& error) {
@@ -235,11 +267,12 @@ void bind_motion(py::module_& module) {
       module, "TrajectoryResult", [](const TrajectoryResult& own) { return dict_of(own); }, &export_trajectory);
   module.def("solve_pose",
              [](const Model& model, const std::vector<double>& at, bool iterate, const py::kwargs& options) {
-               return solve_pose(model, at, {.working_mode = only_mode(model, options), .iterate = iterate});
+               return solve_pose(model, at, pose_request(model, iterate, options));
              });
-  module.def("solve_pose_in_modes", [](const Model& model, const std::vector<double>& at, bool iterate) {
-    return solve_pose_in_modes(model, at, {.iterate = iterate});
-  });
+  module.def("solve_pose_in_modes",
+             [](const Model& model, const std::vector<double>& at, bool iterate, const py::kwargs& options) {
+               return solve_pose_in_modes(model, at, pose_request(model, iterate, options));
+             });
   module.def("reactions", [](const Model& model, const PyPoses& poses, const py::kwargs& options) {
     const DyadSides sides = only_mode(model, options);
     const std::span<const double> values(poses.data(), static_cast<std::size_t>(poses.size()));

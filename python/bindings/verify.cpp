@@ -84,6 +84,13 @@ py::object preload_of(const Verification& answer) {
     ranges.append(py::dict(py::arg("from") = own.from, py::arg("to") = own.to, py::arg("below") = own.below,
                            py::arg("above") = own.above));
   py::dict one;
+  one["law"] = py::none();
+  if (preload.law) {
+    py::dict law;
+    law["expression"] = preload.law->expression;
+    law["within"] = preload.law->within;
+    one["law"] = law;
+  }
   one["value"] = preload.value ? py::object(value) : py::none();
   one["size"] = py::make_tuple(preload.size[0], preload.size[1]);
   one["ranges"] = ranges;

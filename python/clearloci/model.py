@@ -249,11 +249,23 @@ class Model:
 
     @overload
     def pose(
-        self, at: Sequence[float] | Mapping[str, float], iterate: bool = ..., *, working_mode: Literal["all"]
+        self,
+        at: Sequence[float] | Mapping[str, float],
+        iterate: bool = ...,
+        *,
+        working_mode: Literal["all"],
+        min_force: Number | None = ...,
+        min_couple: Number | None = ...,
     ) -> list[Pose]: ...
     @overload
     def pose(
-        self, at: Sequence[float] | Mapping[str, float], iterate: bool = ..., *, working_mode: WorkingMode | None = ...
+        self,
+        at: Sequence[float] | Mapping[str, float],
+        iterate: bool = ...,
+        *,
+        working_mode: WorkingMode | None = ...,
+        min_force: Number | None = ...,
+        min_couple: Number | None = ...,
     ) -> Pose: ...
     def pose(
         self,
@@ -261,18 +273,22 @@ class Model:
         iterate: bool = False,
         *,
         working_mode: WorkingMode | None = None,
+        min_force: Number | None = None,
+        min_couple: Number | None = None,
     ) -> Pose | list[Pose]:
         """Posture, reactions, take-up and pose error at one pose.
 
         `at`: a value a free coordinate, (0.25, -0.7) or {"x": 0.25, "y": -0.7}, m or, of an angle, rad; a float stands
         for the shortest decimal that reads back as it. `iterate`: also the error of the mechanism closed with its
-        clearances taken up, `actual`. Out of reach, `unreachable` names the point that cannot be placed, and the rest is
+        clearances taken up, `actual`. `min_force`, `min_couple`: what efforts of free actuators are to keep in every joint
+        (`feasible_efforts`), N and N m. Out of reach, `unreachable` names the point that cannot be placed, and the rest is
         None or empty. With working_mode="all" a list: of the modes that have the pose.
         """
         values = arguments.pose(self, at)
         if working_mode == "all":
-            return ask(lambda own: [Pose(**one) for one in own], "solve_pose_in_modes", self, values, bool(iterate))
-        given = arguments.options(self, working_mode=working_mode)
+            kept = arguments.options(self, min_force=min_force, min_couple=min_couple)
+            return ask(lambda own: [Pose(**one) for one in own], "solve_pose_in_modes", self, values, bool(iterate), **kept)
+        given = arguments.options(self, working_mode=working_mode, min_force=min_force, min_couple=min_couple)
         outside = self._outside(values)
 
         def pose_of(own: dict[str, Any]) -> Pose:

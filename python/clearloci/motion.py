@@ -31,6 +31,9 @@ class Pose(Asked):
     worst: dict[str, Any] | None  #: bounds over all take-ups
     undefined: list[str]  #: joints whose take-up is
     vanishing: list[str]
+    #: of every free actuator the efforts that keep every joint loaded here: "ranges", each with "from", "to" and what
+    #: fails at either end
+    feasible_efforts: dict[str, dict[str, Any]]
     actual: dict[str, list[float]] | None  #: beyond the linear step, where it was asked for
     notes: list[str]
 

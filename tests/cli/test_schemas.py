@@ -95,6 +95,9 @@ class Results(InOwnFolder):
     def test_verify(self):
         task = EXAMPLES / "tasks" / "pick_and_place.yaml"
         self.holds("verify", "verify", EXAMPLES / "studies" / "antagonistic.yaml", EXAMPLES / "tasks" / "preload.yaml")
+        law = self.folder / "law.yaml"
+        law.write_text("format: 1\nbox: {x: [-0.05, 0.15], y: [0.45, 0.6]}\npreload: controlled\n", encoding="utf-8")
+        self.holds("verify", "verify", EXAMPLES / "studies" / "antagonistic.yaml", law)
         self.holds("verify", "verify", FIVE_BAR, task)
         refuted = self.folder / "task.yaml"
         refuted.write_text("format: 1\nbox: {x: [0.1, 0.4], y: [-0.8, -0.2]}\n", encoding="utf-8")
@@ -109,6 +112,7 @@ class Results(InOwnFolder):
         self.holds("pose", "pose", FIVE_BAR, "--at", "0.25,-0.7", "--iterate")
         self.holds("pose", "pose", FIVE_BAR, "--at", "y=-0.7,x=0.25", "--working-mode", "all")
         self.holds("pose", "pose", EXAMPLES / "gripper.yaml", "--at", "s=10")
+        self.holds("pose", "pose", EXAMPLES / "studies" / "antagonistic.yaml", "--at", "0.05,0.5", "--min-couple", "2")
         self.holds("pose", "pose", EXAMPLES / "hexapod.yaml", "--at", "0,0")
 
     def test_error(self):

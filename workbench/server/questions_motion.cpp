@@ -55,7 +55,11 @@ Json answer_pose(const Json& body, const Watch&) {
   const Model model = model_of(fields);
   const std::vector<double> at = fields.numbers("at");
   const DyadSides sides = sides_of(fields);
-  const Pose pose = solve_pose(model, at, {.working_mode = sides, .iterate = fields.flag("iterate")});
+  const Pose pose = solve_pose(model, at,
+                               {.working_mode = sides,
+                                .iterate = fields.flag("iterate"),
+                                .min_force = fields.positive("min_force"),
+                                .min_couple = fields.positive("min_couple")});
   Json answer = report::pose_object(pose);
   answer["unreachable"] = pose.unreachable;
   if (pose.unreachable.empty() && !model.spatial())

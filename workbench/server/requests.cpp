@@ -15,7 +15,15 @@ std::optional<Quantity> quantity_named(const std::string& name) {
 
 }  // namespace
 
-Model model_of(const Fields& fields) { return Model::parse(fields.text("text"), fields.text("file", "model.yaml")); }
+Model model_of(const Fields& fields) {
+  std::vector<Model::Value> efforts;
+  for (const std::string& word : fields.words("preload")) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) throw Refusal(400, "'preload' is to be a list of words such as B2=-20");
+    efforts.emplace_back("preload_" + word.substr(0, equals), word.substr(equals + 1));
+  }
+  return Model::parse(fields.text("text"), fields.text("file", "model.yaml"), efforts);
+}
 
 DyadSides sides_of(const Fields& fields) {
   DyadSides sides;

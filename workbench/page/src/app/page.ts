@@ -16,6 +16,7 @@ import { LociInset } from "./loci_inset";
 import { OnElement } from "./on_element";
 import { playBar } from "./play";
 import { plotsPanel } from "./plots_panel";
+import { preloadPanel } from "./preload_panel";
 import { posePanel } from "./pose_panel";
 import { SpaceStage } from "./space_stage";
 import { Stage } from "./stage";
@@ -44,6 +45,7 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
     legendPanel(bench),
     valuesPanel(bench),
     modesPanel(bench),
+    preloadPanel(bench),
     posePanel(bench, stage),
     taskPanel(bench, stage),
     plotsPanel(bench),

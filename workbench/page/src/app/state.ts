@@ -34,6 +34,8 @@ export interface State {
   /** Joints and quantities that count; nothing: all with a clearance, f and M. */
   joints: string[] | undefined;
   quantities: string[] | undefined;
+  /** Efforts of free actuators, N m or N, as typed; of others the one next to zero. */
+  preload: Record<string, string>;
   zones: boolean;
   reactions: boolean;
   takeUp: boolean;
@@ -54,6 +56,7 @@ export function freshState(file: string, text: string): State {
     hidden: [],
     joints: undefined,
     quantities: undefined,
+    preload: {},
     zones: true,
     reactions: true,
     takeUp: true,

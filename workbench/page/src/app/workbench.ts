@@ -1,7 +1,8 @@
 // The one place where a change of the state becomes questions, and answers become what is drawn.
 import type { ModelFacts, Modes, Picture, Pose, Rules, Start, Sweep, Theme, Trajectory, Verdict, Zones } from "../data/answers";
+import { parseExact, toNumber } from "../data/exact";
 import { pathAt, type ValuePath } from "../data/file_text";
-import { ModelText, type Adjustable } from "../data/model_text";
+import { ModelText, usualEffort, type Adjustable, type FreeEffort } from "../data/model_text";
 import { drawingOf, drawnPose, type Drawing } from "../drawing/drawing";
 import { missingIn, type Missing } from "../drawing/missing";
 import { toHash } from "./address";
@@ -211,7 +212,13 @@ export class Workbench {
   }
 
   private question(state = this.state): object {
-    return { text: state.text, file: state.file, mode: state.mode ?? [] };
+    const preload = this.efforts.map(({ joint, value }) => `${joint}=${value}`);
+    return { text: state.text, file: state.file, mode: state.mode ?? [], ...(preload.length > 0 ? { preload } : {}) };
+  }
+
+  /** Of the free actuators, as they are asked with. */
+  get efforts(): (FreeEffort & { value: string })[] {
+    return this.model.freeEfforts.map((one) => ({ ...one, value: this.state.preload[one.joint] ?? usualEffort(one) }));
   }
 
   private lociQuestion(): object {
@@ -235,7 +242,7 @@ export class Workbench {
       this.atRest();
       return this.tell("state", "kind", "loci", "pose", "zones", "model", "modes", "verify", ...Object.keys(now).map((key) => `state.${key}`));
     }
-    if (changed("file", "text", "mode", "joints", "quantities") || (now.drawing && !this.picture && !this.fault)) {
+    if (changed("file", "text", "mode", "joints", "quantities", "preload") || (now.drawing && !this.picture && !this.fault)) {
       if (this.traceable) this.lanes.loci.want(this.lociQuestion(), made);
       this.zonesStale = true;
       if (!now.zones) this.zones = undefined;
@@ -243,11 +250,11 @@ export class Workbench {
     // Other values make no other mechanism: what kind it is can wait until the hand rests.
     if (changed("file", "mode") || !this.facts || (now.drawing && changed("text"))) this.lanes.model.want(this.question(), made);
     else if (changed("text")) this.factsStale = true;
-    if (changed("text", "mode", "at")) this.askPose(made);
-    if (changed("text", "mode", "task")) this.askVerdict();
+    if (changed("text", "mode", "at", "preload") || (changed("task") && this.efforts.length > 0)) this.askPose(made);
+    if (changed("text", "mode", "task", "preload")) this.askVerdict();
     if (changed("zones") && now.zones) this.askZones();
     if (changed("kept")) void this.askKept();
-    if (changed("trajectory", "text", "mode")) void this.askTrajectory();
+    if (changed("trajectory", "text", "mode", "preload")) void this.askTrajectory();
     this.atRest();
     this.tell("state", ...(Object.keys(now) as (keyof State)[]).filter((key) => changed(key)).map((key) => `state.${key}`));
   }
@@ -261,7 +268,11 @@ export class Workbench {
 
   private askPose(made: number): void {
     const at = this.state.at;
-    if (at && at.length === this.model.coordinateNames.length) this.lanes.pose.want({ ...this.question(), at }, made);
+    if (!at || at.length !== this.model.coordinateNames.length) return;
+    // What the task asks of every joint the efforts are to keep.
+    const { minForce, minCouple } = this.state.task ?? { minForce: "", minCouple: "" };
+    const kept = { ...(isPositive(minForce) ? { min_force: minForce } : {}), ...(isPositive(minCouple) ? { min_couple: minCouple } : {}) };
+    this.lanes.pose.want({ ...this.question(), ...kept, at }, made);
   }
 
   private askVerdict(): void {
@@ -280,7 +291,7 @@ export class Workbench {
     if (kept) {
       ++this.pending;
       try {
-        const picture = await ask<Picture>("loci", { text: kept.text, mode: kept.mode ?? [], lane: "kept" });
+        const picture = await ask<Picture>("loci", { ...this.question({ ...this.state, ...kept }), lane: "kept" });
         if (this.state.kept === kept) this.kept = picture;
       } catch (error) {
         if (!(error instanceof AskingError)) throw error;
@@ -424,6 +435,11 @@ export class Workbench {
     this.fault = { message: fault.message, field: this.touched ?? placed, path: fault.line > 0 ? pathAt(this.state.text, fault.line, fault.column) : [] };
     this.tell("fault", "zones");
   }
+}
+
+function isPositive(text: string): boolean {
+  const exact = parseExact(text);
+  return exact !== undefined && toNumber(exact) > 0;
 }
 
 /** Such as after a length that cannot close; a note says so. */

@@ -190,6 +190,21 @@ export interface TakeUp {
   dtheta?: number | null;
 }
 
+/** null: nothing ends it. */
+export interface EffortRange {
+  from: number | null;
+  to: number | null;
+  below: Vanishing[];
+  above: Vanishing[];
+}
+
+export interface FeasibleEfforts {
+  effort: number;
+  within: [number, number] | null;
+  ranges: EffortRange[];
+  never: Vanishing[];
+}
+
 export interface Pose {
   at: number[];
   posture: Record<string, number[]>;
@@ -200,6 +215,8 @@ export interface Pose {
   pose_error: Record<string, number | null> | null;
   undefined_take_up: string[];
   vanishing: Vanishing[];
+  /** Of every free actuator, N m or N. */
+  feasible_efforts?: Record<string, FeasibleEfforts>;
   singular: boolean;
   worst_case: Record<string, number | null>;
   unreachable: string;

@@ -19,6 +19,18 @@ export interface Adjustable {
   value: number | undefined;
 }
 
+export interface FreeEffort {
+  joint: string;
+  /** "N m", or "N" of a motor that slides; with the file's unit of force. */
+  unit: string;
+  within: readonly [number, number] | undefined;
+}
+
+/** Where nothing else is said: no effort, or that next to none. */
+export function usualEffort({ within }: FreeEffort): string {
+  return String(within ? Math.min(Math.max(0, within[0]), within[1]) : 0);
+}
+
 export class ModelText {
   private readonly document: Document.Parsed;
 
@@ -131,6 +143,19 @@ export class ModelText {
     const names = this.names(["workspace"]);
     if (names.length > 0 || this.names(["drawn"]).length === 0) return names;
     return this.names(["joints"]).filter((name) => this.read(["joints", name, "actuated"]) === "true" && this.node(["joints", name, "revolute"]) !== undefined);
+  }
+
+  /** Motors whose effort is chosen, with what they can exert where it is written in plain numbers. */
+  get freeEfforts(): FreeEffort[] {
+    return this.sections.flatMap((root) =>
+      this.names([...root, "joints"]).flatMap((joint) => {
+        const path = [...root, "joints", joint];
+        if (this.read([...path, "actuated", "effort"]) !== "free") return [];
+        const [least, most] = [0, 1].map((end) => parseExact(this.read([...path, "actuated", "within", end]) ?? ""));
+        const unit = this.node([...path, "prismatic"]) ? this.unit("force") : `${this.unit("force")} m`;
+        return [{ joint, unit, within: least && most ? ([toNumber(least), toNumber(most)] as const) : undefined }];
+      }),
+    );
   }
 
   get adjustables(): Adjustable[] {

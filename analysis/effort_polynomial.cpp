@@ -1,0 +1,202 @@
+#include "analysis/effort_polynomial.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "core/interval.hpp"
+#include "core/rational.hpp"
+
+namespace clearloci {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+std::string decimal(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+/// All of a total degree up to `degree`, those of a lower one first.
+std::vector<std::vector<int>> powers_up_to(std::size_t variables, int degree) {
+  std::vector<std::vector<int>> all;
+  std::vector<int> own(variables, 0);
+  const std::function<void(std::size_t, int)> add = [&](std::size_t variable, int left) {
+    if (variable == variables) {
+      if (left == 0) all.push_back(own);
+      return;
+    }
+    for (int power = left; power >= 0; --power) {
+      own[variable] = power;
+      add(variable + 1, left - power);
+    }
+    own[variable] = 0;
+  };
+  for (int total = 0; total <= degree; ++total) add(0, total);
+  return all;
+}
+
+core::Interval power_of(const core::Interval& base, int power) {
+  core::Interval result(1.0);
+  for (int i = 0; i < power; ++i) result = result * base;
+  return result;
+}
+
+}  // namespace
+
+EffortPolynomial::EffortPolynomial(const mechanism::Mechanism& mechanism, const std::array<core::RationalPose, 2>& box,
+                                   int degree, bool force)
+    : force_(force) {
+  for (std::size_t c = 0; c < mechanism.coordinates.size(); ++c) {
+    const mechanism::Coordinate& coordinate = mechanism.coordinates[c];
+    Variable own;
+    own.name = coordinate.name;
+    own.angle = coordinate.angle;
+    own.lower = core::to_double(box[0][c]);
+    own.upper = core::to_double(box[1][c]);
+    if (!(own.lower < own.upper)) continue;
+    constexpr int digits = 3;
+    own.middle = decimal(0.5 * (own.lower + own.upper) * (own.angle ? degrees : 1), digits);
+    own.from = std::strtod(own.middle.c_str(), nullptr) / (own.angle ? degrees : 1);
+    variables_.push_back(std::move(own));
+    places_.push_back(c);
+  }
+  powers_ = powers_up_to(variables_.size(), degree);
+}
+
+std::vector<double> EffortPolynomial::monomials(const std::vector<double>& pose) const {
+  std::vector<double> all;
+  for (const std::vector<int>& powers : powers_) {
+    double product = 1;
+    for (std::size_t v = 0; v < variables_.size(); ++v) {
+      const double off = pose[places_[v]] - variables_[v].from;
+      product *= std::pow(variables_[v].angle ? std::sin(off) : off, powers[v]);
+    }
+    all.push_back(product);
+  }
+  return all;
+}
+
+double EffortPolynomial::at(const std::vector<double>& pose) const {
+  const std::vector<double> all = monomials(pose);
+  double sum = 0;
+  for (std::size_t t = 0; t < all.size(); ++t) sum += values_[t] * all[t];
+  return sum;
+}
+
+bool EffortPolynomial::fit(const std::vector<std::vector<double>>& poses,
+                           const std::vector<std::array<double, 2>>& between) {
+  const auto rows = static_cast<Eigen::Index>(poses.size()), columns = static_cast<Eigen::Index>(terms());
+  Eigen::MatrixXd basis(rows, columns);
+  Eigen::VectorXd middle(rows), half(rows), weight = Eigen::VectorXd::Ones(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const std::vector<double> all = monomials(poses[k]);
+    for (Eigen::Index t = 0; t < columns; ++t) basis(i, t) = all[static_cast<std::size_t>(t)];
+    middle(i) = 0.5 * (between[k][0] + between[k][1]);
+    half(i) = 0.5 * (between[k][1] - between[k][0]);
+    if (!(half(i) > 0)) return false;
+  }
+  Eigen::VectorXd scale(columns), best;
+  for (Eigen::Index t = 0; t < columns; ++t) scale(t) = std::max(basis.col(t).cwiseAbs().maxCoeff(), 1e-300);
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int steps = 150;
+  for (int step = 0; step < steps; ++step) {
+    const Eigen::VectorXd row = weight.cwiseSqrt().cwiseQuotient(half);
+    const Eigen::MatrixXd left = row.asDiagonal() * basis * scale.cwiseInverse().asDiagonal();
+    const Eigen::VectorXd found =
+        left.colPivHouseholderQr().solve(row.cwiseProduct(middle)).cwiseQuotient(scale);
+    const Eigen::VectorXd off = (basis * found - middle).cwiseQuotient(half).cwiseAbs();
+    if (off.maxCoeff() < least) {
+      least = off.maxCoeff();
+      best = found;
+    }
+    weight = weight.cwiseProduct(off.array().max(1e-12).matrix());
+    weight /= weight.maxCoeff();
+    weight = weight.cwiseMax(1e-12);
+  }
+  coefficients_.clear();
+  values_.clear();
+  for (Eigen::Index t = 0; t < columns; ++t) {
+    constexpr int digits = 4;
+    coefficients_.push_back(decimal(best(t), digits));
+    values_.push_back(std::strtod(coefficients_.back().c_str(), nullptr));
+  }
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    if (const double effort = at(poses[k]); effort <= between[k][0] || effort >= between[k][1]) return false;
+  return true;
+}
+
+std::array<double, 2> EffortPolynomial::range() const {
+  const std::size_t n = variables_.size();
+  const int cuts = n == 1 ? 256 : n == 2 ? 32 : n == 3 ? 8 : n == 4 ? 4 : 2;
+  std::array<double, 2> range = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::vector<int> cell(n, 0);
+  const auto enclosed = [&](std::size_t v) {
+    const Variable& own = variables_[v];
+    const double step = (own.upper - own.lower) / cuts;
+    double low = own.lower + cell[v] * step - own.from, high = own.lower + (cell[v] + 1) * step - own.from;
+    const double rounding = 1e-14 * (std::abs(own.lower) + std::abs(own.upper) + std::abs(own.from));
+    if (own.angle) {
+      const bool rises = low > -0.5 * std::numbers::pi && high < 0.5 * std::numbers::pi;
+      low = rises ? std::sin(low) : -1;
+      high = rises ? std::sin(high) : 1;
+    }
+    return core::Interval(low - rounding - 1e-15, high + rounding + 1e-15);
+  };
+  while (true) {
+    core::Interval sum(0.0);
+    for (std::size_t t = 0; t < powers_.size(); ++t) {
+      core::Interval term(values_[t]);
+      for (std::size_t v = 0; v < n; ++v) term = term * power_of(enclosed(v), powers_[t][v]);
+      sum = sum + term;
+    }
+    range = {std::min(range[0], sum.lower()), std::max(range[1], sum.upper())};
+    std::size_t v = 0;
+    while (v < n && ++cell[v] == cuts) cell[v++] = 0;
+    if (v == n) return range;
+  }
+}
+
+std::string EffortPolynomial::variable_words(const Variable& own) const {
+  const bool below = own.middle.front() == '-';
+  const std::string off = own.from == 0 ? own.name
+                                        : own.name + (below ? " + " + own.middle.substr(1) : " - " + own.middle) +
+                                              (own.angle ? " deg" : " m");
+  if (own.angle) return "sin(" + off + ")";
+  return own.from == 0 ? off : "(" + off + ")";
+}
+
+std::string EffortPolynomial::unit_words(const std::vector<int>& powers) const {
+  int lengths = force_ ? 1 : 0;
+  for (std::size_t v = 0; v < powers.size(); ++v)
+    if (!variables_[v].angle) lengths += powers[v];
+  if (lengths == 0) return "N m";
+  if (lengths == 1) return "N";
+  return lengths == 2 ? "N/m" : "N/m^" + std::to_string(lengths - 1);
+}
+
+std::string EffortPolynomial::told() const {
+  std::string text;
+  for (std::size_t t = 0; t < powers_.size(); ++t) {
+    if (t > 0 && values_[t] == 0) continue;
+    const bool below = coefficients_[t].front() == '-';
+    const std::string size = below ? coefficients_[t].substr(1) : coefficients_[t];
+    text += text.empty() ? (below ? "-" : "") : below ? " - " : " + ";
+    text += size + " " + unit_words(powers_[t]);
+    for (std::size_t v = 0; v < variables_.size(); ++v) {
+      if (powers_[t][v] == 0) continue;
+      text += "*" + variable_words(variables_[v]);
+      if (powers_[t][v] > 1) text += "^" + std::to_string(powers_[t][v]);
+    }
+  }
+  return text;
+}
+
+}  // namespace clearloci

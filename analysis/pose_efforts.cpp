@@ -1,0 +1,173 @@
+#include "analysis/pose_efforts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "analysis/pose_demands.hpp"
+#include "analysis/task_demands.hpp"
+#include "core/rational.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
+#include "numeric/effort_gaps.hpp"
+#include "numeric/take_up.hpp"
+
+namespace clearloci {
+namespace {
+
+using mechanism::JointIndex;
+using mechanism::Mechanism;
+using numeric::EffortGap;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const mechanism::Joint& joint_of(const Mechanism& mechanism, JointIndex index) {
+  return mechanism.joints[static_cast<std::size_t>(index)];
+}
+
+/// Gaps that touch are one.
+struct Cluster {
+  double from = 0, to = 0;
+  std::vector<core::Vanishing> lowest, highest;  ///< what fails at either end
+};
+
+std::vector<Cluster> clusters_of(std::vector<EffortGap> gaps) {
+  std::sort(gaps.begin(), gaps.end(), [](const EffortGap& a, const EffortGap& b) { return a.from < b.from; });
+  std::vector<Cluster> clusters;
+  for (const EffortGap& gap : gaps) {
+    const core::Vanishing own{gap.demand.joint, gap.demand.quantity, 1};
+    if (clusters.empty() || gap.from > clusters.back().to) {
+      clusters.push_back({gap.from, gap.to, {own}, {own}});
+      continue;
+    }
+    // Of a zero that several reactions share the enclosures differ by roundings.
+    Cluster& last = clusters.back();
+    constexpr double rounding = 1e-12;
+    const auto alike = [](double a, double b) { return std::abs(a - b) <= rounding * (1 + std::abs(b)); };
+    if (alike(gap.from, last.from)) last.lowest.push_back(own);
+    if (alike(gap.to, last.to))
+      last.highest.push_back(own);
+    else if (gap.to > last.to)
+      last.highest = {own};
+    last.to = std::max(last.to, gap.to);
+  }
+  return clusters;
+}
+
+void set_ranges(const std::vector<EffortGap>& gaps, FeasibleEfforts& efforts) {
+  for (const EffortGap& gap : gaps)
+    if (gap.from == -infinity && gap.to == infinity)
+      efforts.never.push_back({gap.demand.joint, gap.demand.quantity, 1});
+  if (!efforts.never.empty()) return;
+  const double least = efforts.within ? (*efforts.within)[0] : -infinity,
+               most = efforts.within ? (*efforts.within)[1] : infinity;
+  EffortRange open{least, most, {}, {}};
+  for (const Cluster& own : clusters_of(gaps)) {
+    if (own.to < least || own.from > most) continue;
+    if (own.from > open.from) {
+      EffortRange before = open;
+      before.to = own.from;
+      before.above = own.lowest;
+      efforts.ranges.push_back(std::move(before));
+    }
+    open = {own.to, most, own.highest, {}};
+  }
+  if (open.from < open.to) efforts.ranges.push_back(std::move(open));
+}
+
+/// Poses of the box, off every symmetry: a reaction that is zero in all of them is one that nothing loads.
+std::vector<std::vector<double>> usual_poses(const Mechanism& mechanism, const std::vector<numeric::Bounded>& at) {
+  constexpr int poses = 12;
+  std::vector<std::vector<double>> all(1);
+  for (const numeric::Bounded& own : at) all.front().push_back(own.value);
+  for (int s = 1; s <= poses; ++s) {
+    std::vector<double>& pose = all.emplace_back();
+    for (std::size_t c = 0; c < mechanism.coordinates.size(); ++c) {
+      const double lower = core::to_double(mechanism.coordinates[c].lower),
+                   upper = core::to_double(mechanism.coordinates[c].upper);
+      pose.push_back(lower + std::fmod(s * std::sqrt(static_cast<double>(2 + 3 * c)), 1.0) * (upper - lower));
+    }
+  }
+  return all;
+}
+
+numeric::NumericModel with_effort(Mechanism mechanism, JointIndex joint, int effort) {
+  mechanism::give_effort(mechanism, joint, effort);
+  return numeric::compile(mechanism);
+}
+
+FeasibleEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const std::vector<numeric::Bounded>& at,
+                           const DyadSides& sides, const PoseRequest& request, std::vector<std::string>& notes) {
+  const mechanism::Joint& joint = joint_of(mechanism, index);
+  FeasibleEfforts efforts;
+  efforts.joint = joint.name;
+  efforts.force = mechanism::actuator_quantity(joint) == core::Quantity::F;
+  efforts.effort = core::to_double(mechanism::value_of(*joint.effort, mechanism));
+  if (const auto& within = joint.free_effort->within)
+    efforts.within = {core::to_double(within->first), core::to_double(within->second)};
+  const std::vector<numeric::NumericModel> models = {with_effort(mechanism, index, 0),
+                                                     with_effort(mechanism, index, 1)};
+  const LociRequest asked{.min_force = request.min_force, .min_couple = request.min_couple};
+  const std::vector<core::TaskDemand> demands =
+      loaded_demands(models, sides, demands_of(mechanism, asked), usual_poses(mechanism, at), notes);
+  if (const auto determinant = numeric::bounded_numerators(models[0], at, sides).determinant;
+      !(std::abs(determinant.value) > determinant.error))
+    return efforts;
+  std::vector<EffortGap> gaps = numeric::effort_gaps(models[0], models[1], at, sides, demands);
+  if (const auto own = own_gap(mechanism, joint.name, request.min_couple)) gaps.push_back(*own);
+  set_ranges(gaps, efforts);
+  return efforts;
+}
+
+core::Rational smallest_of(const std::vector<EffortRange>& ranges) {
+  const auto nearest = [](const EffortRange& own) { return own.from > 0 ? own.from : own.to < 0 ? own.to : 0; };
+  const auto smallest = std::min_element(ranges.begin(), ranges.end(), [&](const EffortRange& a, const EffortRange& b) {
+    return std::abs(nearest(a)) < std::abs(nearest(b));
+  });
+  return core::Rational(nearest(*smallest));
+}
+
+}  // namespace
+
+std::optional<EffortGap> own_gap(const Mechanism& mechanism, const std::string& joint,
+                                 const std::optional<core::Rational>& min_couple) {
+  const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    if (mechanism.joints[j].name != joint) continue;
+    core::TaskDemand demand{joint, mechanism::actuator_quantity(mechanism.joints[j])};
+    const bool force = demand.quantity == core::Quantity::F;
+    if (!((force ? clearances[j].axial : clearances[j].angular) > 0)) return std::nullopt;
+    if (!force) demand.least = min_couple.value_or(0);
+    const double least = core::to_double(demand.least);
+    return EffortGap{-least, least, std::move(demand), 0, 1};
+  }
+  return std::nullopt;
+}
+
+PoseEfforts pose_efforts(const Mechanism& mechanism, const std::vector<numeric::Bounded>& at, const DyadSides& sides,
+                         const PoseRequest& request) {
+  PoseEfforts all{mechanism, {}, {}};
+  const std::vector<JointIndex> wanted = mechanism::joints_without_preload(mechanism);
+  for (const JointIndex joint : wanted) {
+    const auto& within = joint_of(mechanism, joint).free_effort->within;
+    mechanism::give_effort(all.mechanism, joint, within ? nearest_to_none(within->first, within->second) : 0);
+  }
+  for (const JointIndex joint : wanted) {
+    const FeasibleEfforts own = efforts_of(all.mechanism, joint, at, sides, request, all.notes);
+    if (!own.ranges.empty()) mechanism::give_effort(all.mechanism, joint, smallest_of(own.ranges));
+    all.notes = {"the effort of joint " + own.joint +
+                 " is free: the reactions are those with the smallest feasible one; another is given by --preload " +
+                 own.joint + "=VALUE"};
+  }
+  std::vector<std::string> notes;
+  for (const JointIndex joint : mechanism::preloaded_joints(mechanism)) {
+    notes.clear();  // the same of each
+    all.efforts.push_back(efforts_of(all.mechanism, joint, at, sides, request, notes));
+    all.efforts.back().given = joint_of(mechanism, joint).free_effort->given;
+  }
+  all.notes.insert(all.notes.end(), notes.begin(), notes.end());
+  return all;
+}
+
+}  // namespace clearloci
