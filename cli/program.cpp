@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -30,14 +29,32 @@ std::string help_call(const CLI::App& program) {
   return "see clearloci --help";
 }
 
-/// A word in the command's place that is none: said here, since CLI11 would only say that a command is missing.
-void check_command_word(const std::vector<Command>& commands, int argc, const char* const* argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const Command& command : commands) names.push_back(command.app->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  throw core::InputError({}, fmt::format("unknown command '{}'", argv[1]),
-                         fmt::format("the commands are {}", fmt::join(names, ", ")));
+struct CommandName {
+  std::string_view name;
+  Command (*add)(CLI::App& program);
+};
+
+constexpr CommandName command_names[] = {
+    {"loci", add_loci_command},     {"equations", add_equations_command},   {"validate", add_validate_command},
+    {"pose", add_pose_command},     {"error", add_error_command},           {"zones", add_zones_command},
+    {"verify", add_verify_command}, {"trajectory", add_trajectory_command}, {"check", add_check_command},
+    {"design", add_design_command}, {"normalize", add_normalize_command},   {"import", add_import_command},
+    {"view", add_view_command}};
+
+/// The command that the first word names; all of them where it is an option, as --help. Adding a command takes time.
+std::vector<Command> add_commands(CLI::App& program, const std::string& word) {
+  const bool option = word.empty() || word.front() == '-';
+  std::vector<Command> commands;
+  std::vector<std::string_view> names;
+  for (const CommandName& command : command_names) {
+    names.push_back(command.name);
+    if (word != "--version" && (option || word == command.name)) commands.push_back(command.add(program));
+  }
+  // Said here, since CLI11 would only say that a command is missing.
+  if (!option && commands.empty())
+    throw core::InputError({}, fmt::format("unknown command '{}'", word),
+                           fmt::format("the commands are {}", fmt::join(names, ", ")));
+  return commands;
 }
 
 /// The keys of a mechanism file, of which the page mechanism-file.md has the values.
@@ -70,14 +87,8 @@ int parse_and_run(int argc, const char* const* argv) {
       "Exit status: 0 done; 1 a check failed; 2 the input or the call is wrong; 3 a limit of time or memory was "
       "reached;\n"
       "70 an error of the program itself.");
-  const std::vector<Command> commands = {
-      add_loci_command(program),   add_equations_command(program),  add_validate_command(program),
-      add_pose_command(program),   add_error_command(program),      add_zones_command(program),
-      add_verify_command(program), add_trajectory_command(program), add_check_command(program),
-      add_design_command(program), add_normalize_command(program),  add_import_command(program),
-      add_view_command(program)};
+  const std::vector<Command> commands = add_commands(program, argc > 1 ? argv[1] : "");
   try {
-    check_command_word(commands, argc, argv);
     program.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
     return program.exit(request);

@@ -12,6 +12,13 @@ install(TARGETS ${folder_targets} clearloci_library EXPORT clearlociTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library)
 install(TARGETS clearloci RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
+# The module for MPI, where the program's run path leads to.
+if(TARGET clearloci_mpi)
+  set(modules "${CMAKE_INSTALL_LIBDIR}/clearloci")
+  install(TARGETS clearloci_mpi LIBRARY DESTINATION "${modules}" COMPONENT program)
+  file(RELATIVE_PATH to_modules "/${CMAKE_INSTALL_BINDIR}" "/${modules}")
+  set_target_properties(clearloci PROPERTIES INSTALL_RPATH "$ORIGIN/${to_modules}")
+endif()
 # The public headers, and nothing else.
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/clearloci" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT library)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
@@ -50,13 +57,15 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME clearloci)
+# Loaded when the first picture is asked for (report/canvas.cpp), so that nothing linked tells of it.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS libcairo2)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libclearloci-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
 string(CONCAT CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
   "libginac-dev, libcln-dev, libeigen3-dev, libcgal-dev, libgmp-dev, libmpfr-dev, libmpfi-dev, libflint-dev, libyaml-cpp-dev, libpugixml-dev, "
-  "libnlopt-dev, libfmt-dev, nlohmann-json3-dev, libcairomm-1.16-dev, libboost-dev, libtbb-dev, zlib1g-dev")
+  "libnlopt-dev, libfmt-dev, nlohmann-json3-dev, libcairo2, libboost-dev, libtbb-dev, zlib1g-dev")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-clearloci)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy, libcairo2")
 include(CPack)

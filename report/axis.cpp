@@ -51,32 +51,31 @@ std::vector<Tick> angle_ticks(double low, double high, double least_step) {
   return multiples(low, high, 360);
 }
 
-void draw_colour_bar(const Cairo::RefPtr<Cairo::Context>& context, const FieldScale& scale, const Box& box) {
+void draw_colour_bar(const Canvas& canvas, const FieldScale& scale, const Box& box) {
   const double top = box.bottom() - colour_bar_room + 4;
   const auto at = [&](double value) { return box.x + (value - scale.low) / (scale.high - scale.low) * box.width; };
   constexpr int steps = 256;
   for (int i = 0; i < steps; ++i) {
-    set_colour(context, scale.colour(scale.low + (i + 0.5) / steps * (scale.high - scale.low)));
+    set_colour(canvas, scale.colour(scale.low + (i + 0.5) / steps * (scale.high - scale.low)));
     // Each step reaches under the next one: no seams between them.
-    context->rectangle(box.x + i * box.width / steps, top, std::min(2, steps - i) * box.width / steps,
-                       colour_bar_height);
-    context->fill();
+    canvas.rectangle(box.x + i * box.width / steps, top, std::min(2, steps - i) * box.width / steps, colour_bar_height);
+    canvas.fill();
   }
-  context->unset_dash();
-  context->set_line_width(0.6);
-  set_colour(context, frame);
-  context->rectangle(box.x, top, box.width, colour_bar_height);
-  context->stroke();
+  canvas.set_dash({});
+  canvas.set_line_width(0.6);
+  set_colour(canvas, frame);
+  canvas.rectangle(box.x, top, box.width, colour_bar_height);
+  canvas.stroke();
   for (const double value : scale_ticks(scale)) {
-    set_colour(context, frame);
-    context->move_to(at(value), top + colour_bar_height);
-    context->line_to(at(value), top + colour_bar_height + 3);
-    context->stroke();
-    set_colour(context, ink);
+    set_colour(canvas, frame);
+    canvas.move_to(at(value), top + colour_bar_height);
+    canvas.line_to(at(value), top + colour_bar_height + 3);
+    canvas.stroke();
+    set_colour(canvas, ink);
     const Align align = at(value) > box.right() - 8 ? Align::right
                         : at(value) < box.x + 8     ? Align::left
                                                     : Align::centre;
-    write_text(context, scale.shown(value), at(value), top + colour_bar_height + 12, tick_font, align);
+    write_text(canvas, scale.shown(value), at(value), top + colour_bar_height + 12, tick_font, align);
   }
 }
 

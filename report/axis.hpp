@@ -2,7 +2,7 @@
 // Private to report/.
 #pragma once
 
-#include <cairomm/context.h>
+#include "report/canvas.hpp"
 
 #include <string>
 #include <vector>
@@ -38,6 +38,6 @@ inline constexpr double colour_bar_height = 10;  ///< pt
 inline constexpr double colour_bar_room = 32;    ///< pt: bar, ticks and their labels
 
 /// At the lower end of a box, over its width.
-void draw_colour_bar(const Cairo::RefPtr<Cairo::Context>& context, const FieldScale& scale, const Box& box);
+void draw_colour_bar(const Canvas& canvas, const FieldScale& scale, const Box& box);
 
 }  // namespace clearloci::report

@@ -22,8 +22,6 @@
 namespace clearloci::report {
 namespace {
 
-using Context = Cairo::RefPtr<Cairo::Context>;
-
 constexpr double gap = 46, legend_width = 190;  // pt
 constexpr Font number_font{9, true};
 constexpr Colour doubtful{0.45, 0.45, 0.45};
@@ -128,67 +126,67 @@ std::map<int, Square> largest_squares(const Layer& layer) {
   return largest;
 }
 
-void draw_layer(const Context& context, const Layer& layer, const Box& box) {
+void draw_layer(const Canvas& canvas, const Layer& layer, const Box& box) {
   const double width = box.width / layer.columns, height = box.height / layer.rows;
   const auto top = [&](int row) { return box.bottom() - (row + 1) * height; };
-  context->save();
-  context->set_antialias(Cairo::ANTIALIAS_NONE);  // neighbours meet without a seam
+  canvas.save();
+  canvas.set_sharp_edges();  // neighbours meet without a seam
   for_runs(layer, [&](int row, int from, int to, int label) {
     if (label < 0) return;
-    set_colour(context, label == 0 ? doubtful : colour_of(label));
-    context->rectangle(box.x + from * width, top(row), (to - from) * width, height);
-    context->fill();
+    set_colour(canvas, label == 0 ? doubtful : colour_of(label));
+    canvas.rectangle(box.x + from * width, top(row), (to - from) * width, height);
+    canvas.fill();
   });
-  context->restore();
-  set_colour(context, light_theme.ink);
+  canvas.restore();
+  set_colour(canvas, light_theme.ink);
   for (const auto& [label, square] : largest_squares(layer)) {
     const double side = (2 * square.half - 1) * (layer.rows == 1 ? width : std::min(width, height));
     if (label > 0 && side >= least_square)
-      write_text(context, std::to_string(label), box.x + (square.column + 0.5) * width,
+      write_text(canvas, std::to_string(label), box.x + (square.column + 0.5) * width,
                  top(square.row) + 0.5 * height + 3, number_font, Align::centre);
   }
 }
 
-void draw_axes(const Context& context, const Box& box, const Scale& x, const Scale* y) {
-  set_colour(context, light_theme.frame);
-  context->set_line_width(0.8);
-  context->rectangle(box.x, box.y, box.width, box.height);
-  context->stroke();
+void draw_axes(const Canvas& canvas, const Box& box, const Scale& x, const Scale* y) {
+  set_colour(canvas, light_theme.frame);
+  canvas.set_line_width(0.8);
+  canvas.rectangle(box.x, box.y, box.width, box.height);
+  canvas.stroke();
   constexpr double least_gap = 42;  // pt between ticks
   const auto at_x = [&](double value) { return box.x + (value - x.lower) / (x.upper - x.lower) * box.width; };
   for (const Tick& tick : x.ticks_at_least(least_gap / box.width * (x.upper - x.lower))) {
-    context->move_to(at_x(tick.at), box.bottom());
-    context->line_to(at_x(tick.at), box.bottom() + 3);
-    context->stroke();
-    write_text(context, tick.label, at_x(tick.at), box.bottom() + 12, tick_font, Align::centre);
+    canvas.move_to(at_x(tick.at), box.bottom());
+    canvas.line_to(at_x(tick.at), box.bottom() + 3);
+    canvas.stroke();
+    write_text(canvas, tick.label, at_x(tick.at), box.bottom() + 12, tick_font, Align::centre);
   }
-  write_text(context, x.label, box.x + 0.5 * box.width, box.bottom() + 24, label_font, Align::centre);
+  write_text(canvas, x.label, box.x + 0.5 * box.width, box.bottom() + 24, label_font, Align::centre);
   if (y == nullptr) return;
   const auto at_y = [&](double value) {
     return box.bottom() - (value - y->lower) / (y->upper - y->lower) * box.height;
   };
   for (const Tick& tick : y->ticks_at_least(0.6 * least_gap / box.height * (y->upper - y->lower))) {
-    context->move_to(box.x - 3, at_y(tick.at));
-    context->line_to(box.x, at_y(tick.at));
-    context->stroke();
-    write_text(context, tick.label, box.x - 5, at_y(tick.at) + 3, tick_font, Align::right);
+    canvas.move_to(box.x - 3, at_y(tick.at));
+    canvas.line_to(box.x, at_y(tick.at));
+    canvas.stroke();
+    write_text(canvas, tick.label, box.x - 5, at_y(tick.at) + 3, tick_font, Align::right);
   }
-  write_text(context, y->label, box.x - 4, box.y - 5, label_font, Align::right);
+  write_text(canvas, y->label, box.x - 4, box.y - 5, label_font, Align::right);
 }
 
 /// Where zones of the mode over one coordinate end: a line, heavy at a singularity.
-void draw_ends(const Context& context, const core::Zones& map, const core::WorkingMode& mode, const Box& box) {
+void draw_ends(const Canvas& canvas, const core::Zones& map, const core::WorkingMode& mode, const Box& box) {
   const double lower = core::to_double(map.loci.lower[0]), width = core::to_double(map.loci.upper[0]) - lower;
   for (const core::Zone& zone : map.zones)
     for (const core::ZoneEnd& end : zone.ends) {
       if (zone.mode != mode) continue;
       const bool singular = end.kind == core::LocusKind::direct_singularity;
       const double x = box.x + (end.at - lower) / width * box.width;
-      set_colour(context, light_theme.ink);
-      context->set_line_width(singular ? 2.4 : 1.2);
-      context->move_to(x, box.y - 4);
-      context->line_to(x, box.bottom());
-      context->stroke();
+      set_colour(canvas, light_theme.ink);
+      canvas.set_line_width(singular ? 2.4 : 1.2);
+      canvas.move_to(x, box.y - 4);
+      canvas.line_to(x, box.bottom());
+      canvas.stroke();
     }
 }
 
@@ -259,34 +257,34 @@ std::string cell_zone_picture(const core::Zones& map, const core::ZonedMode& mod
   for (const std::string& line : ends) description += line + "\n";
   const std::string title = printable(map.loci.mechanism);
 
-  const auto draw = [&](const Context& context) {
-    draw_page_head(context, page);
+  const auto draw = [&](const Canvas& canvas) {
+    draw_page_head(canvas, page);
     for (std::size_t k = 0; k < layers.size(); ++k) {
       const std::size_t row = k / columns;
       const Box box{left + static_cast<double>(k % columns) * (width + gap),
                     head + static_cast<double>(row) * (height + gap), width, height};
-      draw_layer(context, layers[k], box);
-      if (!y) draw_ends(context, map, mode.mode, box);
-      draw_axes(context, box, x, y ? &*y : nullptr);
-      set_colour(context, light_theme.ink);
-      write_text(context, layers[k].title, box.x + 0.5 * box.width, box.y - 5, legend_font, Align::centre);
+      draw_layer(canvas, layers[k], box);
+      if (!y) draw_ends(canvas, map, mode.mode, box);
+      draw_axes(canvas, box, x, y ? &*y : nullptr);
+      set_colour(canvas, light_theme.ink);
+      write_text(canvas, layers[k].title, box.x + 0.5 * box.width, box.y - 5, legend_font, Align::centre);
     }
     double end_at = below;
-    set_colour(context, light_theme.ink);
+    set_colour(canvas, light_theme.ink);
     for (const std::string& line : ends) {
-      write_text(context, line, left, end_at, legend_font);
+      write_text(canvas, line, left, end_at, legend_font);
       end_at += legend_line_height;
     }
     double at = head + 8;
     for (const LegendRow& row : legend) {
       if (row.colour) {
-        set_colour(context, *row.colour);
-        context->rectangle(legend_x, at - 8, 10, 9);
-        context->fill();
+        set_colour(canvas, *row.colour);
+        canvas.rectangle(legend_x, at - 8, 10, 9);
+        canvas.fill();
       }
-      set_colour(context, light_theme.ink);
+      set_colour(canvas, light_theme.ink);
       for (const std::string& line : row.lines) {
-        write_text(context, line, legend_x + 16, at, legend_font);
+        write_text(canvas, line, legend_x + 16, at, legend_font);
         at += legend_line_height;
       }
       at += 4;

@@ -17,7 +17,6 @@ namespace clearloci::report {
 namespace {
 
 using core::Point2;
-using Context = Cairo::RefPtr<Cairo::Context>;
 
 constexpr Colour ink = light_theme.ink;
 constexpr Colour faded_ink = light_theme.faded_ink;
@@ -25,51 +24,46 @@ constexpr Colour frame = light_theme.frame;
 constexpr Colour workspace_fill = light_theme.workspace;
 constexpr Colour grid = light_theme.grid;
 
-void trace_path(const Context& context, const Layout& layout, const core::Polyline& points) {
+void trace_path(const Canvas& canvas, const Layout& layout, const core::Polyline& points) {
   for (const auto& point : points) {
     const Point2 at = layout.page(point);
-    context->line_to(at[0], at[1]);
+    canvas.line_to(at[0], at[1]);
   }
 }
 
-void apply(const Context& context, const Stroke& stroke) {
-  using Cap = Cairo::Context::LineCap;
-  set_colour(context, stroke.colour);
-  context->set_line_width(stroke.width);
-  context->set_line_cap(stroke.round ? Cap::ROUND : Cap::BUTT);
-  context->set_line_join(Cairo::Context::LineJoin::ROUND);
-  if (stroke.dash.empty()) {
-    context->unset_dash();
-  } else {
-    context->set_dash(stroke.dash, 0);
-  }
+void apply(const Canvas& canvas, const Stroke& stroke) {
+  set_colour(canvas, stroke.colour);
+  canvas.set_line_width(stroke.width);
+  canvas.set_line_cap(stroke.round ? LineCap::round : LineCap::butt);
+  canvas.set_line_join(LineJoin::round);
+  canvas.set_dash(stroke.dash);
 }
 
-void draw_workspace(const Context& context, const Subject& subject, const Layout& layout) {
+void draw_workspace(const Canvas& canvas, const Subject& subject, const Layout& layout) {
   for (const auto& region : subject.map->workspace) {
     if (region.mode != subject.mode) continue;
     for (const auto& ring : region.rings) {
-      context->begin_new_sub_path();
-      trace_path(context, layout, ring);
-      context->close_path();
+      canvas.begin_new_sub_path();
+      trace_path(canvas, layout, ring);
+      canvas.close_path();
     }
-    context->set_fill_rule(Cairo::Context::FillRule::EVEN_ODD);
-    set_colour(context, workspace_fill);
-    context->fill();
-    context->set_fill_rule(Cairo::Context::FillRule::WINDING);
+    canvas.set_fill_rule(FillRule::even_odd);
+    set_colour(canvas, workspace_fill);
+    canvas.fill();
+    canvas.set_fill_rule(FillRule::winding);
   }
 }
 
-void draw_search_box(const Context& context, const Box& box) {
-  context->rectangle(box.x, box.y, box.width, box.height);
-  set_colour(context, frame, 0.6);
-  context->set_line_width(0.5);
-  context->set_dash(std::vector<double>{1.5, 2}, 0);
-  context->stroke();
-  context->unset_dash();
+void draw_search_box(const Canvas& canvas, const Box& box) {
+  canvas.rectangle(box.x, box.y, box.width, box.height);
+  set_colour(canvas, frame, 0.6);
+  canvas.set_line_width(0.5);
+  canvas.set_dash({1.5, 2});
+  canvas.stroke();
+  canvas.set_dash({});
 }
 
-void draw_field(const Context& context, const FieldLayer& layer, const Layout& layout) {
+void draw_field(const Canvas& canvas, const FieldLayer& layer, const Layout& layout) {
   PixelImage image(layout.plot);
   const core::FieldMap& map = *layer.map;
   const std::size_t columns = map.axes[0].size();
@@ -89,44 +83,44 @@ void draw_field(const Context& context, const FieldLayer& layer, const Layout& l
       if (!std::isnan(value)) image.put(column, row, layer.scale.colour(value));
     }
   }
-  image.paint(context);
+  image.paint(canvas);
 }
 
 /// `lines` at the ticks, and the searched box where the plot shows more than that.
-void draw_grid(const Context& context, const Layout& layout, bool lines) {
-  context->unset_dash();
-  context->set_line_width(0.4);
-  set_colour(context, grid, 0.8);
+void draw_grid(const Canvas& canvas, const Layout& layout, bool lines) {
+  canvas.set_dash({});
+  canvas.set_line_width(0.4);
+  set_colour(canvas, grid, 0.8);
   for (std::size_t i = 0; lines && i < layout.x_ticks.size(); ++i) {
-    context->move_to(layout.x_ticks[i].at, layout.plot.y);
-    context->line_to(layout.x_ticks[i].at, layout.plot.bottom());
+    canvas.move_to(layout.x_ticks[i].at, layout.plot.y);
+    canvas.line_to(layout.x_ticks[i].at, layout.plot.bottom());
   }
   for (std::size_t i = 0; lines && i < layout.y_ticks.size(); ++i) {
-    context->move_to(layout.plot.x, layout.y_ticks[i].at);
-    context->line_to(layout.plot.right(), layout.y_ticks[i].at);
+    canvas.move_to(layout.plot.x, layout.y_ticks[i].at);
+    canvas.line_to(layout.plot.right(), layout.y_ticks[i].at);
   }
-  context->stroke();
+  canvas.stroke();
   const Point2 low = layout.page(layout.search_low), high = layout.page(layout.search_high);
-  draw_search_box(context, {low[0], high[1], high[0] - low[0], low[1] - high[1]});
+  draw_search_box(canvas, {low[0], high[1], high[0] - low[0], low[1] - high[1]});
 }
 
-void draw_curve(const Context& context, const Layout& layout, const core::LocusCurve& curve) {
+void draw_curve(const Canvas& canvas, const Layout& layout, const core::LocusCurve& curve) {
   for (const auto& arc : curve.arcs) {
-    context->begin_new_sub_path();
-    trace_path(context, layout, arc.points);
-    if (arc.closed) context->close_path();
+    canvas.begin_new_sub_path();
+    trace_path(canvas, layout, arc.points);
+    if (arc.closed) canvas.close_path();
   }
-  context->stroke();
+  canvas.stroke();
 }
 
-void trace_marker(const Context& context, const Point2& at, MarkerShape shape, double size) {
+void trace_marker(const Canvas& canvas, const Point2& at, MarkerShape shape, double size) {
   const auto polygon = [&](const std::vector<Point2>& corners) {
-    for (const auto& corner : corners) context->line_to(at[0] + size * corner[0], at[1] + size * corner[1]);
-    context->close_path();
+    for (const auto& corner : corners) canvas.line_to(at[0] + size * corner[0], at[1] + size * corner[1]);
+    canvas.close_path();
   };
   switch (shape) {
     case MarkerShape::circle:
-      context->arc(at[0], at[1], size, 0, 2 * std::numbers::pi);
+      canvas.arc(at[0], at[1], size, 0, 2 * std::numbers::pi);
       break;
     case MarkerShape::square:
       polygon({{-0.88, -0.88}, {0.88, -0.88}, {0.88, 0.88}, {-0.88, 0.88}});
@@ -141,17 +135,17 @@ void trace_marker(const Context& context, const Point2& at, MarkerShape shape, d
 }
 
 /// A ring of the marker's colour on white with a dot at the point itself.
-void draw_marker(const Context& context, const Point2& at, const Marker& marker) {
-  context->unset_dash();
-  context->set_line_width(1.5);
-  trace_marker(context, at, marker.shape, 4.6);
-  set_colour(context, {1, 1, 1}, 0.9);
-  context->fill_preserve();
-  set_colour(context, marker.colour);
-  context->stroke();
-  context->arc(at[0], at[1], 1.4, 0, 2 * std::numbers::pi);
-  set_colour(context, ink);
-  context->fill();
+void draw_marker(const Canvas& canvas, const Point2& at, const Marker& marker) {
+  canvas.set_dash({});
+  canvas.set_line_width(1.5);
+  trace_marker(canvas, at, marker.shape, 4.6);
+  set_colour(canvas, {1, 1, 1}, 0.9);
+  canvas.fill_preserve();
+  set_colour(canvas, marker.colour);
+  canvas.stroke();
+  canvas.arc(at[0], at[1], 1.4, 0, 2 * std::numbers::pi);
+  set_colour(canvas, ink);
+  canvas.fill();
 }
 
 /// Thinner, so that the field's own jumps stay in sight.
@@ -163,15 +157,15 @@ Stroke over_field(Stroke stroke) {
 }
 
 /// Thin lines first, what matters most last. Over a field every line has a white casing.
-void draw_loci(const Context& context, const Subject& subject, const Layout& layout) {
+void draw_loci(const Canvas& canvas, const Subject& subject, const Layout& layout) {
   for (auto group = subject.groups.curves.rbegin(); group != subject.groups.curves.rend(); ++group) {
     const Stroke stroke = subject.layer != nullptr ? over_field(group->stroke) : group->stroke;
     if (subject.layer != nullptr) {
-      apply(context, {{1, 1, 1}, stroke.width + 1.2, {}, true});
-      for (const auto* curve : group->curves) draw_curve(context, layout, *curve);
+      apply(canvas, {{1, 1, 1}, stroke.width + 1.2, {}, true});
+      for (const auto* curve : group->curves) draw_curve(canvas, layout, *curve);
     }
-    apply(context, stroke);
-    for (const auto* curve : group->curves) draw_curve(context, layout, *curve);
+    apply(canvas, stroke);
+    for (const auto* curve : group->curves) draw_curve(canvas, layout, *curve);
   }
 }
 
@@ -193,7 +187,7 @@ void occupy_curves(const Subject& subject, const Layout& layout, LabelPlaces& la
 }
 
 /// Beside the curves, as far as there is room: the names that tables and answers have for them.
-void write_curve_ids(const Context& context, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
+void write_curve_ids(const Canvas& canvas, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
   constexpr Font font{7.5, false, false};
   constexpr double aside = 7, most_covered = 0.15;  // pt; part of a label
   constexpr std::array parts = {0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9};
@@ -219,118 +213,118 @@ void write_curve_ids(const Context& context, const Subject& subject, const Layou
       const std::string id = printable(curve->id);
       const auto at = labels.take_free(places, text_width(id, font) + 3, font.size + 1, most_covered);
       if (at)
-        write_over_lines(context, id, (*at)[0], (*at)[1] + 0.36 * font.size, font, group.stroke.colour, Align::centre);
+        write_over_lines(canvas, id, (*at)[0], (*at)[1] + 0.36 * font.size, font, group.stroke.colour, Align::centre);
     }
 }
 
-void draw_isolated_points(const Context& context, const Subject& subject, const Layout& layout) {
+void draw_isolated_points(const Canvas& canvas, const Subject& subject, const Layout& layout) {
   for (const auto& group : subject.groups.points) {
     for (const auto* point : group.points) {
       const Point2 at = {point->at[0], point->at.size() > 1 ? point->at[1] : 0};
-      draw_marker(context, layout.page(at), group.marker);
+      draw_marker(canvas, layout.page(at), group.marker);
     }
   }
 }
 
-void draw_open_box(const Context& context, const Box& box) {
-  context->rectangle(box.x, box.y, box.width, box.height);
-  set_colour(context, {1, 1, 1}, 0.6);
-  context->fill_preserve();
-  set_colour(context, ink);
-  context->set_line_width(1);
-  context->set_dash(std::vector<double>{2.5, 1.5}, 0);
-  context->stroke();
-  context->unset_dash();
+void draw_open_box(const Canvas& canvas, const Box& box) {
+  canvas.rectangle(box.x, box.y, box.width, box.height);
+  set_colour(canvas, {1, 1, 1}, 0.6);
+  canvas.fill_preserve();
+  set_colour(canvas, ink);
+  canvas.set_line_width(1);
+  canvas.set_dash({2.5, 1.5});
+  canvas.stroke();
+  canvas.set_dash({});
 }
 
 /// What is open, large enough to be seen.
-void draw_open_places(const Context& context, const Subject& subject, const Layout& layout) {
+void draw_open_places(const Canvas& canvas, const Subject& subject, const Layout& layout) {
   constexpr double least = 7;
   for (const core::OpenRegion& region : subject.map->open) {
     if (region.mode != subject.mode || region.lower.size() != 2) continue;
     const Point2 a = layout.page({region.lower[0], region.upper[1]}),
                  b = layout.page({region.upper[0], region.lower[1]});
     const double width = std::max(b[0] - a[0], least), height = std::max(b[1] - a[1], least);
-    draw_open_box(context, {(a[0] + b[0] - width) / 2, (a[1] + b[1] - height) / 2, width, height});
+    draw_open_box(canvas, {(a[0] + b[0] - width) / 2, (a[1] + b[1] - height) / 2, width, height});
   }
 }
 
-void draw_axes(const Context& context, const Layout& layout) {
+void draw_axes(const Canvas& canvas, const Layout& layout) {
   constexpr double tick_length = 4;
   const Box& plot = layout.plot;
-  context->unset_dash();
-  context->set_line_cap(Cairo::Context::LineCap::BUTT);
-  context->set_line_join(Cairo::Context::LineJoin::MITER);
-  context->set_line_width(0.8);
-  set_colour(context, frame);
-  context->rectangle(plot.x, plot.y, plot.width, plot.height);
+  canvas.set_dash({});
+  canvas.set_line_cap(LineCap::butt);
+  canvas.set_line_join(LineJoin::miter);
+  canvas.set_line_width(0.8);
+  set_colour(canvas, frame);
+  canvas.rectangle(plot.x, plot.y, plot.width, plot.height);
   for (const auto& tick : layout.x_ticks) {
-    context->move_to(tick.at, plot.bottom());
-    context->line_to(tick.at, plot.bottom() + tick_length);
+    canvas.move_to(tick.at, plot.bottom());
+    canvas.line_to(tick.at, plot.bottom() + tick_length);
   }
   for (const auto& tick : layout.y_ticks) {
-    context->move_to(plot.x, tick.at);
-    context->line_to(plot.x - tick_length, tick.at);
+    canvas.move_to(plot.x, tick.at);
+    canvas.line_to(plot.x - tick_length, tick.at);
   }
-  context->stroke();
+  canvas.stroke();
 
-  set_colour(context, ink);
+  set_colour(canvas, ink);
   for (const auto& tick : layout.x_ticks) {
-    write_text(context, tick.label, tick.at, plot.bottom() + tick_length + 10, tick_font, Align::centre);
+    write_text(canvas, tick.label, tick.at, plot.bottom() + tick_length + 10, tick_font, Align::centre);
   }
   for (const auto& tick : layout.y_ticks) {
-    write_text(context, tick.label, plot.x - tick_length - 3.5, tick.at + 3.1, tick_font, Align::right);
+    write_text(canvas, tick.label, plot.x - tick_length - 3.5, tick.at + 3.1, tick_font, Align::right);
   }
-  write_text(context, layout.x_label, plot.x + plot.width / 2, plot.bottom() + tick_length + 25, label_font,
+  write_text(canvas, layout.x_label, plot.x + plot.width / 2, plot.bottom() + tick_length + 25, label_font,
              Align::centre);
   if (layout.y_label.empty()) return;
-  context->save();
-  context->translate(layout.y_label_x, plot.y + plot.height / 2);
-  context->rotate(-std::numbers::pi / 2);
-  write_text(context, layout.y_label, 0, 0, label_font, Align::centre);
-  context->restore();
+  canvas.save();
+  canvas.translate(layout.y_label_x, plot.y + plot.height / 2);
+  canvas.rotate(-std::numbers::pi / 2);
+  write_text(canvas, layout.y_label, 0, 0, label_font, Align::centre);
+  canvas.restore();
 }
 
-void draw_sample(const Context& context, const LegendEntry& entry, const Subject& subject) {
+void draw_sample(const Canvas& canvas, const LegendEntry& entry, const Subject& subject) {
   const double x = entry.box.x, y = entry.box.y + legend_line_height / 2, end = x + legend_sample_width;
   switch (entry.sample) {
     case SampleKind::curve:
-      apply(context, entry.stroke);
-      context->move_to(x + entry.stroke.width / 2, y);
-      context->line_to(end - entry.stroke.width / 2, y);
-      context->stroke();
+      apply(canvas, entry.stroke);
+      canvas.move_to(x + entry.stroke.width / 2, y);
+      canvas.line_to(end - entry.stroke.width / 2, y);
+      canvas.stroke();
       break;
     case SampleKind::point:
-      draw_marker(context, {(x + end) / 2, y}, entry.marker);
+      draw_marker(canvas, {(x + end) / 2, y}, entry.marker);
       break;
     case SampleKind::workspace:
-      context->rectangle(x, y - 4.5, legend_sample_width, 9);
-      set_colour(context, workspace_fill);
-      context->fill();
+      canvas.rectangle(x, y - 4.5, legend_sample_width, 9);
+      set_colour(canvas, workspace_fill);
+      canvas.fill();
       break;
     case SampleKind::zones:
-      draw_zone_sample(context, x, y, legend_sample_width);
+      draw_zone_sample(canvas, x, y, legend_sample_width);
       break;
     case SampleKind::searched_box:
-      draw_search_box(context, {x, y - 4.5, legend_sample_width, 9});
+      draw_search_box(canvas, {x, y - 4.5, legend_sample_width, 9});
       break;
     case SampleKind::open_place:
-      draw_open_box(context, {(x + end) / 2 - 4, y - 4, 8, 8});
+      draw_open_box(canvas, {(x + end) / 2 - 4, y - 4, 8, 8});
       break;
     case SampleKind::mechanism:
-      draw_mechanism_sample(context, x, y, legend_sample_width);
+      draw_mechanism_sample(canvas, x, y, legend_sample_width);
       break;
     case SampleKind::load:
-      draw_load_arrow(context, {x + 2, y}, {end - 2, y});
+      draw_load_arrow(canvas, {x + 2, y}, {end - 2, y});
       break;
     case SampleKind::colour_bar:
-      draw_colour_bar(context, subject.layer->scale, entry.box);
+      draw_colour_bar(canvas, subject.layer->scale, entry.box);
       break;
     case SampleKind::task:
-      draw_task_sample(context, *subject.task, x, y, legend_sample_width);
+      draw_task_sample(canvas, *subject.task, x, y, legend_sample_width);
       break;
     case SampleKind::task_point:
-      draw_task_point_sample(context, *subject.task, (x + end) / 2, y);
+      draw_task_point_sample(canvas, *subject.task, (x + end) / 2, y);
       break;
     case SampleKind::remark:
     case SampleKind::inset:  // drawn by itself
@@ -348,21 +342,21 @@ std::string legend_reasons(const Layout& layout) {
 }
 
 /// The mechanism below its label.
-void draw_inset(const Context& context, const LegendEntry& entry, const core::Sketch& sketch,
+void draw_inset(const Canvas& canvas, const LegendEntry& entry, const core::Sketch& sketch,
                 const std::string& reasons) {
   const double label = legend_line_height * static_cast<double>(entry.lines.size());
-  draw_alone(context, {entry.box.x, entry.box.y + label, entry.box.width, entry.box.height - label}, sketch, reasons);
+  draw_alone(canvas, {entry.box.x, entry.box.y + label, entry.box.width, entry.box.height - label}, sketch, reasons);
 }
 
-void draw_legend(const Context& context, const Layout& layout, const Subject& subject) {
+void draw_legend(const Canvas& canvas, const Layout& layout, const Subject& subject) {
   for (const auto& entry : layout.legend) {
-    draw_sample(context, entry, subject);
-    if (entry.sample == SampleKind::inset) draw_inset(context, entry, *subject.inset, legend_reasons(layout));
+    draw_sample(canvas, entry, subject);
+    if (entry.sample == SampleKind::inset) draw_inset(canvas, entry, *subject.inset, legend_reasons(layout));
     const double indent = stands_below(entry.sample) ? 0 : legend_sample_width + legend_sample_gap;
     double baseline = entry.box.y + 0.5 * legend_line_height + 0.36 * legend_font.size;
     for (const auto& line : entry.lines) {
-      set_colour(context, line.secondary ? faded_ink : ink);
-      write_text(context, line.text, entry.box.x + indent, baseline, legend_font);
+      set_colour(canvas, line.secondary ? faded_ink : ink);
+      write_text(canvas, line.text, entry.box.x + indent, baseline, legend_font);
       baseline += legend_line_height;
     }
   }
@@ -370,33 +364,32 @@ void draw_legend(const Context& context, const Layout& layout, const Subject& su
 
 }  // namespace
 
-void draw(const Context& context, const Subject& subject, const Layout& layout) {
-  draw_page_head(context, layout.head);
-  context->save();
-  context->rectangle(layout.plot.x, layout.plot.y, layout.plot.width, layout.plot.height);
-  context->clip();
+void draw(const Canvas& canvas, const Subject& subject, const Layout& layout) {
+  draw_page_head(canvas, layout.head);
+  canvas.save();
+  canvas.rectangle(layout.plot.x, layout.plot.y, layout.plot.width, layout.plot.height);
+  canvas.clip();
   if (subject.layer != nullptr)
-    draw_field(context, *subject.layer, layout);
+    draw_field(canvas, *subject.layer, layout);
   else if (subject.zones != nullptr)
-    draw_zones(context, subject, layout);
+    draw_zones(canvas, subject, layout);
   else
-    draw_workspace(context, subject, layout);
-  draw_grid(context, layout, subject.layer == nullptr);
-  if (subject.sketch != nullptr) draw_links(context, layout, *subject.sketch);
-  draw_loci(context, subject, layout);
-  draw_isolated_points(context, subject, layout);
-  draw_open_places(context, subject, layout);
+    draw_workspace(canvas, subject, layout);
+  draw_grid(canvas, layout, subject.layer == nullptr);
+  if (subject.sketch != nullptr) draw_links(canvas, layout, *subject.sketch);
+  draw_loci(canvas, subject, layout);
+  draw_isolated_points(canvas, subject, layout);
+  draw_open_places(canvas, subject, layout);
   LabelPlaces labels(layout.plot);
   occupy_curves(subject, layout, labels);
-  if (subject.sketch != nullptr)
-    draw_joints_and_loads(context, layout, *subject.sketch, legend_reasons(layout), labels);
-  if (subject.task != nullptr) draw_task(context, *subject.task, layout, labels);
-  if (subject.zones != nullptr) draw_zone_numbers(context, subject, layout, labels);
-  write_curve_ids(context, subject, layout, labels);
-  context->restore();
+  if (subject.sketch != nullptr) draw_joints_and_loads(canvas, layout, *subject.sketch, legend_reasons(layout), labels);
+  if (subject.task != nullptr) draw_task(canvas, *subject.task, layout, labels);
+  if (subject.zones != nullptr) draw_zone_numbers(canvas, subject, layout, labels);
+  write_curve_ids(canvas, subject, layout, labels);
+  canvas.restore();
 
-  draw_axes(context, layout);
-  draw_legend(context, layout, subject);
+  draw_axes(canvas, layout);
+  draw_legend(canvas, layout, subject);
 }
 
 }  // namespace clearloci::report

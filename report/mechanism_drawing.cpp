@@ -12,7 +12,6 @@ namespace clearloci::report {
 namespace {
 
 using core::Point2;
-using Context = Cairo::RefPtr<Cairo::Context>;
 
 constexpr Colour outline = light_theme.outline;
 constexpr Colour link_fill = light_theme.link;
@@ -26,15 +25,15 @@ constexpr Font load_font{8.5, true, false};
 constexpr double full_turn = 2 * std::numbers::pi;
 
 /// A rounded bar: the stroke of `path` in the outline's colour, then a narrower one in the fill's.
-void draw_bar(const Context& context, const std::vector<Point2>& path, double width_of_bar) {
-  context->set_line_cap(Cairo::Context::LineCap::ROUND);
-  context->set_line_join(Cairo::Context::LineJoin::ROUND);
-  context->unset_dash();
+void draw_bar(const Canvas& canvas, const std::vector<Point2>& path, double width_of_bar) {
+  canvas.set_line_cap(LineCap::round);
+  canvas.set_line_join(LineJoin::round);
+  canvas.set_dash({});
   const auto stroke = [&](double width, const Colour& colour, double opacity) {
-    for (const auto& point : path) context->line_to(point[0], point[1]);
-    context->set_line_width(width);
-    set_colour(context, colour, opacity);
-    context->stroke();
+    for (const auto& point : path) canvas.line_to(point[0], point[1]);
+    canvas.set_line_width(width);
+    set_colour(canvas, colour, opacity);
+    canvas.stroke();
   };
   stroke(width_of_bar, outline, 0.55);
   stroke(width_of_bar - 1.4, link_fill, 0.85);
@@ -62,48 +61,48 @@ std::vector<Point2> outline_of(std::vector<Point2> points) {
 }
 
 /// A link of three points or more: the loci stay readable through it.
-void draw_plate(const Context& context, const std::vector<Point2>& points) {
-  for (const Point2& point : outline_of(points)) context->line_to(point[0], point[1]);
-  context->close_path();
-  set_colour(context, link_fill, 0.3);
-  context->fill();
+void draw_plate(const Canvas& canvas, const std::vector<Point2>& points) {
+  for (const Point2& point : outline_of(points)) canvas.line_to(point[0], point[1]);
+  canvas.close_path();
+  set_colour(canvas, link_fill, 0.3);
+  canvas.fill();
 }
 
 /// A rail is a line under the slider, a telescopic leg a bar that grows thinner half way.
-void draw_slide(const Context& context, const Layout& layout, const core::SketchSlide& slide) {
+void draw_slide(const Canvas& canvas, const Layout& layout, const core::SketchSlide& slide) {
   const Point2 from = layout.page(slide.from), to = layout.page(slide.to);
   if (slide.rail) {
-    context->unset_dash();
-    context->set_line_cap(Cairo::Context::LineCap::ROUND);
-    context->move_to(from[0], from[1]);
-    context->line_to(to[0], to[1]);
-    context->set_line_width(3);
-    set_colour(context, outline, 0.45);
-    context->stroke();
+    canvas.set_dash({});
+    canvas.set_line_cap(LineCap::round);
+    canvas.move_to(from[0], from[1]);
+    canvas.line_to(to[0], to[1]);
+    canvas.set_line_width(3);
+    set_colour(canvas, outline, 0.45);
+    canvas.stroke();
     return;
   }
   const Point2 middle = {(from[0] + to[0]) / 2, (from[1] + to[1]) / 2};
-  draw_bar(context, {middle, to}, 0.55 * bar_width);
-  draw_bar(context, {from, middle}, bar_width);
+  draw_bar(canvas, {middle, to}, 0.55 * bar_width);
+  draw_bar(canvas, {from, middle}, bar_width);
   if (!slide.actuated) return;
   // Filled, as the pins of motors are: the cylinder's own pin may lie below one that is not.
   const Point2 start = {from[0] + 0.15 * (to[0] - from[0]), from[1] + 0.15 * (to[1] - from[1])},
                end = {from[0] + 0.42 * (to[0] - from[0]), from[1] + 0.42 * (to[1] - from[1])};
-  context->unset_dash();
-  context->set_line_cap(Cairo::Context::LineCap::ROUND);
-  context->move_to(start[0], start[1]);
-  context->line_to(end[0], end[1]);
-  context->set_line_width(0.45 * bar_width);
-  set_colour(context, outline);
-  context->stroke();
+  canvas.set_dash({});
+  canvas.set_line_cap(LineCap::round);
+  canvas.move_to(start[0], start[1]);
+  canvas.line_to(end[0], end[1]);
+  canvas.set_line_width(0.45 * bar_width);
+  set_colour(canvas, outline);
+  canvas.stroke();
 }
 
-void draw_pin(const Context& context, const Point2& at, bool actuated) {
-  context->unset_dash();
+void draw_pin(const Canvas& canvas, const Point2& at, bool actuated) {
+  canvas.set_dash({});
   const auto disc = [&](double radius, const Colour& colour) {
-    context->arc(at[0], at[1], radius, 0, full_turn);
-    set_colour(context, colour);
-    context->fill();
+    canvas.arc(at[0], at[1], radius, 0, full_turn);
+    set_colour(canvas, colour);
+    canvas.fill();
   };
   if (actuated) {
     disc(pin_radius + 2.6, outline);
@@ -116,26 +115,26 @@ void draw_pin(const Context& context, const Point2& at, bool actuated) {
 }
 
 /// The bracket of a fixed joint: a triangle on a hatched line.
-void draw_ground(const Context& context, const Point2& at) {
+void draw_ground(const Canvas& canvas, const Point2& at) {
   constexpr double half = 9, height = 13, hatch = 4.5;
-  context->unset_dash();
-  context->set_line_cap(Cairo::Context::LineCap::BUTT);
-  context->set_line_width(0.9);
-  context->move_to(at[0], at[1]);
-  context->line_to(at[0] - 0.75 * half, at[1] + height);
-  context->line_to(at[0] + 0.75 * half, at[1] + height);
-  context->close_path();
-  set_colour(context, {1, 1, 1}, 0.85);
-  context->fill_preserve();
-  set_colour(context, outline);
-  context->stroke();
-  context->move_to(at[0] - 1.25 * half, at[1] + height);
-  context->line_to(at[0] + 1.25 * half, at[1] + height);
+  canvas.set_dash({});
+  canvas.set_line_cap(LineCap::butt);
+  canvas.set_line_width(0.9);
+  canvas.move_to(at[0], at[1]);
+  canvas.line_to(at[0] - 0.75 * half, at[1] + height);
+  canvas.line_to(at[0] + 0.75 * half, at[1] + height);
+  canvas.close_path();
+  set_colour(canvas, {1, 1, 1}, 0.85);
+  canvas.fill_preserve();
+  set_colour(canvas, outline);
+  canvas.stroke();
+  canvas.move_to(at[0] - 1.25 * half, at[1] + height);
+  canvas.line_to(at[0] + 1.25 * half, at[1] + height);
   for (double x = -1.25 * half + hatch; x <= 1.25 * half + 0.01; x += hatch) {
-    context->move_to(at[0] + x, at[1] + height);
-    context->line_to(at[0] + x - hatch, at[1] + height + hatch);
+    canvas.move_to(at[0] + x, at[1] + height);
+    canvas.line_to(at[0] + x - hatch, at[1] + height + hatch);
   }
-  context->stroke();
+  canvas.stroke();
 }
 
 /// Where a joint's name may stand: of sixteen directions those first that keep the largest angle to the links and
@@ -184,29 +183,29 @@ Point2 place_of(const std::string& text, const Font& font, const std::vector<Poi
   return labels.take(places, text_width(text, font) + 6, font.size + 2);
 }
 
-void write_label(const Context& context, const std::string& text, const Font& font, const Colour& colour,
+void write_label(const Canvas& canvas, const std::string& text, const Font& font, const Colour& colour,
                  const std::vector<Point2>& places, LabelPlaces& labels) {
   const Point2 middle = place_of(text, font, places, labels);
-  write_over_lines(context, text, middle[0], middle[1] + 0.36 * font.size, font, colour, Align::centre);
+  write_over_lines(canvas, text, middle[0], middle[1] + 0.36 * font.size, font, colour, Align::centre);
 }
 
 /// From a place to a label that is not beside it.
-void draw_leader(const Context& context, const Point2& at, const Point2& label, double half_width) {
+void draw_leader(const Canvas& canvas, const Point2& at, const Point2& label, double half_width) {
   constexpr double beside = 17, clear = pin_radius + 3;  // pt
   const Point2 end = {std::clamp(at[0], label[0] - half_width, label[0] + half_width),
                       label[1] + (at[1] > label[1] ? 5 : -5)};
   const double length = std::hypot(end[0] - at[0], end[1] - at[1]);
   if (length < beside) return;
-  context->unset_dash();
-  context->move_to(at[0] + clear * (end[0] - at[0]) / length, at[1] + clear * (end[1] - at[1]) / length);
-  context->line_to(end[0], end[1]);
-  context->set_line_width(0.5);
-  set_colour(context, outline, 0.6);
-  context->stroke();
+  canvas.set_dash({});
+  canvas.move_to(at[0] + clear * (end[0] - at[0]) / length, at[1] + clear * (end[1] - at[1]) / length);
+  canvas.line_to(end[0], end[1]);
+  canvas.set_line_width(0.5);
+  set_colour(canvas, outline, 0.6);
+  canvas.stroke();
 }
 
 /// Joints at one place share a label, written for the first of them.
-void write_joint_name(const Context& context, const Layout& layout, const core::Sketch& sketch,
+void write_joint_name(const Canvas& canvas, const Layout& layout, const core::Sketch& sketch,
                       const core::SketchJoint& joint, LabelPlaces& labels) {
   std::string name;
   for (const auto& other : sketch.joints) {
@@ -222,12 +221,12 @@ void write_joint_name(const Context& context, const Layout& layout, const core::
       places.push_back({at[0] + direction[0] * (distance + width / 2 * std::abs(direction[0])),
                         at[1] - direction[1] * (distance + 2)});
   const Point2 middle = place_of(name, name_font, places, labels);
-  draw_leader(context, at, middle, width / 2);
-  write_over_lines(context, name, middle[0], middle[1] + 0.36 * name_font.size, name_font, outline, Align::centre);
+  draw_leader(canvas, at, middle, width / 2);
+  write_over_lines(canvas, name, middle[0], middle[1] + 0.36 * name_font.size, name_font, outline, Align::centre);
 }
 
 /// A cross on a ring at the end effector's point, with its name where no joint there has written one.
-void write_end_effector(const Context& context, const Layout& layout, const core::Sketch& sketch, LabelPlaces& labels) {
+void write_end_effector(const Canvas& canvas, const Layout& layout, const core::Sketch& sketch, LabelPlaces& labels) {
   if (!sketch.end_effector) return;
   const core::SketchPoint& end = *sketch.end_effector;
   const Point2 at = layout.page(end.at);
@@ -235,16 +234,16 @@ void write_end_effector(const Context& context, const Layout& layout, const core
                                     [&](const core::SketchJoint& joint) { return joint.at == end.at; });
   if (on_joint) return;
   constexpr double radius = 3, reach = 5.5;
-  context->unset_dash();
-  context->set_line_width(1.1);
-  set_colour(context, outline);
-  context->begin_new_sub_path();
-  context->arc(at[0], at[1], radius, 0, full_turn);
+  canvas.set_dash({});
+  canvas.set_line_width(1.1);
+  set_colour(canvas, outline);
+  canvas.begin_new_sub_path();
+  canvas.arc(at[0], at[1], radius, 0, full_turn);
   for (const Point2& way : {Point2{1, 0}, Point2{0, 1}}) {
-    context->move_to(at[0] - reach * way[0], at[1] - reach * way[1]);
-    context->line_to(at[0] + reach * way[0], at[1] + reach * way[1]);
+    canvas.move_to(at[0] - reach * way[0], at[1] - reach * way[1]);
+    canvas.line_to(at[0] + reach * way[0], at[1] + reach * way[1]);
   }
-  context->stroke();
+  canvas.stroke();
   labels.occupy({at[0] - reach, at[1] - reach, 2 * reach, 2 * reach}, 0.6);
   const std::string name = printable(end.name);
   if (name.empty()) return;
@@ -256,37 +255,37 @@ void write_end_effector(const Context& context, const Layout& layout, const core
       places.push_back({at[0] + way[0] * (distance + width / 2 * std::abs(way[0])), at[1] - way[1] * (distance + 2)});
     }
   const Point2 middle = place_of(name, name_font, places, labels);
-  draw_leader(context, at, middle, width / 2);
-  write_over_lines(context, name, middle[0], middle[1] + 0.36 * name_font.size, name_font, outline, Align::centre);
+  draw_leader(canvas, at, middle, width / 2);
+  write_over_lines(canvas, name, middle[0], middle[1] + 0.36 * name_font.size, name_font, outline, Align::centre);
 }
 
 constexpr double couple_radius = 15;
 
-void draw_couple(const Context& context, const Layout& layout, const core::SketchLoad& load) {
+void draw_couple(const Canvas& canvas, const Layout& layout, const core::SketchLoad& load) {
   constexpr double radius = couple_radius, start = 0.6, end = 5.2;  // rad on the page, where y points down
   const Point2 at = layout.page(load.at);
   const bool counter_clockwise = load.couple > 0;
   const double tip = counter_clockwise ? -end : end, side = counter_clockwise ? -1 : 1;
-  set_colour(context, load_colour);
-  context->unset_dash();
-  context->set_line_width(1.6);
+  set_colour(canvas, load_colour);
+  canvas.set_dash({});
+  canvas.set_line_width(1.6);
   if (counter_clockwise) {
-    context->arc_negative(at[0], at[1], radius, -start, -end);
+    canvas.arc_negative(at[0], at[1], radius, -start, -end);
   } else {
-    context->arc(at[0], at[1], radius, start, end);
+    canvas.arc(at[0], at[1], radius, start, end);
   }
-  context->stroke();
+  canvas.stroke();
   const Point2 head = {at[0] + radius * std::cos(tip), at[1] + radius * std::sin(tip)};
   const Point2 along = {-side * std::sin(tip), side * std::cos(tip)};
-  draw_load_arrow(context, {head[0] - 0.5 * along[0], head[1] - 0.5 * along[1]},
+  draw_load_arrow(canvas, {head[0] - 0.5 * along[0], head[1] - 0.5 * along[1]},
                   {head[0] + 7 * along[0], head[1] + 7 * along[1]});
 }
 
-void write_couple(const Context& context, const Layout& layout, const core::SketchLoad& load, LabelPlaces& labels) {
+void write_couple(const Canvas& canvas, const Layout& layout, const core::SketchLoad& load, LabelPlaces& labels) {
   const std::string words = engineering(std::abs(load.couple), 4) + " N m";
   const Point2 at = layout.page(load.at);
   const double beside = couple_radius + 5 + text_width(words, load_font) / 2, above = couple_radius + 9;
-  write_label(context, words, load_font, load_colour,
+  write_label(canvas, words, load_font, load_colour,
               {{at[0], at[1] + above}, {at[0], at[1] - above}, {at[0] + beside, at[1]}, {at[0] - beside, at[1]}},
               labels);
 }
@@ -317,7 +316,7 @@ Arrow arrow_of(const Layout& layout, const core::SketchLoad& load, double larges
 }
 
 /// Beyond the arrow's free end, or beside the arrow.
-void write_force(const Context& context, const core::SketchLoad& load, const Arrow& arrow, LabelPlaces& labels) {
+void write_force(const Canvas& canvas, const core::SketchLoad& load, const Arrow& arrow, LabelPlaces& labels) {
   const std::string words = force_words(std::hypot(load.force[0], load.force[1]));
   const double half_width = text_width(words, load_font) / 2 + 3, half_height = 6;
   const Point2 end = arrow.ends_at_point ? arrow.tail : arrow.tip, other = arrow.ends_at_point ? arrow.tip : arrow.tail;
@@ -335,122 +334,122 @@ void write_force(const Context& context, const core::SketchLoad& load, const Arr
       const Point2 way = {std::cos(full_turn * k / 12), std::sin(full_turn * k / 12)};
       places.push_back({end[0] + way[0] * away * (half_width + 8), end[1] + way[1] * away * (half_height + 8)});
     }
-  write_label(context, words, load_font, load_colour, places, labels);
+  write_label(canvas, words, load_font, load_colour, places, labels);
 }
 
 }  // namespace
 
-void set_colour(const Context& context, const Colour& colour, double opacity) {
-  context->set_source_rgba(colour.red, colour.green, colour.blue, opacity);
+void set_colour(const Canvas& canvas, const Colour& colour, double opacity) {
+  canvas.set_source_rgba(colour.red, colour.green, colour.blue, opacity);
 }
 
-void write_over_lines(const Context& context, const std::string& text, double x, double y, const Font& font,
+void write_over_lines(const Canvas& canvas, const std::string& text, double x, double y, const Font& font,
                       const Colour& colour, Align align) {
   const double shift = align == Align::left ? 0 : text_width(text, font) * (align == Align::centre ? 0.5 : 1);
-  choose_font(context, font);
-  context->unset_dash();
-  context->move_to(x - shift, y);
-  context->text_path(text);
-  set_colour(context, {1, 1, 1}, 0.8);
-  context->set_line_width(3);
-  context->set_line_join(Cairo::Context::LineJoin::ROUND);
-  context->stroke();
-  set_colour(context, colour);
-  write_text(context, text, x - shift, y, font);
+  choose_font(canvas, font);
+  canvas.set_dash({});
+  canvas.move_to(x - shift, y);
+  canvas.text_path(text);
+  set_colour(canvas, {1, 1, 1}, 0.8);
+  canvas.set_line_width(3);
+  canvas.set_line_join(LineJoin::round);
+  canvas.stroke();
+  set_colour(canvas, colour);
+  write_text(canvas, text, x - shift, y, font);
 }
 
-void draw_load_arrow(const Context& context, const Point2& tail, const Point2& tip) {
+void draw_load_arrow(const Canvas& canvas, const Point2& tail, const Point2& tip) {
   constexpr double head = 8, half = 3.1;
   const double length = std::hypot(tip[0] - tail[0], tip[1] - tail[1]);
   const Point2 unit = {(tip[0] - tail[0]) / length, (tip[1] - tail[1]) / length};
   const Point2 neck = {tip[0] - head * unit[0], tip[1] - head * unit[1]};
-  set_colour(context, load_colour);
-  context->unset_dash();
-  context->set_line_cap(Cairo::Context::LineCap::BUTT);
-  context->set_line_width(1.8);
+  set_colour(canvas, load_colour);
+  canvas.set_dash({});
+  canvas.set_line_cap(LineCap::butt);
+  canvas.set_line_width(1.8);
   if (length > head) {
-    context->move_to(tail[0], tail[1]);
-    context->line_to(neck[0] + unit[0], neck[1] + unit[1]);
-    context->stroke();
+    canvas.move_to(tail[0], tail[1]);
+    canvas.line_to(neck[0] + unit[0], neck[1] + unit[1]);
+    canvas.stroke();
   }
-  context->move_to(tip[0], tip[1]);
-  context->line_to(neck[0] - half * unit[1], neck[1] + half * unit[0]);
-  context->line_to(neck[0] + half * unit[1], neck[1] - half * unit[0]);
-  context->close_path();
-  context->fill();
+  canvas.move_to(tip[0], tip[1]);
+  canvas.line_to(neck[0] - half * unit[1], neck[1] + half * unit[0]);
+  canvas.line_to(neck[0] + half * unit[1], neck[1] - half * unit[0]);
+  canvas.close_path();
+  canvas.fill();
 }
 
 /// A coil as seen from its side: leads at both ends, and between them a zigzag.
-void draw_spring(const Context& context, const Point2& from, const Point2& to) {
+void draw_spring(const Canvas& canvas, const Point2& from, const Point2& to) {
   constexpr double lead = 0.18, half = 4.5;  // part of the length; points
   constexpr int turns = 7;
   const Point2 way = {to[0] - from[0], to[1] - from[1]};
   const double length = std::hypot(way[0], way[1]);
   if (!(length > 0)) return;
   const Point2 across = {-way[1] / length, way[0] / length};
-  context->unset_dash();
-  context->set_line_cap(Cairo::Context::LineCap::ROUND);
-  context->set_line_join(Cairo::Context::LineJoin::ROUND);
-  context->move_to(from[0], from[1]);
-  context->line_to(from[0] + lead * way[0], from[1] + lead * way[1]);
+  canvas.set_dash({});
+  canvas.set_line_cap(LineCap::round);
+  canvas.set_line_join(LineJoin::round);
+  canvas.move_to(from[0], from[1]);
+  canvas.line_to(from[0] + lead * way[0], from[1] + lead * way[1]);
   for (int i = 0; i < 2 * turns; ++i) {
     const double part = lead + (1 - 2 * lead) * (i + 0.5) / (2 * turns), side = i % 2 == 0 ? half : -half;
-    context->line_to(from[0] + part * way[0] + side * across[0], from[1] + part * way[1] + side * across[1]);
+    canvas.line_to(from[0] + part * way[0] + side * across[0], from[1] + part * way[1] + side * across[1]);
   }
-  context->line_to(to[0] - lead * way[0], to[1] - lead * way[1]);
-  context->line_to(to[0], to[1]);
-  set_colour(context, outline);
-  context->set_line_width(1.1);
-  context->stroke();
+  canvas.line_to(to[0] - lead * way[0], to[1] - lead * way[1]);
+  canvas.line_to(to[0], to[1]);
+  set_colour(canvas, outline);
+  canvas.set_line_width(1.1);
+  canvas.stroke();
 }
 
 /// The coil of a torsion spring around its joint, a turn and a half.
-void draw_torsion_spring(const Context& context, const Point2& at) {
+void draw_torsion_spring(const Canvas& canvas, const Point2& at) {
   constexpr double inner = 7, outer = 12.5;
   constexpr int steps = 72;
-  context->unset_dash();
+  canvas.set_dash({});
   for (int i = 0; i <= steps; ++i) {
     const double part = static_cast<double>(i) / steps, angle = 1.5 * full_turn * part;
     const double radius = inner + (outer - inner) * part;
     const double x = at[0] + radius * std::cos(angle), y = at[1] - radius * std::sin(angle);
-    i == 0 ? context->move_to(x, y) : context->line_to(x, y);
+    i == 0 ? canvas.move_to(x, y) : canvas.line_to(x, y);
   }
-  set_colour(context, outline);
-  context->set_line_width(1.1);
-  context->stroke();
+  set_colour(canvas, outline);
+  canvas.set_line_width(1.1);
+  canvas.stroke();
 }
 
-void draw_links(const Context& context, const Layout& layout, const core::Sketch& sketch) {
+void draw_links(const Canvas& canvas, const Layout& layout, const core::Sketch& sketch) {
   for (const auto& joint : sketch.joints) {
-    if (joint.on_ground) draw_ground(context, layout.page(joint.at));
+    if (joint.on_ground) draw_ground(canvas, layout.page(joint.at));
   }
   for (const auto& spring : sketch.springs) {
-    if (spring.from_ground) draw_ground(context, layout.page(spring.from));
-    if (spring.to_ground) draw_ground(context, layout.page(spring.to));
+    if (spring.from_ground) draw_ground(canvas, layout.page(spring.from));
+    if (spring.to_ground) draw_ground(canvas, layout.page(spring.to));
   }
-  for (const auto& slide : sketch.slides) draw_slide(context, layout, slide);
+  for (const auto& slide : sketch.slides) draw_slide(canvas, layout, slide);
   for (const auto& link : sketch.links) {
     std::vector<Point2> path;
     for (const auto& point : link.points) path.push_back(layout.page(point));
-    if (path.size() > 2) draw_plate(context, path);
-    draw_bar(context, path.size() > 2 ? outline_of(path) : path, bar_width);
+    if (path.size() > 2) draw_plate(canvas, path);
+    draw_bar(canvas, path.size() > 2 ? outline_of(path) : path, bar_width);
   }
   for (const auto& spring : sketch.springs) {
     if (spring.torsion)
-      draw_torsion_spring(context, layout.page(spring.from));
+      draw_torsion_spring(canvas, layout.page(spring.from));
     else
-      draw_spring(context, layout.page(spring.from), layout.page(spring.to));
+      draw_spring(canvas, layout.page(spring.from), layout.page(spring.to));
   }
 }
 
 namespace {
 
-void draw_pins(const Context& context, const Layout& layout, const core::Sketch& sketch) {
+void draw_pins(const Canvas& canvas, const Layout& layout, const core::Sketch& sketch) {
   // Of several at one place, that of the motor.
   for (const auto& joint : sketch.joints) {
     const bool actuated = std::any_of(sketch.joints.begin(), sketch.joints.end(),
                                       [&](const auto& other) { return other.actuated && other.at == joint.at; });
-    draw_pin(context, layout.page(joint.at), actuated);
+    draw_pin(canvas, layout.page(joint.at), actuated);
   }
 }
 
@@ -468,8 +467,8 @@ bool stands_in(const std::string& name, const std::string& words) {
 namespace {
 
 /// Beside the middles of links, or elsewhere along them, on either side.
-void write_link_names(const Context& context, const Layout& layout, const core::Sketch& sketch,
-                      const std::string& words, LabelPlaces& labels) {
+void write_link_names(const Canvas& canvas, const Layout& layout, const core::Sketch& sketch, const std::string& words,
+                      LabelPlaces& labels) {
   constexpr Font font{8.5, false, true};
   constexpr double aside = bar_width + 4;
   for (const core::SketchLink& link : sketch.links) {
@@ -490,7 +489,7 @@ void write_link_names(const Context& context, const Layout& layout, const core::
       for (const double side : {1.0, -1.0})
         places.push_back(
             {p[0] + part * dx + side * u * (aside + half * std::abs(u)), p[1] + part * dy + side * v * aside});
-    write_label(context, name, font, outline, places, labels);
+    write_label(canvas, name, font, outline, places, labels);
   }
 }
 
@@ -521,55 +520,55 @@ void keep_free(const Layout& layout, const core::Sketch& sketch, const std::vect
 }
 
 /// In the plot's corner.
-void draw_gravity(const Context& context, const Layout& layout, const core::Sketch& sketch, LabelPlaces& labels) {
+void draw_gravity(const Canvas& canvas, const Layout& layout, const core::Sketch& sketch, LabelPlaces& labels) {
   const double gravity = std::hypot(sketch.gravity[0], sketch.gravity[1]);
   if (gravity == 0) return;
   const Point2 centre = {layout.plot.right() - 22, layout.plot.y + 24};
   const Point2 half = {13 * sketch.gravity[0] / gravity, -13 * sketch.gravity[1] / gravity};
-  draw_load_arrow(context, {centre[0] - half[0], centre[1] - half[1]}, {centre[0] + half[0], centre[1] + half[1]});
+  draw_load_arrow(canvas, {centre[0] - half[0], centre[1] - half[1]}, {centre[0] + half[0], centre[1] + half[1]});
   labels.occupy({centre[0] - 16, centre[1] - 14, 32, 28}, 1);
-  write_over_lines(context, "g", centre[0] - 8, centre[1] + 3, {9, false, true}, load_colour, Align::right);
+  write_over_lines(canvas, "g", centre[0] - 8, centre[1] + 3, {9, false, true}, load_colour, Align::right);
 }
 
 }  // namespace
 
-void draw_joints_and_loads(const Context& context, const Layout& layout, const core::Sketch& sketch,
+void draw_joints_and_loads(const Canvas& canvas, const Layout& layout, const core::Sketch& sketch,
                            const std::string& words, LabelPlaces& labels) {
-  draw_pins(context, layout, sketch);
+  draw_pins(canvas, layout, sketch);
   double largest = 0;
   for (const auto& load : sketch.loads) largest = std::max(largest, std::hypot(load.force[0], load.force[1]));
   std::vector<Arrow> arrows;
   for (const auto& load : sketch.loads) {
     if (load.force != Point2{0, 0}) {
       arrows.push_back(arrow_of(layout, load, largest));
-      draw_load_arrow(context, arrows.back().tail, arrows.back().tip);
+      draw_load_arrow(canvas, arrows.back().tail, arrows.back().tip);
     }
-    if (load.couple != 0) draw_couple(context, layout, load);
+    if (load.couple != 0) draw_couple(canvas, layout, load);
   }
   keep_free(layout, sketch, arrows, labels);
-  draw_gravity(context, layout, sketch, labels);
-  for (const auto& joint : sketch.joints) write_joint_name(context, layout, sketch, joint, labels);
-  write_end_effector(context, layout, sketch, labels);
+  draw_gravity(canvas, layout, sketch, labels);
+  for (const auto& joint : sketch.joints) write_joint_name(canvas, layout, sketch, joint, labels);
+  write_end_effector(canvas, layout, sketch, labels);
   auto arrow = arrows.begin();
   for (const auto& load : sketch.loads) {
-    if (load.force != Point2{0, 0}) write_force(context, load, *arrow++, labels);
-    if (load.couple != 0) write_couple(context, layout, load, labels);
+    if (load.force != Point2{0, 0}) write_force(canvas, load, *arrow++, labels);
+    if (load.couple != 0) write_couple(canvas, layout, load, labels);
   }
-  write_link_names(context, layout, sketch, words, labels);
+  write_link_names(canvas, layout, sketch, words, labels);
 }
 
-void draw_alone(const Context& context, const Box& box, const core::Sketch& sketch, const std::string& words) {
+void draw_alone(const Canvas& canvas, const Box& box, const core::Sketch& sketch, const std::string& words) {
   const Layout alone = lay_out_alone(sketch, box);
-  draw_links(context, alone, sketch);
+  draw_links(canvas, alone, sketch);
   LabelPlaces labels(alone.plot);
-  draw_joints_and_loads(context, alone, sketch, words, labels);
+  draw_joints_and_loads(canvas, alone, sketch, words, labels);
 }
 
-void draw_mechanism_sample(const Context& context, double x, double y, double width) {
+void draw_mechanism_sample(const Canvas& canvas, double x, double y, double width) {
   const Point2 left = {x + 7, y}, right = {x + width - 6, y};
-  draw_bar(context, {left, right}, bar_width);
-  draw_pin(context, left, true);
-  draw_pin(context, right, false);
+  draw_bar(canvas, {left, right}, bar_width);
+  draw_pin(canvas, left, true);
+  draw_pin(canvas, right, false);
 }
 
 }  // namespace clearloci::report

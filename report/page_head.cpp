@@ -24,11 +24,11 @@ PageHead page_head(const std::string& title, const std::string& subtitle, double
   return head;
 }
 
-void draw_page_head(const Cairo::RefPtr<Cairo::Context>& context, const PageHead& head) {
-  set_colour(context, light_theme.paper);
-  context->paint();
-  set_colour(context, light_theme.ink);
-  for (const TitleLine& line : head.lines) write_text(context, line.text, line.x, line.y, line.font);
+void draw_page_head(const Canvas& canvas, const PageHead& head) {
+  set_colour(canvas, light_theme.paper);
+  canvas.paint();
+  set_colour(canvas, light_theme.ink);
+  for (const TitleLine& line : head.lines) write_text(canvas, line.text, line.x, line.y, line.font);
 }
 
 }  // namespace clearloci::report

@@ -3,7 +3,7 @@
 // Private to report/.
 #pragma once
 
-#include <cairomm/context.h>
+#include "report/canvas.hpp"
 
 #include <string>
 #include <vector>
@@ -33,6 +33,6 @@ struct PageHead {
 PageHead page_head(const std::string& title, const std::string& subtitle, double left, double width);
 
 /// On a sheet that is painted white first.
-void draw_page_head(const Cairo::RefPtr<Cairo::Context>& context, const PageHead& head);
+void draw_page_head(const Canvas& canvas, const PageHead& head);
 
 }  // namespace clearloci::report

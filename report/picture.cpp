@@ -32,7 +32,7 @@ std::string legend_of(const Groups& groups) {
 std::string drawn(const Subject& subject, PictureFormat format) {
   const Layout layout = lay_out(subject);
   return render({layout.width, layout.height, title_of(subject), legend_of(subject.groups)}, format,
-                [&](const auto& context) { draw(context, subject, layout); });
+                [&](const auto& canvas) { draw(canvas, subject, layout); });
 }
 
 }  // namespace

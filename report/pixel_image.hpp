@@ -2,8 +2,7 @@
 // same. Private to report/.
 #pragma once
 
-#include <cairomm/context.h>
-#include <cairomm/surface.h>
+#include "report/canvas.hpp"
 
 #include "report/axis.hpp"
 #include "report/theme.hpp"
@@ -20,12 +19,12 @@ class PixelImage {
   int height() const { return height_; }
   /// Rows count from the top. What is not put stays transparent.
   void put(int column, int row, const Colour& colour);
-  void paint(const Cairo::RefPtr<Cairo::Context>& context) const;
+  void paint(const Canvas& canvas) const;
 
  private:
   Box box_;
   int width_ = 0, height_ = 0;
-  Cairo::RefPtr<Cairo::ImageSurface> image_;
+  Raster image_;
 };
 
 }  // namespace clearloci::report

@@ -19,7 +19,6 @@ namespace clearloci::report {
 namespace {
 
 using core::Point2;
-using Context = Cairo::RefPtr<Cairo::Context>;
 
 constexpr Colour ink = light_theme.ink;
 constexpr Colour faded_ink = light_theme.faded_ink;
@@ -98,11 +97,11 @@ class PlotDrawing {
     return {width_, height_, printable(plot_.title), printable(description)};
   }
 
-  void draw(const Context& context) const {
-    draw_page_head(context, head_);
-    for (std::size_t i = 0; i < frames_.size(); ++i) draw_panel(context, i);
+  void draw(const Canvas& canvas) const {
+    draw_page_head(canvas, head_);
+    for (std::size_t i = 0; i < frames_.size(); ++i) draw_panel(canvas, i);
     const Box& last = frames_.back().box;
-    write_text(context, plot_.x_label, last.x + last.width / 2, last.bottom() + 29, label_font, Align::centre);
+    write_text(canvas, plot_.x_label, last.x + last.width / 2, last.bottom() + 29, label_font, Align::centre);
   }
 
  private:
@@ -144,27 +143,27 @@ class PlotDrawing {
     }
   }
 
-  void draw_panel(const Context& context, std::size_t i) const {
+  void draw_panel(const Canvas& canvas, std::size_t i) const {
     const PlotPanel& panel = plot_.panels[i];
     const Frame& f = frames_[i];
-    context->save();
-    context->rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
-    context->clip();
+    canvas.save();
+    canvas.rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
+    canvas.clip();
     if (panel.field)
-      draw_field(context, *panel.field, scales_[i], f);
+      draw_field(canvas, *panel.field, scales_[i], f);
     else
-      draw_grid(context, panel, f);
-    for (const PlotMark& mark : plot_.marks) draw_mark(context, f, mark);
+      draw_grid(canvas, panel, f);
+    for (const PlotMark& mark : plot_.marks) draw_mark(canvas, f, mark);
     for (const PlotSeries& series : panel.series) {
-      if (panel.field) stroke(context, f, series, {{1, 1, 1}, 2.4, {}, true});
-      stroke(context, f, series, stroke_of(series));
+      if (panel.field) stroke(canvas, f, series, {{1, 1, 1}, 2.4, {}, true});
+      stroke(canvas, f, series, stroke_of(series));
       if (panel.field) continue;
-      draw_jumps(context, f, series);
-      draw_cuts(&context, f, series);
+      draw_jumps(canvas, f, series);
+      draw_cuts(&canvas, f, series);
     }
-    context->restore();
-    draw_axes(context, panel, f, i + 1 == frames_.size());
-    legend(&context, i);
+    canvas.restore();
+    draw_axes(canvas, panel, f, i + 1 == frames_.size());
+    legend(&canvas, i);
   }
 
   static Stroke stroke_of(const PlotSeries& series) {
@@ -174,57 +173,54 @@ class PlotDrawing {
     return {palette[number % palette.size()], 1.3, line_dashes[number / palette.size() % line_dashes.size()], false};
   }
 
-  static void set_stroke(const Context& context, const Stroke& s) {
-    set_colour(context, s.colour);
-    context->set_line_width(s.width);
-    context->set_line_join(Cairo::Context::LineJoin::ROUND);
-    context->set_line_cap(Cairo::Context::LineCap::BUTT);
-    if (s.dash.empty())
-      context->unset_dash();
-    else
-      context->set_dash(s.dash, 0);
+  static void set_stroke(const Canvas& canvas, const Stroke& s) {
+    set_colour(canvas, s.colour);
+    canvas.set_line_width(s.width);
+    canvas.set_line_join(LineJoin::round);
+    canvas.set_line_cap(LineCap::butt);
+    canvas.set_dash(s.dash);
   }
 
-  static void stroke(const Context& context, const Frame& f, const PlotSeries& series, const Stroke& s) {
-    set_stroke(context, s);
+  static void stroke(const Canvas& canvas, const Frame& f, const PlotSeries& series, const Stroke& s) {
+    set_stroke(canvas, s);
     for (const core::Polyline& line : series.lines) {
-      context->begin_new_sub_path();
+      canvas.begin_new_sub_path();
       const Point2* before = nullptr;
       for (const Point2& point : line) {
         if (!std::isfinite(point[0]) || !std::isfinite(point[1])) {
-          context->begin_new_sub_path();
+          canvas.begin_new_sub_path();
           before = nullptr;
           continue;
         }
         const Point2 at = f.page(point);
         // Lines do not run along a jump, which is drawn by itself.
-        if (before != nullptr && point[0] == (*before)[0] && point[1] != (*before)[1]) context->begin_new_sub_path();
+        if (before != nullptr && point[0] == (*before)[0] && point[1] != (*before)[1]) canvas.begin_new_sub_path();
         before = &point;
         // Cairo's own numbers are small; what leaves the panel is clipped anyway.
         constexpr double far = 1e4;
-        context->line_to(std::clamp(at[0], -far, far), std::clamp(at[1], -far, far));
+        canvas.line_to(std::clamp(at[0], -far, far), std::clamp(at[1], -far, far));
       }
-      context->stroke();
+      canvas.stroke();
     }
   }
 
   /// Where a line goes on at another height: a jump, as a thin dotted line.
-  void draw_jumps(const Context& context, const Frame& f, const PlotSeries& series) const {
+  void draw_jumps(const Canvas& canvas, const Frame& f, const PlotSeries& series) const {
     constexpr double beside = 1e-6;  // of the range: what is nearer is at one place
     const double near = beside * (f.high[0] - f.low[0]);
     Stroke s = stroke_of(series);
     s.width *= 0.6;
     s.dash = {1.5, 2};
-    set_stroke(context, s);
+    set_stroke(canvas, s);
     for (const core::Polyline& line : series.lines) {
       const Point2* before = nullptr;
       for (const Point2& point : line) {
         if (!std::isfinite(point[0]) || !std::isfinite(point[1])) continue;
         if (before != nullptr && point[0] - (*before)[0] <= near && point[1] != (*before)[1]) {
           const Point2 from = f.page(*before), to = f.page(point);
-          context->move_to(from[0], std::clamp(from[1], f.box.y, f.box.bottom()));
-          context->line_to(to[0], std::clamp(to[1], f.box.y, f.box.bottom()));
-          context->stroke();
+          canvas.move_to(from[0], std::clamp(from[1], f.box.y, f.box.bottom()));
+          canvas.line_to(to[0], std::clamp(to[1], f.box.y, f.box.bottom()));
+          canvas.stroke();
         }
         before = &point;
       }
@@ -232,7 +228,7 @@ class PlotDrawing {
   }
 
   /// Triangles at the panel's upper or lower side where a line goes beyond it. Whether there is one.
-  static bool draw_cuts(const Context* context, const Frame& f, const PlotSeries& series) {
+  static bool draw_cuts(const Canvas* canvas, const Frame& f, const PlotSeries& series) {
     constexpr double size = 3.6;  // pt
     bool any = false;
     for (const core::Polyline& line : series.lines) {
@@ -243,14 +239,14 @@ class PlotDrawing {
                          point[0] >= f.low[0] && point[0] <= f.high[0];
         if (now && !beyond) {
           any = true;
-          if (context != nullptr) {
+          if (canvas != nullptr) {
             const double x = f.page(point)[0], side = above ? 1 : -1, y = above ? f.box.y : f.box.bottom();
-            (*context)->move_to(x, y + side);
-            (*context)->line_to(x - size, y + side * (1 + 1.7 * size));
-            (*context)->line_to(x + size, y + side * (1 + 1.7 * size));
-            (*context)->close_path();
-            set_colour(*context, stroke_of(series).colour);
-            (*context)->fill();
+            canvas->move_to(x, y + side);
+            canvas->line_to(x - size, y + side * (1 + 1.7 * size));
+            canvas->line_to(x + size, y + side * (1 + 1.7 * size));
+            canvas->close_path();
+            set_colour(*canvas, stroke_of(series).colour);
+            canvas->fill();
           }
         }
         beyond = now;
@@ -259,7 +255,7 @@ class PlotDrawing {
     return any;
   }
 
-  static void draw_field(const Context& context, const PlotField& field, const FieldScale& scale, const Frame& f) {
+  static void draw_field(const Canvas& canvas, const PlotField& field, const FieldScale& scale, const Frame& f) {
     PixelImage image(f.box);
     for (int row = 0; row < image.height(); ++row) {
       const double y = f.high[1] - (row + 0.5) / image.height() * (f.high[1] - f.low[1]);
@@ -268,7 +264,7 @@ class PlotDrawing {
         if (!std::isnan(value)) image.put(column, row, scale.colour(value));
       }
     }
-    image.paint(context);
+    image.paint(canvas);
   }
 
   std::vector<Tick> x_ticks(const Frame& f) const {
@@ -280,58 +276,58 @@ class PlotDrawing {
     return panel.degrees ? angle_ticks(f.low[1], f.high[1], least) : ticks(f.low[1], f.high[1], least);
   }
 
-  void draw_grid(const Context& context, const PlotPanel& panel, const Frame& f) const {
-    set_stroke(context, {grid, 0.4, {}, false});
+  void draw_grid(const Canvas& canvas, const PlotPanel& panel, const Frame& f) const {
+    set_stroke(canvas, {grid, 0.4, {}, false});
     for (const Tick& tick : x_ticks(f)) {
-      context->move_to(f.page({tick.at, 0})[0], f.box.y);
-      context->line_to(f.page({tick.at, 0})[0], f.box.bottom());
+      canvas.move_to(f.page({tick.at, 0})[0], f.box.y);
+      canvas.line_to(f.page({tick.at, 0})[0], f.box.bottom());
     }
     for (const Tick& tick : y_ticks(panel, f)) {
-      context->move_to(f.box.x, f.page({0, tick.at})[1]);
-      context->line_to(f.box.right(), f.page({0, tick.at})[1]);
+      canvas.move_to(f.box.x, f.page({0, tick.at})[1]);
+      canvas.line_to(f.box.right(), f.page({0, tick.at})[1]);
     }
-    context->stroke();
+    canvas.stroke();
   }
 
   static const std::vector<double>& dashes(int style) {
     return mark_dashes[static_cast<std::size_t>(style) % mark_dashes.size()];
   }
 
-  static void draw_mark(const Context& context, const Frame& f, const PlotMark& mark) {
-    set_stroke(context, {faded_ink, 0.7, dashes(mark.style), false});
-    context->move_to(f.page({mark.at, 0})[0], f.box.y);
-    context->line_to(f.page({mark.at, 0})[0], f.box.bottom());
-    context->stroke();
+  static void draw_mark(const Canvas& canvas, const Frame& f, const PlotMark& mark) {
+    set_stroke(canvas, {faded_ink, 0.7, dashes(mark.style), false});
+    canvas.move_to(f.page({mark.at, 0})[0], f.box.y);
+    canvas.line_to(f.page({mark.at, 0})[0], f.box.bottom());
+    canvas.stroke();
   }
 
-  void draw_axes(const Context& context, const PlotPanel& panel, const Frame& f, bool with_x) const {
+  void draw_axes(const Canvas& canvas, const PlotPanel& panel, const Frame& f, bool with_x) const {
     constexpr double tick_length = 4;
-    set_stroke(context, {frame, 0.8, {}, false});
-    context->rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
-    context->stroke();
+    set_stroke(canvas, {frame, 0.8, {}, false});
+    canvas.rectangle(f.box.x, f.box.y, f.box.width, f.box.height);
+    canvas.stroke();
     for (const Tick& tick : x_ticks(f)) {
       const double x = f.page({tick.at, 0})[0];
-      set_colour(context, frame);
-      context->move_to(x, f.box.bottom());
-      context->line_to(x, f.box.bottom() + tick_length);
-      context->stroke();
-      set_colour(context, ink);
-      if (with_x) write_text(context, tick.label, x, f.box.bottom() + tick_length + 10, tick_font, Align::centre);
+      set_colour(canvas, frame);
+      canvas.move_to(x, f.box.bottom());
+      canvas.line_to(x, f.box.bottom() + tick_length);
+      canvas.stroke();
+      set_colour(canvas, ink);
+      if (with_x) write_text(canvas, tick.label, x, f.box.bottom() + tick_length + 10, tick_font, Align::centre);
     }
     for (const Tick& tick : y_ticks(panel, f)) {
       const double y = f.page({0, tick.at})[1];
-      set_colour(context, frame);
-      context->move_to(f.box.x, y);
-      context->line_to(f.box.x - tick_length, y);
-      context->stroke();
-      set_colour(context, ink);
-      write_text(context, tick.label, f.box.x - tick_length - 3.5, y + 3.1, tick_font, Align::right);
+      set_colour(canvas, frame);
+      canvas.move_to(f.box.x, y);
+      canvas.line_to(f.box.x - tick_length, y);
+      canvas.stroke();
+      set_colour(canvas, ink);
+      write_text(canvas, tick.label, f.box.x - tick_length - 3.5, y + 3.1, tick_font, Align::right);
     }
-    context->save();
-    context->translate(page_margin + 10, f.box.y + f.box.height / 2);
-    context->rotate(-std::numbers::pi / 2);
-    write_text(context, panel.y_label, 0, 0, label_font, Align::centre);
-    context->restore();
+    canvas.save();
+    canvas.translate(page_margin + 10, f.box.y + f.box.height / 2);
+    canvas.rotate(-std::numbers::pi / 2);
+    write_text(canvas, panel.y_label, 0, 0, label_font, Align::centre);
+    canvas.restore();
   }
 
   static bool is_drawn(const PlotSeries& series) {
@@ -341,8 +337,8 @@ class PlotDrawing {
     });
   }
 
-  /// Where it ends, down the page. Without a context nothing is drawn.
-  double legend(const Context* context, std::size_t i) const {
+  /// Where it ends, down the page. Without a canvas nothing is drawn.
+  double legend(const Canvas* canvas, std::size_t i) const {
     constexpr double sample = 22, indent = sample + 6;
     const Frame& f = frames_[i];
     const double x = f.box.right() + gap;
@@ -350,24 +346,24 @@ class PlotDrawing {
     const Measure measure = measure_in(legend_font);
     const auto write = [&](const std::string& label, double at, const Colour& colour) {
       for (const std::string& piece : wrap(label, legend_width - (at - x), measure)) {
-        if (context != nullptr) {
-          set_colour(*context, colour);
-          write_text(*context, piece, at, y + 0.5 * line_height + 3.1, legend_font);
+        if (canvas != nullptr) {
+          set_colour(*canvas, colour);
+          write_text(*canvas, piece, at, y + 0.5 * line_height + 3.1, legend_font);
         }
         y += line_height;
       }
     };
     const auto draw_sample = [&](const Stroke& s) {
-      if (context == nullptr) return;
-      set_stroke(*context, s);
-      (*context)->move_to(x, y + line_height / 2);
-      (*context)->line_to(x + sample, y + line_height / 2);
-      (*context)->stroke();
+      if (canvas == nullptr) return;
+      set_stroke(*canvas, s);
+      canvas->move_to(x, y + line_height / 2);
+      canvas->line_to(x + sample, y + line_height / 2);
+      canvas->stroke();
     };
     if (const auto& field = plot_.panels[i].field) {
       write(field->label + " (" + scales_[i].unit + ")", x, ink);
       if (scales_[i].saturated) write(saturation_words(scales_[i]), x, faded_ink);
-      if (context != nullptr) draw_colour_bar(*context, scales_[i], {x, y, legend_width, colour_bar_room});
+      if (canvas != nullptr) draw_colour_bar(*canvas, scales_[i], {x, y, legend_width, colour_bar_room});
       y += colour_bar_room + 6;
     }
     for (const PlotSeries& series : plot_.panels[i].series) {
@@ -414,7 +410,7 @@ void share_ranges(Plot& plot) {
 
 std::string plot(const Plot& plot, PictureFormat format) {
   const PlotDrawing drawing(plot);
-  return render(drawing.page(), format, [&](const Context& context) { drawing.draw(context); });
+  return render(drawing.page(), format, [&](const Canvas& canvas) { drawing.draw(canvas); });
 }
 
 std::string table_csv(const std::vector<std::string>& names, const std::vector<std::vector<double>>& columns) {

@@ -6,7 +6,7 @@
 
 namespace clearloci::report {
 
-/// The rows of a Cairo RGB24 image (native 32-bit 0xXXRRGGBB, `stride` bytes apart) as a PNG of 8 bits a channel, with
+/// The rows of an opaque Raster (`stride` bytes apart) as a PNG of 8 bits a channel, with
 /// its resolution in dots per inch.
 std::string encode_png(const unsigned char* pixels, int width, int height, int stride, double dots_per_inch);
 

@@ -15,8 +15,6 @@
 namespace clearloci::report {
 namespace {
 
-using Context = Cairo::RefPtr<Cairo::Context>;
-
 constexpr double page_width = 640, label_width = 190, label_gap = 12;   // pt
 constexpr double line_height = 11, row_padding = 10, axis_height = 44;  // pt
 constexpr double sketch_height = 300;                                   // pt
@@ -76,44 +74,44 @@ std::vector<Row> rows_of(const core::LocusMap& map, const core::WorkingMode& mod
 }
 
 /// Colours apart for the colour-blind (Okabe and Ito 2008); the marks differ in shape too.
-void set_colour(const Context& context, core::LocusKind kind) {
+void set_colour(const Canvas& canvas, core::LocusKind kind) {
   switch (kind) {
     case core::LocusKind::contact_loss:
-      return context->set_source_rgb(0.835, 0.369, 0);
+      return canvas.set_source_rgb(0.835, 0.369, 0);
     case core::LocusKind::backlash:
-      return context->set_source_rgb(0, 0.447, 0.698);
+      return canvas.set_source_rgb(0, 0.447, 0.698);
     case core::LocusKind::component:
-      return context->set_source_rgb(0, 0.62, 0.451);
+      return canvas.set_source_rgb(0, 0.62, 0.451);
     case core::LocusKind::margin:
-      return context->set_source_rgb(0.8, 0.475, 0.655);
+      return canvas.set_source_rgb(0.8, 0.475, 0.655);
     case core::LocusKind::direct_singularity:
-      return context->set_source_rgb(0, 0, 0);
+      return canvas.set_source_rgb(0, 0, 0);
     default:
-      return context->set_source_rgb(0.45, 0.45, 0.45);
+      return canvas.set_source_rgb(0.45, 0.45, 0.45);
   }
 }
 
-void draw_mark(const Context& context, core::LocusKind kind, double x, double y) {
+void draw_mark(const Canvas& canvas, core::LocusKind kind, double x, double y) {
   constexpr double r = 4;
-  context->begin_new_path();
+  canvas.begin_new_path();
   if (kind == core::LocusKind::contact_loss) {
-    context->arc(x, y, r, 0, 2 * std::numbers::pi);
-    return context->fill();
+    canvas.arc(x, y, r, 0, 2 * std::numbers::pi);
+    return canvas.fill();
   }
   if (kind == core::LocusKind::backlash) {
-    context->move_to(x, y - r), context->line_to(x + r, y), context->line_to(x, y + r), context->line_to(x - r, y);
-    return context->fill();
+    canvas.move_to(x, y - r), canvas.line_to(x + r, y), canvas.line_to(x, y + r), canvas.line_to(x - r, y);
+    return canvas.fill();
   }
-  context->set_line_width(1.5);
+  canvas.set_line_width(1.5);
   if (kind == core::LocusKind::direct_singularity) {
-    context->move_to(x - r, y - r), context->line_to(x + r, y + r);
-    context->move_to(x - r, y + r), context->line_to(x + r, y - r);
+    canvas.move_to(x - r, y - r), canvas.line_to(x + r, y + r);
+    canvas.move_to(x - r, y + r), canvas.line_to(x + r, y - r);
   } else if (kind == core::LocusKind::workspace_boundary) {
-    context->move_to(x, y - r), context->line_to(x, y + r);
+    canvas.move_to(x, y - r), canvas.line_to(x, y + r);
   } else {
-    context->rectangle(x - r + 1, y - r + 1, 2 * r - 2, 2 * r - 2);
+    canvas.rectangle(x - r + 1, y - r + 1, 2 * r - 2, 2 * r - 2);
   }
-  context->stroke();
+  canvas.stroke();
 }
 
 constexpr double least_tick_gap = 30;  // pt
@@ -148,64 +146,62 @@ std::string range_picture(const core::LocusMap& map, const core::WorkingMode& mo
     for (const std::string& text : row.reason) reasons += text + " ";
   const double height = bottom + axis_height + (sketch == nullptr ? 0 : sketch_height);
 
-  const auto draw = [&](const Context& context) {
-    draw_page_head(context, head);
-    context->set_source_rgb(0.93, 0.95, 0.97);
+  const auto draw = [&](const Canvas& canvas) {
+    draw_page_head(canvas, head);
+    canvas.set_source_rgb(0.93, 0.95, 0.97);
     for (const auto& interval : map.reachable) {
       if (interval.mode != mode) continue;
       const double from = page(interval.from * range.factor), to = page(interval.to * range.factor);
-      context->rectangle(from, top, to - from, bottom - top);
-      context->fill();
+      canvas.rectangle(from, top, to - from, bottom - top);
+      canvas.fill();
     }
-    context->set_line_width(0.5);
-    context->set_source_rgb(0.8, 0.8, 0.8);
+    canvas.set_line_width(0.5);
+    canvas.set_source_rgb(0.8, 0.8, 0.8);
     for (const Row& row : rows) {
-      context->move_to(page_margin, row.y + row.height);
-      context->line_to(right, row.y + row.height);
+      canvas.move_to(page_margin, row.y + row.height);
+      canvas.line_to(right, row.y + row.height);
     }
-    context->stroke();
-    context->set_dash(std::vector<double>{2, 3}, 0);
-    context->set_source_rgb(0.6, 0.6, 0.6);
+    canvas.stroke();
+    canvas.set_dash({2, 3});
+    canvas.set_source_rgb(0.6, 0.6, 0.6);
     for (const Row& row : rows)
       for (const double value : row.at) {
-        context->move_to(page(value * range.factor), top);
-        context->line_to(page(value * range.factor), bottom);
+        canvas.move_to(page(value * range.factor), top);
+        canvas.line_to(page(value * range.factor), bottom);
       }
-    context->stroke();
-    context->unset_dash();
+    canvas.stroke();
+    canvas.set_dash({});
     for (const Row& row : rows) {
-      context->set_source_rgb(0, 0, 0);
+      canvas.set_source_rgb(0, 0, 0);
       double line = row.y + row_padding / 2 + 8;
       for (const std::string& text : row.lines) {
-        write_text(context, text, page_margin, line, legend_font);
+        write_text(canvas, text, page_margin, line, legend_font);
         line += line_height;
       }
-      context->set_source_rgb(0.42, 0.42, 0.42);
+      canvas.set_source_rgb(0.42, 0.42, 0.42);
       for (const std::string& text : row.reason) {
-        write_text(context, text, page_margin, line, legend_font);
+        write_text(canvas, text, page_margin, line, legend_font);
         line += line_height;
       }
-      set_colour(context, row.kind);
-      for (const double value : row.at)
-        draw_mark(context, row.kind, page(value * range.factor), row.y + row.height / 2);
+      set_colour(canvas, row.kind);
+      for (const double value : row.at) draw_mark(canvas, row.kind, page(value * range.factor), row.y + row.height / 2);
     }
-    context->set_source_rgb(0, 0, 0);
-    context->set_line_width(0.8);
-    context->rectangle(left, top, right - left, bottom - top);
+    canvas.set_source_rgb(0, 0, 0);
+    canvas.set_line_width(0.8);
+    canvas.rectangle(left, top, right - left, bottom - top);
     const double least = least_tick_gap / (right - left) * (range.to - range.from);
     const std::vector<Tick> marks =
         range.factor != 1 ? angle_ticks(range.from, range.to, least) : ticks(range.from, range.to, least);
     for (const Tick& tick : marks) {
-      context->move_to(page(tick.at), bottom);
-      context->line_to(page(tick.at), bottom + 4);
+      canvas.move_to(page(tick.at), bottom);
+      canvas.line_to(page(tick.at), bottom + 4);
     }
-    context->stroke();
-    for (const Tick& tick : marks)
-      write_text(context, tick.label, page(tick.at), bottom + 15, tick_font, Align::centre);
-    write_text(context, range.label, (left + right) / 2, bottom + 30, label_font, Align::centre);
+    canvas.stroke();
+    for (const Tick& tick : marks) write_text(canvas, tick.label, page(tick.at), bottom + 15, tick_font, Align::centre);
+    write_text(canvas, range.label, (left + right) / 2, bottom + 30, label_font, Align::centre);
     if (sketch == nullptr) return;
-    write_text(context, sample_posture_words, page_margin, bottom + axis_height + 12, legend_font);
-    draw_alone(context, {page_margin, bottom + axis_height + 16, right - page_margin, sketch_height - 16}, *sketch,
+    write_text(canvas, sample_posture_words, page_margin, bottom + axis_height + 12, legend_font);
+    draw_alone(canvas, {page_margin, bottom + axis_height + 16, right - page_margin, sketch_height - 16}, *sketch,
                reasons);
   };
   std::string description;

@@ -1,11 +1,11 @@
 #include "report/space_picture.hpp"
 
-#include <cairomm/surface.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "report/axis.hpp"
@@ -19,7 +19,6 @@
 namespace clearloci::report {
 namespace {
 
-using Context = Cairo::RefPtr<Cairo::Context>;
 using core::Point2;
 using core::Point3;
 
@@ -32,8 +31,8 @@ constexpr double elevation = 0.4;  // rad
 constexpr std::array<double, 2> azimuths = {-1.05, 0.52};
 constexpr Colour ink = light_theme.ink, grey{0.42, 0.42, 0.42};
 
-void set_ink(const Context& context, const Colour& colour, double opacity = 1) {
-  context->set_source_rgba(colour.red, colour.green, colour.blue, opacity);
+void set_ink(const Canvas& canvas, const Colour& colour, double opacity = 1) {
+  canvas.set_source_rgba(colour.red, colour.green, colour.blue, opacity);
 }
 
 /// Corner of the map's box; bit i of `which`: its upper end along coordinate i.
@@ -101,16 +100,16 @@ std::vector<Edge> edges_of(const core::LocusMap& map, const View& view) {
   return edges;
 }
 
-void draw_box(const Context& context, const core::LocusMap& map, const View& view, bool hidden) {
-  set_ink(context, grey, hidden ? 0.55 : 0.9);
-  context->set_line_width(hidden ? 0.5 : 0.7);
+void draw_box(const Canvas& canvas, const core::LocusMap& map, const View& view, bool hidden) {
+  set_ink(canvas, grey, hidden ? 0.55 : 0.9);
+  canvas.set_line_width(hidden ? 0.5 : 0.7);
   for (const Edge& edge : edges_of(map, view)) {
     if (edge.hidden != hidden) continue;
     const Point2 from = view.page(corner(map, edge.from)), to = view.page(corner(map, edge.to));
-    context->move_to(from[0], from[1]);
-    context->line_to(to[0], to[1]);
+    canvas.move_to(from[0], from[1]);
+    canvas.line_to(to[0], to[1]);
   }
-  context->stroke();
+  canvas.stroke();
 }
 
 /// The edge along a coordinate that has its ticks: on the outline, lowest on the page; of the upright one, leftmost.
@@ -160,7 +159,7 @@ Point2 outwards(const View& view, const Point2& a, const Point2& b) {
   return inwards ? Point2{-out[0], -out[1]} : out;
 }
 
-void draw_axis(const Context& context, const core::LocusMap& map, const View& view, int coordinate) {
+void draw_axis(const Canvas& canvas, const core::LocusMap& map, const View& view, int coordinate) {
   const auto i = static_cast<std::size_t>(coordinate);
   const Edge edge = axis_edge(map, view, coordinate);
   const Point3 from = corner(map, edge.from), to = corner(map, edge.to);
@@ -172,16 +171,16 @@ void draw_axis(const Context& context, const core::LocusMap& map, const View& vi
   // The two lower axes meet in a corner, where their last labels make room for each other.
   const Edge other = axis_edge(map, view, coordinate == 0 ? 1 : 0);
   constexpr double close = 14, aside = 9;  // pt
-  set_ink(context, ink);
-  context->set_line_width(0.7);
+  set_ink(canvas, ink);
+  canvas.set_line_width(0.7);
   double widest = 0;
   for (const Tick& tick : scale.ticks) {
     Point3 place = from;
     place[i] = tick.at * scale.factor;
     Point2 at = view.page(place);
-    context->move_to(at[0], at[1]);
-    context->line_to(at[0] + 4 * out[0], at[1] + 4 * out[1]);
-    context->stroke();
+    canvas.move_to(at[0], at[1]);
+    canvas.line_to(at[0] + 4 * out[0], at[1] + 4 * out[1]);
+    canvas.stroke();
     const double width = text_width(tick.label, tick_font);
     widest = std::max(widest, width);
     for (const int end : {edge.from, edge.to}) {
@@ -192,19 +191,19 @@ void draw_axis(const Context& context, const core::LocusMap& map, const View& vi
       at = {at[0] + away * along[0], at[1] + away * along[1]};
     }
     // The label's box touches the end of the tick with the side that faces it.
-    write_text(context, tick.label, at[0] + 7 * out[0] + width / 2 * (out[0] - 1), at[1] + 7 * out[1] + 3 + 3 * out[1],
+    write_text(canvas, tick.label, at[0] + 7 * out[0] + width / 2 * (out[0] - 1), at[1] + 7 * out[1] + 3 + 3 * out[1],
                tick_font);
   }
   const double away = 13 + widest * std::abs(out[0]) + 11 * std::abs(out[1]);
-  context->save();
-  context->translate((a[0] + b[0]) / 2 + away * out[0], (a[1] + b[1]) / 2 + away * out[1]);
+  canvas.save();
+  canvas.translate((a[0] + b[0]) / 2 + away * out[0], (a[1] + b[1]) / 2 + away * out[1]);
   const double upright = std::remainder(std::atan2(along[1], along[0]), std::numbers::pi);  // never upside down
-  context->rotate(coordinate == 2 ? -std::numbers::pi / 2 : upright);
-  write_text(context, scale.label, 0, 3, label_font, Align::centre);
-  context->restore();
+  canvas.rotate(coordinate == 2 ? -std::numbers::pi / 2 : upright);
+  write_text(canvas, scale.label, 0, 3, label_font, Align::centre);
+  canvas.restore();
 }
 
-void draw_surfaces(const Context& context, const core::LocusMap& map, const PlacedView& placed,
+void draw_surfaces(const Canvas& canvas, const core::LocusMap& map, const PlacedView& placed,
                    const std::vector<SurfaceGroup>& groups) {
   const View& view = placed.view;
   std::vector<ShadedSurface> shaded;
@@ -223,18 +222,15 @@ void draw_surfaces(const Context& context, const core::LocusMap& map, const Plac
   const double step = heights.ticks.size() > 1 ? (heights.ticks[1].at - heights.ticks[0].at) * heights.factor : 0;
   const int width = static_cast<int>(view_side * pixels_per_point);
   const int height = static_cast<int>(placed.height * pixels_per_point);
-  std::vector<std::uint32_t> pixels =
+  const std::vector<std::uint32_t> pixels =
       shade(view, shaded, {step}, {placed.left, placed.top}, width, height, pixels_per_point);
-  const auto image = Cairo::ImageSurface::create(reinterpret_cast<unsigned char*>(pixels.data()),
-                                                 Cairo::ImageSurface::Format::ARGB32, width, height, 4 * width);
-  context->save();
-  context->translate(placed.left, placed.top);
-  context->scale(1 / pixels_per_point, 1 / pixels_per_point);
-  context->set_source(image, 0, 0);
-  context->paint();
-  context->restore();
-  // The surface looks at our pixels: what was painted has to be taken now.
-  context->get_target()->flush();
+  Raster image(width, height);
+  std::memcpy(image.data(), pixels.data(), pixels.size() * sizeof pixels.front());
+  canvas.save();
+  canvas.translate(placed.left, placed.top);
+  canvas.scale(1 / pixels_per_point, 1 / pixels_per_point);
+  canvas.paint(image, Filter::smooth);
+  canvas.restore();
 }
 
 std::vector<LineGroup> lines_of_mode(std::vector<LineGroup> groups, const core::WorkingMode& mode) {
@@ -247,27 +243,27 @@ std::vector<LineGroup> lines_of_mode(std::vector<LineGroup> groups, const core::
 }
 
 /// Over the surfaces, with a white seam: where they pass behind one, that shines through anyway.
-void draw_lines(const Context& context, const View& view, const std::vector<LineGroup>& groups) {
+void draw_lines(const Canvas& canvas, const View& view, const std::vector<LineGroup>& groups) {
   constexpr double seam = 3.4, line = 1.8, ring = 3.2;  // pt
   for (const bool below : {true, false})
     for (const LineGroup& group : groups) {
-      set_ink(context, below ? Colour{1, 1, 1} : group.colour, below ? 0.85 : 1);
-      context->set_line_width(below ? seam : line);
+      set_ink(canvas, below ? Colour{1, 1, 1} : group.colour, below ? 0.85 : 1);
+      canvas.set_line_width(below ? seam : line);
       for (const core::SpaceCurve* curve : group.curves)
         for (const core::SpaceArc& arc : curve->arcs) {
           for (const Point3& place : arc.points) {
             const Point2 at = view.page(place);
             if (&place == &arc.points.front())
-              context->move_to(at[0], at[1]);
+              canvas.move_to(at[0], at[1]);
             else
-              context->line_to(at[0], at[1]);
+              canvas.line_to(at[0], at[1]);
           }
-          context->stroke();
+          canvas.stroke();
         }
       for (const core::IsolatedPoint* point : group.points) {
         const Point2 at = view.page({point->at[0], point->at[1], point->at[2]});
-        context->arc(at[0], at[1], ring, 0, 2 * std::numbers::pi);
-        context->stroke();
+        canvas.arc(at[0], at[1], ring, 0, 2 * std::numbers::pi);
+        canvas.stroke();
       }
     }
 }
@@ -313,33 +309,33 @@ double place_legend(std::vector<Entry>& entries, double top) {
   return lowest;
 }
 
-void draw_entry(const Context& context, const Entry& entry) {
+void draw_entry(const Canvas& canvas, const Entry& entry) {
   if (entry.group != nullptr) {
     const SurfaceGroup& group = *entry.group;
-    context->rectangle(entry.x, entry.y + 1.5, sample_width, line_height - 2.5);
-    set_ink(context, group.colour, std::max(0.35, group.opacity));
-    context->fill_preserve();
-    set_ink(context, {0.55 * group.colour.red, 0.55 * group.colour.green, 0.55 * group.colour.blue});
-    context->set_line_width(0.8);
-    context->stroke();
+    canvas.rectangle(entry.x, entry.y + 1.5, sample_width, line_height - 2.5);
+    set_ink(canvas, group.colour, std::max(0.35, group.opacity));
+    canvas.fill_preserve();
+    set_ink(canvas, {0.55 * group.colour.red, 0.55 * group.colour.green, 0.55 * group.colour.blue});
+    canvas.set_line_width(0.8);
+    canvas.stroke();
   }
   if (entry.line != nullptr) {
-    set_ink(context, entry.line->colour);
-    context->set_line_width(1.8);
+    set_ink(canvas, entry.line->colour);
+    canvas.set_line_width(1.8);
     const double middle = entry.y + line_height / 2;
     if (entry.line->curves.empty()) {
-      context->arc(entry.x + sample_width / 2, middle, 3.2, 0, 2 * std::numbers::pi);
+      canvas.arc(entry.x + sample_width / 2, middle, 3.2, 0, 2 * std::numbers::pi);
     } else {
-      context->move_to(entry.x, middle);
-      context->line_to(entry.x + sample_width, middle);
+      canvas.move_to(entry.x, middle);
+      canvas.line_to(entry.x + sample_width, middle);
     }
-    context->stroke();
+    canvas.stroke();
   }
   double baseline = entry.y + 8.5;
   const auto write = [&](const std::vector<std::string>& lines, const Colour& colour) {
-    set_ink(context, colour);
+    set_ink(canvas, colour);
     for (const std::string& line : lines) {
-      write_text(context, line, entry.x + sample_width + sample_gap, baseline, legend_font);
+      write_text(canvas, line, entry.x + sample_width + sample_gap, baseline, legend_font);
       baseline += line_height;
     }
   };
@@ -395,20 +391,20 @@ std::string space_picture(const core::LocusMap& map, const core::WorkingMode& mo
 
   const double height = bottom + (sketch == nullptr ? 0 : sketch_height) + page_margin;
 
-  const auto draw = [&](const Context& context) {
-    draw_page_head(context, head);
+  const auto draw = [&](const Canvas& canvas) {
+    draw_page_head(canvas, head);
     for (const PlacedView& placed : views) {
-      draw_box(context, map, placed.view, true);
-      draw_surfaces(context, map, placed, groups);
-      draw_lines(context, placed.view, lines);
-      draw_box(context, map, placed.view, false);
-      for (int i = 0; i < 3; ++i) draw_axis(context, map, placed.view, i);
+      draw_box(canvas, map, placed.view, true);
+      draw_surfaces(canvas, map, placed, groups);
+      draw_lines(canvas, placed.view, lines);
+      draw_box(canvas, map, placed.view, false);
+      for (int i = 0; i < 3; ++i) draw_axis(canvas, map, placed.view, i);
     }
-    for (const Entry& entry : entries) draw_entry(context, entry);
+    for (const Entry& entry : entries) draw_entry(canvas, entry);
     if (sketch == nullptr) return;
-    set_ink(context, ink);
-    write_text(context, sample_posture_words, page_margin, bottom + 14, legend_font);
-    draw_alone(context, {page_margin, bottom + 14, width - 2 * page_margin, sketch_height - 14}, *sketch, reasons);
+    set_ink(canvas, ink);
+    write_text(canvas, sample_posture_words, page_margin, bottom + 14, legend_font);
+    draw_alone(canvas, {page_margin, bottom + 14, width - 2 * page_margin, sketch_height - 14}, *sketch, reasons);
   };
   std::string description;
   for (const SurfaceGroup& group : groups)

@@ -15,7 +15,6 @@ namespace {
 
 using core::StudyDesign;
 using core::StudyResult;
-using Context = Cairo::RefPtr<Cairo::Context>;
 using Status = StudyDesign::Status;
 
 constexpr Colour ink{0.13, 0.13, 0.13}, frame_colour{0.45, 0.45, 0.45}, plain{0.0, 0.5, 0.35};
@@ -78,14 +77,14 @@ class StudyDrawing {
             title(), description};
   }
 
-  void draw(const Context& context) const {
+  void draw(const Canvas& canvas) const {
     const Page own = page();
-    draw_page_head(context, head_);
+    draw_page_head(canvas, head_);
     const std::size_t n = result_.parameters.size();
     for (std::size_t row = 0; row < panels_; ++row)
       for (std::size_t column = 0; column <= (n < 2 ? 0 : row); ++column)
-        draw_panel(context, column, n < 2 ? std::optional<std::size_t>() : row + 1, row, column);
-    draw_legend(context, own.width - page_margin - legend_width, head_.bottom);
+        draw_panel(canvas, column, n < 2 ? std::optional<std::size_t>() : row + 1, row, column);
+    draw_legend(canvas, own.width - page_margin - legend_width, head_.bottom);
   }
 
  private:
@@ -133,7 +132,7 @@ class StudyDrawing {
     return number < most_reasons ? reason_colour(number) : Colour{0.85, 0.85, 0.85};
   }
 
-  void draw_panel(const Context& context, std::size_t x, std::optional<std::size_t> y, std::size_t row,
+  void draw_panel(const Canvas& canvas, std::size_t x, std::optional<std::size_t> y, std::size_t row,
                   std::size_t column) const {
     const double step = side_ + (panels_ > 1 ? 8 : 0);
     const Box box{page_margin + 60 + static_cast<double>(column) * step, head_.bottom + static_cast<double>(row) * step,
@@ -145,26 +144,25 @@ class StudyDrawing {
     const std::array<double, 2> across = range(x), up = y ? range(*y) : std::array{0.0, top_};
     const auto [wide, high] = mark_size(x, y, box);
     const Marks marks{box, across, up, wide, high};
-    context->save();
-    context->rectangle(box.x, box.y, box.width, box.height);
-    context->clip();
-    for (const core::StudyCell& own : result_.cells) draw_cell(context, own, box, across, up, x, y);
-    for (const std::size_t i : order_) draw_design(context, marks, result_.designs[i], x, y);
-    if (result_.tolerances) draw_tolerances(context, *result_.tolerances, box, across, up, x, y);
+    canvas.save();
+    canvas.rectangle(box.x, box.y, box.width, box.height);
+    canvas.clip();
+    for (const core::StudyCell& own : result_.cells) draw_cell(canvas, own, box, across, up, x, y);
+    for (const std::size_t i : order_) draw_design(canvas, marks, result_.designs[i], x, y);
+    if (result_.tolerances) draw_tolerances(canvas, *result_.tolerances, box, across, up, x, y);
     if (result_.best) {
       const StudyDesign& own = result_.designs[*result_.best];
-      set_colour(context, {0.85, 0.1, 0.1});
-      context->set_line_width(1.4);
-      context->arc(marks.x(own.values[x]), y ? marks.y(own.values[*y]) : marks.y(figure(own)), 5, 0,
-                   6.28318530717958648);
-      context->stroke();
+      set_colour(canvas, {0.85, 0.1, 0.1});
+      canvas.set_line_width(1.4);
+      canvas.arc(marks.x(own.values[x]), y ? marks.y(own.values[*y]) : marks.y(figure(own)), 5, 0, 6.28318530717958648);
+      canvas.stroke();
     }
-    context->restore();
-    set_colour(context, frame_colour);
-    context->set_line_width(0.8);
-    context->rectangle(box.x, box.y, box.width, box.height);
-    context->stroke();
-    draw_axes(context, box, across, up, x, y, row + 1 == panels_, column == 0);
+    canvas.restore();
+    set_colour(canvas, frame_colour);
+    canvas.set_line_width(0.8);
+    canvas.rectangle(box.x, box.y, box.width, box.height);
+    canvas.stroke();
+    draw_axes(canvas, box, across, up, x, y, row + 1 == panels_, column == 0);
   }
 
   /// Where designs lie in a panel, each with room for its mark.
@@ -184,22 +182,22 @@ class StudyDrawing {
   double height() const { return height_ > 0 ? height_ : side_; }
 
   /// Over one parameter the first figure goes up, and designs without it are bands.
-  void draw_design(const Context& context, const Marks& marks, const StudyDesign& own, std::size_t x,
+  void draw_design(const Canvas& canvas, const Marks& marks, const StudyDesign& own, std::size_t x,
                    std::optional<std::size_t> y) const {
-    set_colour(context, colour(own));
+    set_colour(canvas, colour(own));
     const double left = marks.x(own.values[x]) - marks.wide / 2;
     if (y)
-      context->rectangle(left, marks.y(own.values[*y]) - marks.high / 2 - overlap, marks.wide + overlap,
-                         marks.high + overlap);
+      canvas.rectangle(left, marks.y(own.values[*y]) - marks.high / 2 - overlap, marks.wide + overlap,
+                       marks.high + overlap);
     else if (own.status != Status::feasible || result_.figures.empty() || std::isnan(figure(own)))
-      context->rectangle(left, marks.box.y, marks.wide + overlap, marks.box.height);
+      canvas.rectangle(left, marks.box.y, marks.wide + overlap, marks.box.height);
     else
-      context->rectangle(left, marks.y(figure(own)), marks.wide + overlap, marks.box.bottom() - marks.y(figure(own)));
-    context->fill();
+      canvas.rectangle(left, marks.y(figure(own)), marks.wide + overlap, marks.box.bottom() - marks.y(figure(own)));
+    canvas.fill();
   }
 
   /// The box that is proven around the file's design.
-  static void draw_tolerances(const Context& context, const core::StudyCell& own, const Box& box,
+  static void draw_tolerances(const Canvas& canvas, const core::StudyCell& own, const Box& box,
                               const std::array<double, 2>& across, const std::array<double, 2>& up, std::size_t x,
                               std::optional<std::size_t> y) {
     const auto at = [](double value, const std::array<double, 2>& range, double from, double length) {
@@ -208,16 +206,15 @@ class StudyDrawing {
     const double left = at(own.lower[x], across, box.x, box.width), right = at(own.upper[x], across, box.x, box.width);
     const double top = y ? at(own.upper[*y], up, box.bottom(), -box.height) : box.y;
     const double bottom = y ? at(own.lower[*y], up, box.bottom(), -box.height) : box.bottom();
-    set_colour(context, {0.85, 0.1, 0.1});
-    context->set_line_width(1.6);
-    context->rectangle(left + 0.8, top + 0.8, right - left - 1.6, bottom - top - 1.6);
-    context->stroke();
+    set_colour(canvas, {0.85, 0.1, 0.1});
+    canvas.set_line_width(1.6);
+    canvas.rectangle(left + 0.8, top + 0.8, right - left - 1.6, bottom - top - 1.6);
+    canvas.stroke();
   }
 
   /// Of a proof over more than two parameters cells lie over one another: what verifies shows through.
-  void draw_cell(const Context& context, const core::StudyCell& own, const Box& box,
-                 const std::array<double, 2>& across, const std::array<double, 2>& up, std::size_t x,
-                 std::optional<std::size_t> y) const {
+  void draw_cell(const Canvas& canvas, const core::StudyCell& own, const Box& box, const std::array<double, 2>& across,
+                 const std::array<double, 2>& up, std::size_t x, std::optional<std::size_t> y) const {
     const auto part = [](double value, const std::array<double, 2>& range) {
       return (value - range[0]) / (range[1] - range[0]);
     };
@@ -228,10 +225,10 @@ class StudyDrawing {
     StudyDesign like;
     like.status = own.status;
     like.reason = own.reason;
-    set_colour(context, colour(like), result_.parameters.size() > 2 ? 0.25 : 1);
+    set_colour(canvas, colour(like), result_.parameters.size() > 2 ? 0.25 : 1);
     const double more = result_.parameters.size() > 2 ? 0 : overlap;
-    context->rectangle(left, top - more, right - left + more, bottom - top + more);
-    context->fill();
+    canvas.rectangle(left, top - more, right - left + more, bottom - top + more);
+    canvas.fill();
   }
 
   /// On a grid designs are cells; else they are dots that leave room for one another.
@@ -245,53 +242,53 @@ class StudyDrawing {
     return {share, share};
   }
 
-  void draw_axes(const Context& context, const Box& box, const std::array<double, 2>& across,
+  void draw_axes(const Canvas& canvas, const Box& box, const std::array<double, 2>& across,
                  const std::array<double, 2>& up, std::size_t x, std::optional<std::size_t> y, bool below,
                  bool beside) const {
-    set_colour(context, ink);
+    set_colour(canvas, ink);
     if (below) {
       const double unit = unit_of_axis(across);
       const double low = across[0] / unit, high = across[1] / unit;
       for (const Tick& tick : ticks(low, high, 52 / box.width * (high - low)))
-        write_text(context, tick.label, box.x + (tick.at - low) / (high - low) * box.width, box.bottom() + 13,
-                   tick_font, Align::centre);
-      write_text(context, result_.parameters[x] + words_of_unit(unit), box.x + box.width / 2, box.bottom() + 28,
+        write_text(canvas, tick.label, box.x + (tick.at - low) / (high - low) * box.width, box.bottom() + 13, tick_font,
+                   Align::centre);
+      write_text(canvas, result_.parameters[x] + words_of_unit(unit), box.x + box.width / 2, box.bottom() + 28,
                  label_font, Align::centre);
     }
     if (!beside || (!y && result_.figures.empty())) return;
     const double unit = unit_of_axis(up), low = up[0] / unit, high = up[1] / unit;
     for (const Tick& tick : ticks(low, high, 30 / box.height * (high - low)))
-      write_text(context, tick.label, box.x - 5, box.bottom() - (tick.at - low) / (high - low) * box.height + 3,
+      write_text(canvas, tick.label, box.x - 5, box.bottom() - (tick.at - low) / (high - low) * box.height + 3,
                  tick_font, Align::right);
-    context->save();
-    context->translate(page_margin + 12, box.y + box.height / 2);
-    context->rotate(-1.57079632679489662);
-    write_text(context,
+    canvas.save();
+    canvas.translate(page_margin + 12, box.y + box.height / 2);
+    canvas.rotate(-1.57079632679489662);
+    write_text(canvas,
                y ? result_.parameters[*y] + words_of_unit(unit)
                  : core::to_string(result_.figures.front()) + " (" + scale_.unit + ")" + words_of_unit(unit),
                0, 0, y ? label_font : legend_font, Align::centre);
-    context->restore();
+    canvas.restore();
   }
 
-  void draw_legend(const Context& context, double x, double y) const {
+  void draw_legend(const Canvas& canvas, double x, double y) const {
     const Measure measure = measure_in(legend_font);
     const auto entry = [&](const Colour& colour, const std::string& words) {
-      set_colour(context, colour);
-      context->rectangle(x, y + 1, 10, 10);
-      context->fill();
-      set_colour(context, ink);
+      set_colour(canvas, colour);
+      canvas.rectangle(x, y + 1, 10, 10);
+      canvas.fill();
+      set_colour(canvas, ink);
       for (const std::string& piece : wrap(printable(words), legend_width - 16, measure)) {
-        write_text(context, piece, x + 16, y + 9.5, legend_font);
+        write_text(canvas, piece, x + 16, y + 9.5, legend_font);
         y += 11.5;
       }
       y += 2;
     };
-    set_colour(context, ink);
+    set_colour(canvas, ink);
     if (!result_.figures.empty()) {
-      write_text(context, "feasible: " + core::to_string(result_.figures.front()) + " (" + scale_.unit + ")", x, y + 9,
+      write_text(canvas, "feasible: " + core::to_string(result_.figures.front()) + " (" + scale_.unit + ")", x, y + 9,
                  legend_font);
       y += 14;
-      draw_colour_bar(context, scale_, {x, y, legend_width, colour_bar_room});
+      draw_colour_bar(canvas, scale_, {x, y, legend_width, colour_bar_room});
       y += colour_bar_room + 8;
     } else {
       entry(plain, "feasible");
@@ -300,13 +297,13 @@ class StudyDrawing {
                     [](const core::StudyCell& c) { return c.status == Status::undecided; }))
       entry({0.25, 0.25, 0.25}, "undecided");
     if (result_.tolerances) {
-      set_colour(context, {0.85, 0.1, 0.1});
-      context->set_line_width(1.4);
-      context->rectangle(x + 0.7, y + 1.7, 8.6, 8.6);
-      context->stroke();
-      set_colour(context, ink);
+      set_colour(canvas, {0.85, 0.1, 0.1});
+      canvas.set_line_width(1.4);
+      canvas.rectangle(x + 0.7, y + 1.7, 8.6, 8.6);
+      canvas.stroke();
+      set_colour(canvas, ink);
       for (const std::string& piece : wrap("proven around the file's design", legend_width - 16, measure)) {
-        write_text(context, piece, x + 16, y + 9.5, legend_font);
+        write_text(canvas, piece, x + 16, y + 9.5, legend_font);
         y += 11.5;
       }
       y += 2;
@@ -314,12 +311,12 @@ class StudyDrawing {
     for (std::size_t i = 0; i < std::min(reasons_.size(), most_reasons); ++i) entry(reason_colour(i), reasons_[i]);
     if (reasons_.size() > most_reasons) entry({0.85, 0.85, 0.85}, "other reasons");
     if (result_.best) {
-      set_colour(context, {0.85, 0.1, 0.1});
-      context->set_line_width(1.4);
-      context->arc(x + 5, y + 6, 4.5, 0, 6.28318530717958648);
-      context->stroke();
-      set_colour(context, ink);
-      write_text(context, "best", x + 16, y + 9.5, legend_font);
+      set_colour(canvas, {0.85, 0.1, 0.1});
+      canvas.set_line_width(1.4);
+      canvas.arc(x + 5, y + 6, 4.5, 0, 6.28318530717958648);
+      canvas.stroke();
+      set_colour(canvas, ink);
+      write_text(canvas, "best", x + 16, y + 9.5, legend_font);
     }
   }
 
@@ -338,7 +335,7 @@ class StudyDrawing {
 
 std::string study_picture(const StudyResult& result, PictureFormat format) {
   const StudyDrawing drawing(result);
-  return render(drawing.page(), format, [&](const Context& context) { drawing.draw(context); });
+  return render(drawing.page(), format, [&](const Canvas& canvas) { drawing.draw(canvas); });
 }
 
 }  // namespace clearloci::report

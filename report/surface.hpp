@@ -2,7 +2,7 @@
 // Private to report/.
 #pragma once
 
-#include <cairomm/context.h>
+#include "report/canvas.hpp"
 
 #include <functional>
 #include <string>
@@ -18,7 +18,6 @@ struct Page {
 };
 
 /// The same drawing gives the same bytes. PNG has 2 pixels a point.
-std::string render(const Page& page, PictureFormat format,
-                   const std::function<void(const Cairo::RefPtr<Cairo::Context>&)>& draw);
+std::string render(const Page& page, PictureFormat format, const std::function<void(const Canvas&)>& draw);
 
 }  // namespace clearloci::report

@@ -23,7 +23,6 @@
 namespace clearloci::report {
 namespace {
 
-using Context = Cairo::RefPtr<Cairo::Context>;
 using Pose = std::vector<double>;
 using Place = std::array<double, 2>;
 
@@ -113,16 +112,16 @@ class Panel {
   Panel(const core::Verification& result, const Pair& pair, const std::vector<Range>& ranges, Box box)
       : result_(result), pair_(pair), box_(box), x_(ranges[pair.x]), y_(pair.y ? ranges[*pair.y] : Range{0, 1}) {}
 
-  void draw(const Context& context, const Extent& task) const {
-    context->save();
-    context->rectangle(box_.x, box_.y, box_.width, box_.height);
-    context->clip();
-    draw_shape(context, task);
-    draw_open(context);
-    if (result_.nearest) draw_nearest(context, result_.nearest->at);
-    if (result_.witness) draw_ring(context, result_.witness->at);
-    context->restore();
-    draw_axes(context);
+  void draw(const Canvas& canvas, const Extent& task) const {
+    canvas.save();
+    canvas.rectangle(box_.x, box_.y, box_.width, box_.height);
+    canvas.clip();
+    draw_shape(canvas, task);
+    draw_open(canvas);
+    if (result_.nearest) draw_nearest(canvas, result_.nearest->at);
+    if (result_.witness) draw_ring(canvas, result_.witness->at);
+    canvas.restore();
+    draw_axes(canvas);
   }
 
  private:
@@ -131,26 +130,26 @@ class Panel {
   Place at(const Pose& pose) const { return {at_x(pose[pair_.x]), at_y(pair_.y ? pose[*pair_.y] : 0.5)}; }
 
   /// Where it has no width it is a line.
-  void rectangle(const Context& context, const Extent& extent) const {
+  void rectangle(const Canvas& canvas, const Extent& extent) const {
     const double left = at_x(extent.lower[pair_.x]), right = at_x(extent.upper[pair_.x]);
     const double low = pair_.y ? at_y(extent.lower[*pair_.y]) : at_y(0.3);
     const double high = pair_.y ? at_y(extent.upper[*pair_.y]) : at_y(0.7);
-    context->rectangle(left, high, right - left, low - high);
+    canvas.rectangle(left, high, right - left, low - high);
   }
 
-  void ellipse(const Context& context, const Extent& task) const {
+  void ellipse(const Canvas& canvas, const Extent& task) const {
     const double rx = 0.5 * (at_x(task.upper[pair_.x]) - at_x(task.lower[pair_.x]));
     const double ry = 0.5 * (at_y(task.lower[*pair_.y]) - at_y(task.upper[*pair_.y]));
-    context->save();
-    context->translate(at_x(task.lower[pair_.x]) + rx, at_y(task.upper[*pair_.y]) + ry);
-    context->scale(std::max(rx, 1e-3), std::max(ry, 1e-3));
-    context->begin_new_sub_path();
-    context->arc(0, 0, 1, 0, 2 * std::numbers::pi);
-    context->restore();
+    canvas.save();
+    canvas.translate(at_x(task.lower[pair_.x]) + rx, at_y(task.upper[*pair_.y]) + ry);
+    canvas.scale(std::max(rx, 1e-3), std::max(ry, 1e-3));
+    canvas.begin_new_sub_path();
+    canvas.arc(0, 0, 1, 0, 2 * std::numbers::pi);
+    canvas.restore();
   }
 
   /// All turned alike, so that together they fill what any of them covers.
-  void triangles(const Context& context, const core::TaskMesh& mesh) const {
+  void triangles(const Canvas& canvas, const core::TaskMesh& mesh) const {
     for (const std::array<int, 3>& own : mesh.triangles) {
       std::array<Place, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -159,102 +158,102 @@ class Panel {
       }
       const auto& [a, b, c] = corners;
       if ((b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0])) std::swap(corners[1], corners[2]);
-      context->move_to(corners[0][0], corners[0][1]);
-      for (std::size_t i = 1; i < 3; ++i) context->line_to(corners[i][0], corners[i][1]);
-      context->close_path();
+      canvas.move_to(corners[0][0], corners[0][1]);
+      for (std::size_t i = 1; i < 3; ++i) canvas.line_to(corners[i][0], corners[i][1]);
+      canvas.close_path();
     }
   }
 
   /// True where it has an inside.
-  bool trace(const Context& context, const Extent& task) const {
-    context->begin_new_path();
+  bool trace(const Canvas& canvas, const Extent& task) const {
+    canvas.begin_new_path();
     const auto* path = std::get_if<core::TaskPath>(&result_.task.shape);
     if (path != nullptr && pair_.y) {
       for (const core::RationalPose& point : path->points) {
         const Place place = at(core::rounded(point));
-        context->line_to(place[0], place[1]);
+        canvas.line_to(place[0], place[1]);
       }
       return false;
     }
     const auto* mesh = std::get_if<core::TaskMesh>(&result_.task.shape);
     if (mesh != nullptr)
-      triangles(context, *mesh);
+      triangles(canvas, *mesh);
     else if (pair_.y && std::holds_alternative<core::TaskBall>(result_.task.shape))
-      ellipse(context, task);
+      ellipse(canvas, task);
     else
-      rectangle(context, task);
+      rectangle(canvas, task);
     return true;
   }
 
   /// With a pen as wide as the margin, which counts otherwise along each coordinate.
-  void draw_margin(const Context& context, const Extent& task, double x, double y) const {
+  void draw_margin(const Canvas& canvas, const Extent& task, double x, double y) const {
     constexpr double least = 0.25;  // pt
-    trace(context, task);
-    context->save();
-    context->scale(std::max(x / x_.width() * box_.width, least),
-                   pair_.y ? std::max(y / y_.width() * box_.height, least) : least);
-    context->set_line_width(2);
-    context->set_line_join(Cairo::Context::LineJoin::ROUND);
-    context->set_line_cap(Cairo::Context::LineCap::ROUND);
-    set_colour(context, faint(colour_of(result_), 0.18));
-    context->stroke();
-    context->restore();
+    trace(canvas, task);
+    canvas.save();
+    canvas.scale(std::max(x / x_.width() * box_.width, least),
+                 pair_.y ? std::max(y / y_.width() * box_.height, least) : least);
+    canvas.set_line_width(2);
+    canvas.set_line_join(LineJoin::round);
+    canvas.set_line_cap(LineCap::round);
+    set_colour(canvas, faint(colour_of(result_), 0.18));
+    canvas.stroke();
+    canvas.restore();
   }
 
-  void draw_shape(const Context& context, const Extent& task) const {
+  void draw_shape(const Canvas& canvas, const Extent& task) const {
     const double along_x = room_along(result_, pair_.x), along_y = pair_.y ? room_along(result_, *pair_.y) : 0;
     // Margins of lengths and of angles that are apart hold one at a time.
     const bool apart = pair_.y && !result_.task.angle_length && result_.angles[pair_.x] != result_.angles[*pair_.y];
     if (apart) {
-      draw_margin(context, task, along_x, 0);
-      draw_margin(context, task, 0, along_y);
+      draw_margin(canvas, task, along_x, 0);
+      draw_margin(canvas, task, 0, along_y);
     } else if (along_x > 0 || along_y > 0) {
-      draw_margin(context, task, along_x, along_y);
+      draw_margin(canvas, task, along_x, along_y);
     }
-    if (trace(context, task)) {
-      set_colour(context, faint(colour_of(result_), 0.4));
-      context->fill_preserve();
+    if (trace(canvas, task)) {
+      set_colour(canvas, faint(colour_of(result_), 0.4));
+      canvas.fill_preserve();
     }
-    if (std::holds_alternative<core::TaskMesh>(result_.task.shape)) return context->begin_new_path();
-    set_colour(context, colour_of(result_));
-    context->set_line_width(1.6);
-    if (!result_.verified()) context->set_dash(std::vector<double>{5, 4}, 0);
-    context->stroke();
-    context->unset_dash();
+    if (std::holds_alternative<core::TaskMesh>(result_.task.shape)) return canvas.begin_new_path();
+    set_colour(canvas, colour_of(result_));
+    canvas.set_line_width(1.6);
+    if (!result_.verified()) canvas.set_dash({5, 4});
+    canvas.stroke();
+    canvas.set_dash({});
   }
 
-  void draw_open(const Context& context) const {
+  void draw_open(const Canvas& canvas) const {
     if (!result_.open || result_.open->lower.empty()) return;
-    rectangle(context, {result_.open->lower, result_.open->upper});
-    set_colour(context, light_theme.frame, 0.35);
-    context->fill_preserve();
-    context->set_line_width(1);
-    set_colour(context, light_theme.frame);
-    context->stroke();
+    rectangle(canvas, {result_.open->lower, result_.open->upper});
+    set_colour(canvas, light_theme.frame, 0.35);
+    canvas.fill_preserve();
+    canvas.set_line_width(1);
+    set_colour(canvas, light_theme.frame);
+    canvas.stroke();
   }
 
-  void draw_nearest(const Context& context, const Pose& pose) const {
+  void draw_nearest(const Canvas& canvas, const Pose& pose) const {
     constexpr double r = 4;
     const Place p = at(pose);
-    set_colour(context, light_theme.ink);
-    context->set_line_width(1.5);
+    set_colour(canvas, light_theme.ink);
+    canvas.set_line_width(1.5);
     if (!pair_.y) {
-      context->move_to(p[0], box_.y), context->line_to(p[0], box_.bottom());
-      return context->stroke();
+      canvas.move_to(p[0], box_.y), canvas.line_to(p[0], box_.bottom());
+      return canvas.stroke();
     }
-    context->move_to(p[0] - r, p[1] - r), context->line_to(p[0] + r, p[1] + r);
-    context->move_to(p[0] - r, p[1] + r), context->line_to(p[0] + r, p[1] - r);
-    context->stroke();
+    canvas.move_to(p[0] - r, p[1] - r), canvas.line_to(p[0] + r, p[1] + r);
+    canvas.move_to(p[0] - r, p[1] + r), canvas.line_to(p[0] + r, p[1] - r);
+    canvas.stroke();
   }
 
-  void draw_ring(const Context& context, const Pose& pose) const {
+  void draw_ring(const Canvas& canvas, const Pose& pose) const {
     const Place p = at(pose);
     for (const double width : {4.0, 1.8}) {  // white below, so that it shows on every colour
-      width > 2 ? context->set_source_rgb(1, 1, 1) : set_colour(context, light_theme.failed);
-      context->set_line_width(width);
-      context->begin_new_sub_path();
-      context->arc(p[0], p[1], 5, 0, 2 * std::numbers::pi);
-      context->stroke();
+      width > 2 ? canvas.set_source_rgb(1, 1, 1) : set_colour(canvas, light_theme.failed);
+      canvas.set_line_width(width);
+      canvas.begin_new_sub_path();
+      canvas.arc(p[0], p[1], 5, 0, 2 * std::numbers::pi);
+      canvas.stroke();
     }
   }
 
@@ -271,27 +270,27 @@ class Panel {
                              : ticks(range.lower * factor, range.upper * factor, least * factor);
   }
 
-  void draw_axes(const Context& context) const {
+  void draw_axes(const Canvas& canvas) const {
     constexpr double least_gap = 46, least_gap_up = 24;  // pt between ticks
-    set_colour(context, light_theme.frame);
-    context->set_line_width(0.8);
-    context->rectangle(box_.x, box_.y, box_.width, box_.height);
-    context->stroke();
+    set_colour(canvas, light_theme.frame);
+    canvas.set_line_width(0.8);
+    canvas.rectangle(box_.x, box_.y, box_.width, box_.height);
+    canvas.stroke();
     for (const Tick& tick : marks(pair_.x, x_, least_gap / box_.width * x_.width())) {
       const double x = at_x(tick.at / shown(pair_.x));
-      context->move_to(x, box_.bottom()), context->line_to(x, box_.bottom() + 3);
-      context->stroke();
-      write_text(context, tick.label, x, box_.bottom() + 12, tick_font, Align::centre);
+      canvas.move_to(x, box_.bottom()), canvas.line_to(x, box_.bottom() + 3);
+      canvas.stroke();
+      write_text(canvas, tick.label, x, box_.bottom() + 12, tick_font, Align::centre);
     }
-    write_text(context, label(pair_.x), box_.x + 0.5 * box_.width, box_.bottom() + 24, label_font, Align::centre);
+    write_text(canvas, label(pair_.x), box_.x + 0.5 * box_.width, box_.bottom() + 24, label_font, Align::centre);
     if (!pair_.y) return;
     for (const Tick& tick : marks(*pair_.y, y_, least_gap_up / box_.height * y_.width())) {
       const double y = at_y(tick.at / shown(*pair_.y));
-      context->move_to(box_.x - 3, y), context->line_to(box_.x, y);
-      context->stroke();
-      write_text(context, tick.label, box_.x - 5, y + 3, tick_font, Align::right);
+      canvas.move_to(box_.x - 3, y), canvas.line_to(box_.x, y);
+      canvas.stroke();
+      write_text(canvas, tick.label, box_.x - 5, y + 3, tick_font, Align::right);
     }
-    write_text(context, label(*pair_.y), box_.x - 4, box_.y - 5, label_font, Align::right);
+    write_text(canvas, label(*pair_.y), box_.x - 4, box_.y - 5, label_font, Align::right);
   }
 
   const core::Verification& result_;
@@ -378,18 +377,18 @@ std::string task_panels(const core::Verification& result, PictureFormat format) 
   }
   const std::string title = printable(result.mechanism);
 
-  const auto draw = [&](const Context& context) {
-    draw_page_head(context, page);
+  const auto draw = [&](const Canvas& canvas) {
+    draw_page_head(canvas, page);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const std::size_t row = k / columns;
       const Box box{left + static_cast<double>(k % columns) * (width + gap),
                     head + static_cast<double>(row) * (height + gap), width, height};
-      Panel(result, pairs[k], ranges, box).draw(context, task);
+      Panel(result, pairs[k], ranges, box).draw(canvas, task);
     }
     double at = below;
-    set_colour(context, light_theme.ink);
+    set_colour(canvas, light_theme.ink);
     for (const std::string& line : legend) {
-      write_text(context, line, left, at, legend_font);
+      write_text(canvas, line, left, at, legend_font);
       at += legend_line_height;
     }
   };

@@ -1,8 +1,8 @@
-// Text on a Cairo surface: one family, measured the same way for every kind of surface.
+// Text on a canvas: one family, measured the same way for every kind of picture.
 // Private to report/.
 #pragma once
 
-#include <cairomm/context.h>
+#include "report/canvas.hpp"
 
 #include <string>
 
@@ -18,8 +18,7 @@ struct Font {
 
 enum class Align { left, centre, right };
 
-/// Sets the font on a context. Metrics are not rounded to pixels, so that SVG, PDF and PNG break lines alike.
-void choose_font(const Cairo::RefPtr<Cairo::Context>& context, const Font& font);
+void choose_font(const Canvas& canvas, const Font& font);
 
 /// Finds the fonts and opens them, which the first letters of a process would wait for: some milliseconds.
 void load_fonts();
@@ -31,7 +30,7 @@ double text_width(const std::string& text, const Font& font);
 Measure measure_in(const Font& font);
 
 /// Writes `text` with its baseline at y and its left end, middle or right end at x, in the current colour.
-void write_text(const Cairo::RefPtr<Cairo::Context>& context, const std::string& text, double x, double y,
-                const Font& font, Align align = Align::left);
+void write_text(const Canvas& canvas, const std::string& text, double x, double y, const Font& font,
+                Align align = Align::left);
 
 }  // namespace clearloci::report

@@ -44,9 +44,9 @@ struct Corner {
   Point3 normal{};
 };
 
-class Canvas {
+class Shader {
  public:
-  Canvas(const View& view, const Shading& shading, core::Point2 left_top, int width, int height, double per_point)
+  Shader(const View& view, const Shading& shading, core::Point2 left_top, int width, int height, double per_point)
       : view_(view),
         shading_(shading),
         left_top_(left_top),
@@ -276,9 +276,9 @@ View view_of(const core::LocusMap& map, double azimuth, double elevation) {
 
 std::vector<std::uint32_t> shade(const View& view, const std::vector<ShadedSurface>& surfaces, const Shading& shading,
                                  core::Point2 left_top, int width, int height, double per_point) {
-  Canvas canvas(view, shading, left_top, width, height, per_point);
-  for (const ShadedSurface& surface : surfaces) canvas.add(surface);
-  return canvas.pixels();
+  Shader shader(view, shading, left_top, width, height, per_point);
+  for (const ShadedSurface& surface : surfaces) shader.add(surface);
+  return shader.pixels();
 }
 
 }  // namespace clearloci::report

@@ -8,8 +8,6 @@
 namespace clearloci::report {
 namespace {
 
-using Context = Cairo::RefPtr<Cairo::Context>;
-
 constexpr const auto& fills = light_theme.zones;
 constexpr double fill_strength = light_theme.zone_strength;
 constexpr Colour circle_colour = light_theme.circle;
@@ -26,38 +24,38 @@ void for_each_zone(const Subject& subject, const Action& action) {
 
 }  // namespace
 
-void draw_zones(const Context& context, const Subject& subject, const Layout& layout) {
+void draw_zones(const Canvas& canvas, const Subject& subject, const Layout& layout) {
   for_each_zone(subject, [&](const core::Zone& zone, std::size_t number) {
     const auto add = [&](const core::Polyline& ring) {
-      context->begin_new_sub_path();
+      canvas.begin_new_sub_path();
       for (const core::Point2& p : ring) {
         const core::Point2 at = layout.page(p);
-        context->line_to(at[0], at[1]);
+        canvas.line_to(at[0], at[1]);
       }
-      context->close_path();
+      canvas.close_path();
     };
     add(zone.outer);
     for (const core::Polyline& hole : zone.holes) add(hole);
-    context->set_fill_rule(Cairo::Context::FillRule::EVEN_ODD);
-    set_colour(context, zone_colour(number), fill_strength);
-    context->fill();
-    context->set_fill_rule(Cairo::Context::FillRule::WINDING);
+    canvas.set_fill_rule(FillRule::even_odd);
+    set_colour(canvas, zone_colour(number), fill_strength);
+    canvas.fill();
+    canvas.set_fill_rule(FillRule::winding);
   });
 }
 
-void draw_zone_numbers(const Context& context, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
+void draw_zone_numbers(const Canvas& canvas, const Subject& subject, const Layout& layout, LabelPlaces& labels) {
   const bool circles = subject.task == nullptr;  // a task's picture tells of the task
   for_each_zone(subject, [&](const core::Zone& zone, std::size_t) {
     const core::Point2 at = layout.page({zone.ball.centre[0], zone.ball.centre[1]});
     const double radius = zone.ball.radius * layout.scale[0];
     if (circles) {
-      set_colour(context, circle_colour, 0.8);
-      context->set_line_width(0.7);
-      context->set_dash(std::vector<double>{3, 2}, 0);
-      context->begin_new_sub_path();
-      context->arc(at[0], at[1], radius, 0, 2 * std::numbers::pi);
-      context->stroke();
-      context->unset_dash();
+      set_colour(canvas, circle_colour, 0.8);
+      canvas.set_line_width(0.7);
+      canvas.set_dash({3, 2});
+      canvas.begin_new_sub_path();
+      canvas.arc(at[0], at[1], radius, 0, 2 * std::numbers::pi);
+      canvas.stroke();
+      canvas.set_dash({});
     }
     if (radius < least_numbered) return;
     std::vector<core::Point2> places = {at};
@@ -66,17 +64,17 @@ void draw_zone_numbers(const Context& context, const Subject& subject, const Lay
         places.push_back({at[0] + away * radius * std::cos(std::numbers::pi / 4 * k),
                           at[1] + away * radius * std::sin(std::numbers::pi / 4 * k)});
     const core::Point2 middle = labels.take(places, text_width(zone.id, number_font) + 4, number_font.size + 2);
-    set_colour(context, {0.1, 0.1, 0.1});
-    write_text(context, zone.id, middle[0], middle[1] + 0.36 * number_font.size, number_font, Align::centre);
+    set_colour(canvas, {0.1, 0.1, 0.1});
+    write_text(canvas, zone.id, middle[0], middle[1] + 0.36 * number_font.size, number_font, Align::centre);
   });
 }
 
-void draw_zone_sample(const Context& context, double x, double y, double width) {
+void draw_zone_sample(const Canvas& canvas, double x, double y, double width) {
   constexpr int shown = 3;
   for (int i = 0; i < shown; ++i) {
-    context->rectangle(x + i * width / shown, y - 4.5, width / shown, 9);
-    set_colour(context, fills[static_cast<std::size_t>(i)], fill_strength);
-    context->fill();
+    canvas.rectangle(x + i * width / shown, y - 4.5, width / shown, 9);
+    set_colour(canvas, fills[static_cast<std::size_t>(i)], fill_strength);
+    canvas.fill();
   }
 }
 

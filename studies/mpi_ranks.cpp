@@ -1,37 +1,26 @@
 #include "studies/mpi_ranks.hpp"
 
-#include <mpi.h>
+#include <dlfcn.h>
 
-#include <chrono>
 #include <cstdlib>
-#include <thread>
 
 #include "core/errors.hpp"
+#include "studies/mpi_calls.hpp"
 
 namespace clearloci {
 namespace {
 
-constexpr int tag = 1;
-
-std::optional<std::pair<int, std::string>> poll(int from) {
-  int here = 0;
-  MPI_Status status;
-  MPI_Iprobe(from, tag, MPI_COMM_WORLD, &here, &status);
-  if (here == 0) return std::nullopt;
-  int size = 0;
-  MPI_Get_count(&status, MPI_CHAR, &size);
-  std::string message(static_cast<std::size_t>(size), '\0');
-  MPI_Recv(message.data(), size, MPI_CHAR, status.MPI_SOURCE, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  return std::pair(status.MPI_SOURCE, std::move(message));
-}
-
-/// MPI's own receive spins; a rank that waits leaves its core to others.
-std::string receive() {
-  constexpr std::chrono::microseconds least(50), most(2000);
-  for (auto pause = least;; pause = std::min(2 * pause, most)) {
-    if (auto message = poll(0)) return std::move(message->second);
-    std::this_thread::sleep_for(pause);
-  }
+/// The module is beside the program, where the program's run path leads. MPI's own plugins look for its functions among
+/// those of all.
+MpiCalls& start_mpi() {
+  void* const module = dlopen("clearloci_mpi.so", RTLD_NOW | RTLD_GLOBAL);
+  const char* const failure = module == nullptr ? dlerror() : nullptr;
+  void* const start = module == nullptr ? nullptr : dlsym(module, "clearloci_start_mpi");
+  if (start == nullptr)
+    throw core::InputError(
+        {}, std::string("MPI cannot be loaded: ") + (failure != nullptr ? failure : "not its module"),
+        "install libopenmpi-dev and build again with -D CLEARLOCI_MPI=ON, or start it without mpirun");
+  return *reinterpret_cast<decltype(&clearloci_start_mpi)>(start)();
 }
 
 }  // namespace
@@ -42,23 +31,14 @@ bool started_by_mpi() {
   return false;
 }
 
-MpiRanks::MpiRanks() {
-  int provided = 0;
-  // Threads work; the one that came here speaks.
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
-  MPI_Comm_rank(MPI_COMM_WORLD, &ranks_.rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &ranks_.size);
-  ranks_.send = [](int to, const std::string& message) {
-    MPI_Send(message.data(), static_cast<int>(message.size()), MPI_CHAR, to, tag, MPI_COMM_WORLD);
-  };
-  ranks_.receive = receive;
-  ranks_.poll = [] { return poll(MPI_ANY_SOURCE); };
-}
+MpiRanks::MpiRanks() : calls_(start_mpi()) {}
 
-MpiRanks::~MpiRanks() { MPI_Finalize(); }
+MpiRanks::~MpiRanks() { calls_.finish(); }
+
+const StudyRanks& MpiRanks::ranks() const { return calls_.ranks; }
 
 void MpiRanks::abort(int status) const {
-  MPI_Abort(MPI_COMM_WORLD, status);
+  calls_.abort(status);
   std::_Exit(status);
 }
 

@@ -1,8 +1,6 @@
 // Studies on more than one machine: the processes that mpirun or srun started, by MPI (docs/cluster.md). A target of
-// its own, which the program links: the library asks for no MPI.
+// its own, which the program links: the library asks for no MPI, and the program loads it when it is started by it.
 #pragma once
-
-#include <memory>
 
 #include "clearloci/study.hpp"
 
@@ -11,7 +9,9 @@ namespace clearloci {
 /// Whether this process is one of several that MPI started.
 bool started_by_mpi();
 
-/// MPI for as long as it lives; once in a process. Throws core::InputError where this build knows no MPI.
+struct MpiCalls;
+
+/// MPI for as long as it lives; once in a process. Throws core::InputError where MPI cannot be loaded.
 class MpiRanks {
  public:
   MpiRanks();
@@ -19,13 +19,13 @@ class MpiRanks {
   MpiRanks(const MpiRanks&) = delete;
   MpiRanks& operator=(const MpiRanks&) = delete;
 
-  const StudyRanks& ranks() const { return ranks_; }
+  const StudyRanks& ranks() const;
 
   /// Ends every rank.
   [[noreturn]] void abort(int status) const;
 
  private:
-  StudyRanks ranks_;
+  MpiCalls& calls_;
 };
 
 }  // namespace clearloci

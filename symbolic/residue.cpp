@@ -98,8 +98,8 @@ Element opposite(Element a) {
 
 }  // namespace
 
-const Element& Extension::square_of(const Element& a) const {
-  return squares_[static_cast<std::size_t>(std::countr_zero(a.size())) - 1];
+const Element& Extension::square_of(std::size_t size) const {
+  return squares_[static_cast<std::size_t>(std::countr_zero(size)) - 1];
 }
 
 Element Extension::adjoin(Element square) {
@@ -116,22 +116,44 @@ Element Extension::add(const Element& a, const Element& b) {
 
 Element Extension::multiply(const Element& a, const Element& b) const {
   if (a.size() < b.size()) return multiply(b, a);
+  Element product(a.size()), scratch(3 * a.size());
+  multiply(a, b, product, scratch);
+  return product;
+}
+
+/// a0 + a1 t times b0 + b1 t is a0 b0 + a1 b1 t^2 + (a0 b1 + a1 b0) t.
+void Extension::multiply(std::span<const Residue> a, std::span<const Residue> b, std::span<Residue> product,
+                         std::span<Residue> scratch) const {
+  if (a.size() < b.size()) return multiply(b, a, product, scratch);
   if (b.size() == 1) {
-    Element product = a;
-    for (Residue& part : product) part = part * b[0];
-    return product;
+    for (std::size_t i = 0; i < a.size(); ++i) product[i] = a[i] * b[0];
+    return;
   }
   const std::size_t half = a.size() / 2;
-  const Element a0 = lower_half(a), a1 = upper_half(a);
-  if (b.size() < a.size()) return joined(multiply(a0, b), multiply(a1, b), half);
-  const Element b0 = lower_half(b), b1 = upper_half(b);
-  return joined(add(multiply(a0, b0), multiply(multiply(a1, b1), square_of(a))),
-                add(multiply(a0, b1), multiply(a1, b0)), half);
+  const auto a0 = a.first(half), a1 = a.last(half);
+  const auto low = product.first(half), high = product.last(half);
+  if (b.size() < a.size()) {
+    multiply(a0, b, low, scratch);
+    multiply(a1, b, high, scratch);
+    return;
+  }
+  const auto b0 = b.first(half), b1 = b.last(half);
+  const auto part = scratch.first(half), other = scratch.subspan(half, half), rest = scratch.subspan(2 * half);
+  const auto add_to = [](std::span<Residue> sum, std::span<const Residue> term) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = sum[i] + term[i];
+  };
+  multiply(a0, b0, low, rest);
+  multiply(a1, b1, part, rest);
+  multiply(part, square_of(a.size()), other, rest);
+  add_to(low, other);
+  multiply(a0, b1, high, rest);
+  multiply(a1, b0, part, rest);
+  add_to(high, part);
 }
 
 Element Extension::conjugate_product(const Element& a) const {
   const Element a0 = lower_half(a), a1 = upper_half(a);
-  Element product = add(multiply(a0, a0), opposite(multiply(multiply(a1, a1), square_of(a))));
+  Element product = add(multiply(a0, a0), opposite(multiply(multiply(a1, a1), square_of(a.size()))));
   product.resize(a.size() / 2);
   return product;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/rational.hpp"
@@ -53,8 +54,11 @@ class Extension {
   std::optional<Element> inverse(const Element& a) const;
 
  private:
-  /// Of the last root that an element is written with.
-  const Element& square_of(const Element& a) const;
+  /// `product`: as long as the longer factor; `scratch`: three times as long.
+  void multiply(std::span<const Residue> a, std::span<const Residue> b, std::span<Residue> product,
+                std::span<Residue> scratch) const;
+  /// Of the last root that an element of this size is written with.
+  const Element& square_of(std::size_t size) const;
   /// (a + b t) (a - b t).
   Element conjugate_product(const Element& a) const;
 

@@ -336,10 +336,12 @@ bool Poly::square_root(Poly& root) const {
 core::Polynomial Poly::plain(const std::vector<int>& variables) const {
   core::Polynomial result;
   result.variables = static_cast<int>(variables.size());
+  result.terms.reserve(length());
   Fmpq coefficient;
   for (slong term = 0; term < static_cast<slong>(length()); ++term) {
     const std::vector<ulong> exponents = exponents_of(*this, term);
     core::Term plain_term;
+    plain_term.exponents.reserve(variables.size());
     ulong kept = 0;
     for (const int variable : variables) {
       plain_term.exponents.push_back(static_cast<int>(exponents[static_cast<std::size_t>(variable)]));

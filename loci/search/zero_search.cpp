@@ -163,6 +163,7 @@ void ZeroSearch::exclude_by_values(Candidate& candidate, const SheetCell& cell, 
   candidate.excluded = !inside || excludes_zero([&](int f) { return cell.value(f); });
   if (candidate.excluded) return;
   const PlaneCell& place = candidate.own->cell;
+  candidate.all.reserve(2 + static_cast<std::size_t>(program_->roots()));
   candidate.all.assign({place.x, place.y});
   for (int j = 0; j < program_->roots(); ++j) candidate.all.push_back(cell.root(j));
   candidate.lifted = cell.lifted();
@@ -182,6 +183,7 @@ void ZeroSearch::exclude_by_slopes(Candidate& candidate, const SheetCell& cell) 
 
 void ZeroSearch::put_box_around(Candidate& candidate) const {
   candidate.box.clear();
+  candidate.box.reserve(2 + candidate.lifted.size());
   const auto is_free = [&](std::size_t c) {
     return c >= 2 || std::find(system_.free.begin(), system_.free.end(), static_cast<int>(c)) != system_.free.end();
   };
@@ -209,16 +211,17 @@ void ZeroSearch::count_in_box(Candidate& candidate, SheetCell& cell, bool has_bo
 void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& next) {
   const auto count = static_cast<std::size_t>(last - first);
   candidates_.resize(std::max(candidates_.size(), count));
-  Group open(count);
+  Group open(count), chosen;
+  chosen.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     open[i] = i;
     candidates_[i].own = first + i;
   }
-  const auto those = [&](const auto& condition) {
-    Group group;
+  const auto those = [&](const auto& condition) -> const Group& {
+    chosen.clear();
     for (const std::size_t i : open)
-      if (condition(candidates_[i])) group.push_back(i);
-    return group;
+      if (condition(candidates_[i])) chosen.push_back(i);
+    return chosen;
   };
   const auto drop_excluded = [&] { std::erase_if(open, [&](std::size_t i) { return candidates_[i].excluded; }); };
   enclose(open, Extent::cell, false,
@@ -236,7 +239,7 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
   exclude_smoothly(those([](const Candidate& own) { return own.count == ZeroCount::unknown; }));
   drop_excluded();
   for (int trial = 0; trial < most_widenings; ++trial) {
-    const Group wider =
+    const Group& wider =
         those([](Candidate& own) { return own.has_box && own.count == ZeroCount::unknown && widen(own); });
     enclose(wider, Extent::box, true, [&](Candidate& own, const SheetCell& cell, bool has_box) {
       const ZeroCount found = has_box ? krawczyk(cell, system_, own.image) : ZeroCount::unknown;

@@ -46,6 +46,7 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
   if (!invert(middle.entries, inverse.entries, inverse.n)) return ZeroCount::unknown;
 
   bool contracted = true, none = false;
+  image.reserve(static_cast<std::size_t>(cell.dimension()));
   for (int c = 0; c < cell.dimension(); ++c) image.push_back(cell.local(c));
   for (int i = 0; i < n; ++i) {
     const int own = coordinate(i);

@@ -157,6 +157,7 @@ void SheetCell::project_slopes() {
 
   const auto project = [&](std::vector<Interval>& slopes) {
     reduce(gradient_);
+    slopes.reserve(2 + lifted_.size());
     slopes.assign({gradient_[0], gradient_[1]});
     for (const int j : lifted_) slopes.push_back(gradient_[2 + j]);
   };

@@ -63,8 +63,11 @@ Subtower subtower(const core::RootTower& whole, const core::WorkingMode& mode,
 
 core::Polynomial narrowed(const core::Polynomial& p, const Subtower& part) {
   core::Polynomial result{2 + static_cast<int>(part.kept.size()), {}};
+  result.terms.reserve(p.terms.size());
   for (const core::Term& term : p.terms) {
-    std::vector<int> exponents = {term.exponents[0], term.exponents[1]};
+    std::vector<int> exponents;
+    exponents.reserve(2 + part.kept.size());
+    exponents.assign({term.exponents[0], term.exponents[1]});
     for (const int j : part.kept) exponents.push_back(term.exponents[2 + j]);
     for (const int j : part.dropped) core::ensure(term.exponents[2 + j] == 0, "a dropped root does not occur");
     result.terms.push_back({std::move(exponents), term.coefficient});

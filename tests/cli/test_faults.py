@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -17,6 +18,35 @@ EXAMPLES = SOURCE / "examples"
 TASK = EXAMPLES / "tasks" / "pick_and_place.yaml"
 POSE = ("pose", FIVE_BAR, "--at", "0.25,-0.7")
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]")
+
+
+class MissingLibraries(InOwnFolder):
+    """What is loaded when it is asked for, and is not there: one line says so, and every other call works."""
+
+    def run_with(self, environment, *words, program=PROGRAM):
+        return subprocess.run(
+            [program, *map(str, words)],
+            cwd=self.folder,
+            env={**os.environ, **environment},
+            capture_output=True,
+            text=True,
+        )
+
+    def test_pictures_without_cairo(self):
+        (self.folder / "libcairo.so.2").touch()
+        broken = {"LD_LIBRARY_PATH": str(self.folder)}
+        refused = self.run_with(broken, "loci", FIVE_BAR, "--export", "svg", "-o", "pictures")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertRegex(refused.stderr, r"\Aclearloci: pictures need the library libcairo\.so\.2[^\n]+\n\Z")
+        others = self.run_with(broken, "loci", FIVE_BAR, "--export", "json,csv", "-o", "tables")
+        self.assertEqual(others.returncode, 0, others.stderr)
+
+    def test_ranks_without_mpi(self):
+        alone = shutil.copy(PROGRAM, self.folder / "clearloci")
+        words = ("design", FIVE_BAR, EXAMPLES / "studies" / "link_lengths.yaml")
+        refused = self.run_with({"OMPI_COMM_WORLD_SIZE": "2"}, *words, program=alone)
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertRegex(refused.stderr, r"\Aclearloci: MPI cannot be loaded: [^\n]+\n\Z")
 
 
 class Complaints(InOwnFolder):

@@ -58,7 +58,7 @@ THIRD_PARTIES = {
     "TBB": (("tbb/", "oneapi/tbb"), {"numeric"}, {"loci/search", "loci/zones", "loci/tasks"}),
     "MPI": (("mpi.h",), set(), {"studies"}),
     "NLopt": (("nlopt.h",), set(), {"studies"}),
-    "cairomm": (("cairomm/", "cairo"), set(), {"report"}),
+    "Cairo": (("cairo",), set(), {"report"}),
     "nlohmann-json": (("nlohmann/",), {"report", "workbench", "cli"}, {"check"}),
     "fmt": (("fmt/",), {"report", "workbench", "cli"}, {"check"}),
     "cpp-httplib": (("httplib.h",), set(), set()),  # its client asks in tests alone
