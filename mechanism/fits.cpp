@@ -73,8 +73,8 @@ DiametralClearance diametral_clearance(const std::string& fit, const Rational& d
   const auto hole = slash == std::string::npos ? std::nullopt : zone_named(fit.substr(0, slash), true);
   const auto shaft = slash == std::string::npos ? std::nullopt : zone_named(fit.substr(slash + 1), false);
   if (!hole || !shaft)
-    throw InputError(where, "'" + fit + "' is no clearance fit that is known here",
-                     "write such as H7/g6: holes D, E, F, G, H, shafts d, e, f, g, h, grades 5 to 11");
+    throw InputError(where, "'" + fit + "' is not a known clearance fit",
+                     "write one such as H7/g6: holes D, E, F, G, H, shafts d, e, f, g, h, grades 5 to 11");
   const Rational millimetres = diameter * 1000;
   const auto* const range = std::find_if(up_to.begin(), up_to.end(), [&](int upper) { return millimetres <= upper; });
   if (sgn(diameter) <= 0 || range == up_to.end())

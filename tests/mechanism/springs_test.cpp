@@ -131,6 +131,19 @@ TEST(ReadLimits, KeepDistancesAndAngles) {
   expect_complaint("limits: [{distance: [A1, A1], within: [0.31, 0.52]}]\n", "names the point A1 twice");
 }
 
+TEST(ReadSprings, NoteAStiffnessWithoutAUnitWhereLengthsAreInMillimetres) {
+  const auto notes = [](const std::string& stiffness) {
+    return parsed("units: {length: mm}\n" + text +
+                  "springs: [{name: Pull, links: [ground, A1B1], at: [H, B1], stiffness: " + stiffness +
+                  ", free_length: 0}]\n")
+        .notes;
+  };
+  ASSERT_EQ(notes("800").size(), 1U);
+  EXPECT_EQ(notes("800")[0],
+            "spring Pull: its stiffness has no unit and is therefore in N/m; write the unit, such as N/mm");
+  EXPECT_TRUE(notes("0.8 N/mm").empty());
+}
+
 TEST(ReadSprings, EndTheWorkspaceWhereTheirEndsMeetAlongACurve) {
   const std::string folder = source_dir() + "/tests/corpus/springs/";
   const Mechanism m = read_mechanism(folder + "gripper_spring_ends_meet.yaml");
@@ -139,7 +152,7 @@ TEST(ReadSprings, EndTheWorkspaceWhereTheirEndsMeetAlongACurve) {
   EXPECT_EQ(words_of(m, m.limits[0], false), "spring S1, whose ends H1 and H2 meet");
   const std::vector<std::string> notes = idle_notes(m);
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes[0].find("its force turns round"), std::string::npos);
+  EXPECT_NE(notes[0].find("its force reverses"), std::string::npos);
   // B1 passes through H at single poses alone; and without a free length the force goes through nothing.
   EXPECT_TRUE(parsed(text + "springs: [{links: [ground, A1B1], at: [H, B1], stiffness: 800, free_length: 0.1}]\n")
                   .limits.empty());

@@ -78,7 +78,7 @@ TEST(DrawnInSpace, NamesTheLinksOfAGroup) {
     FAIL();
   } catch (const core::InputError& error) {
     EXPECT_NE(error.problem().find("plate"), std::string::npos) << error.what();
-    EXPECT_NE(error.problem().find("close together"), std::string::npos) << error.what();
+    EXPECT_NE(error.problem().find("only from common equations"), std::string::npos) << error.what();
   }
 }
 
