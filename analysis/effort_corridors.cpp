@@ -19,7 +19,8 @@ using numeric::EffortGap;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// By the joint and the quantity, as M_A1: of one component its sign, of several on which side of its gap the effort is.
+/// By the joint and the quantity, as M_A1: of one component its sign, of several on which side of its gap the effort
+/// is.
 using Sides = std::map<std::string, int>;
 
 std::string name_of(const EffortGap& gap) { return core::to_string(gap.demand.quantity) + "_" + gap.demand.joint; }
@@ -44,7 +45,8 @@ class PatternSearch {
       one.push_back(model_with(loaded, 1));
     }
     std::vector<std::string> notes;  // those of verify()
-    const std::vector<core::TaskDemand> demands = loaded_demands(one, sides_, demands_of(mechanism, request), poses, notes);
+    const std::vector<core::TaskDemand> demands =
+        loaded_demands(one, sides_, demands_of(mechanism, request), poses, notes);
     for (const std::vector<double>& pose : poses) {
       std::vector<numeric::Bounded> at;
       for (const double value : pose) at.emplace_back(value, 4 * numeric::unit_roundoff * std::abs(value));
@@ -53,7 +55,8 @@ class PatternSearch {
       for (std::size_t i = 0; i < none.size() && regular; ++i) {
         const numeric::Bounded determinant = numeric::bounded_numerators(none[i], at, sides_).determinant;
         regular = std::abs(determinant.value) > determinant.error;
-        for (EffortGap& gap : numeric::effort_gaps(none[i], one[i], at, sides_, demands)) gaps.push_back(std::move(gap));
+        for (EffortGap& gap : numeric::effort_gaps(none[i], one[i], at, sides_, demands))
+          gaps.push_back(std::move(gap));
       }
       if (const auto own = own_gap(mechanism, wanted.joint, request.min_couple)) gaps.push_back(*own);
       if (regular) seen_.push_back({pose, std::move(gaps)});

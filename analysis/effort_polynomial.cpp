@@ -110,8 +110,7 @@ bool EffortPolynomial::fit(const std::vector<std::vector<double>>& poses,
   for (int step = 0; step < steps; ++step) {
     const Eigen::VectorXd row = weight.cwiseSqrt().cwiseQuotient(half);
     const Eigen::MatrixXd left = row.asDiagonal() * basis * scale.cwiseInverse().asDiagonal();
-    const Eigen::VectorXd found =
-        left.colPivHouseholderQr().solve(row.cwiseProduct(middle)).cwiseQuotient(scale);
+    const Eigen::VectorXd found = left.colPivHouseholderQr().solve(row.cwiseProduct(middle)).cwiseQuotient(scale);
     const Eigen::VectorXd off = (basis * found - middle).cwiseQuotient(half).cwiseAbs();
     if (off.maxCoeff() < least) {
       least = off.maxCoeff();

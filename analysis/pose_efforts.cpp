@@ -11,7 +11,6 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/effort_gaps.hpp"
-#include "numeric/take_up.hpp"
 
 namespace clearloci {
 namespace {
@@ -132,12 +131,11 @@ core::Rational smallest_of(const std::vector<EffortRange>& ranges) {
 
 std::optional<EffortGap> own_gap(const Mechanism& mechanism, const std::string& joint,
                                  const std::optional<core::Rational>& min_couple) {
-  const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
-  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
-    if (mechanism.joints[j].name != joint) continue;
-    core::TaskDemand demand{joint, mechanism::actuator_quantity(mechanism.joints[j])};
+  for (const mechanism::Joint& own : mechanism.joints) {
+    if (own.name != joint || !own.clearance) continue;
+    core::TaskDemand demand{joint, mechanism::actuator_quantity(own)};
     const bool force = demand.quantity == core::Quantity::F;
-    if (!((force ? clearances[j].axial : clearances[j].angular) > 0)) return std::nullopt;
+    if (mechanism::value_of(force ? own.clearance->axial : own.clearance->angular, mechanism) == 0) return std::nullopt;
     if (!force) demand.least = min_couple.value_or(0);
     const double least = core::to_double(demand.least);
     return EffortGap{-least, least, std::move(demand), 0, 1};

@@ -110,8 +110,7 @@ class LawSearch {
     for (const EffortPattern& pattern : patterns_) least = std::min(least, pattern.excluded ? infinity : pattern.least);
     if (patterns_.empty()) least = 0;
     own.size = {least * wanted_.size_of_one, infinity};
-    if (found_)
-      own.size[1] = std::max(std::abs(found_->within[0]), std::abs(found_->within[1])) * wanted_.size_of_one;
+    if (found_) own.size[1] = std::max(std::abs(found_->within[0]), std::abs(found_->within[1])) * wanted_.size_of_one;
     own.law = found_;
     own.cells = laws_;
     return own;
@@ -127,19 +126,27 @@ class LawSearch {
     const core::Rational effort = nearest_to_none(wanted_.lower, wanted_.upper);
     Verification result = verify(with_efforts(model_, {wanted_}, {effort}), task_, request_);
     result.preload = answer();
-    const bool none = !patterns_.empty() && std::all_of(patterns_.begin(), patterns_.end(), [](const EffortPattern& own) {
-      return own.excluded.has_value();
-    });
+    const bool none =
+        !patterns_.empty() && std::all_of(patterns_.begin(), patterns_.end(),
+                                          [](const EffortPattern& own) { return own.excluded.has_value(); });
     if (none) {
-      result.notes.emplace_back("no effort of " + wanted_.joint + " that varies with the pose verifies the task: proven");
+      result.notes.emplace_back("no effort of " + wanted_.joint +
+                                " that varies with the pose verifies the task: proven");
       for (const EffortPattern& own : patterns_) result.notes.push_back(excluded_words(*own.excluded));
-    } else {
+    } else if (!fails_under_any(result)) {
       result.verdict = core::Verdict::undecided;
       result.witness.reset();
       result.notes.emplace_back("no polynomial up to degree " + std::to_string(largest_degree) +
                                 " was found under which the task verifies, and none of other laws is proven to fail");
     }
     return result;
+  }
+
+  /// Out of reach, or where |A| vanishes, whatever the effort.
+  static bool fails_under_any(const Verification& own) {
+    using Kind = core::TaskWitness::Kind;
+    return own.witness && own.witness->kind != Kind::vanishing && own.witness->kind != Kind::too_small &&
+           own.witness->kind != Kind::displaced;
   }
 
   /// "at (0.1, 0.5) M_A1 asks for more than 12 N m and M_A2 for less than 7 N m".
@@ -171,9 +178,9 @@ class LawSearch {
 Verification verify_with_law(const Model& model, const Task& task, const VerifyRequest& request) {
   std::vector<WantedEffort> wanted = wanted_efforts(model, task, request);
   if (wanted.size() != 1)
-    throw core::InputError({task.file},
-                           "a law is looked for of one free effort, and those of " + named_efforts(wanted) + " are free",
-                           "give the others by --preload");
+    throw core::InputError(
+        {task.file}, "a law is looked for of one free effort, and those of " + named_efforts(wanted) + " are free",
+        "give the others by --preload");
   Verification result = LawSearch(model, wanted.front(), task, request).run();
   result.task.controlled_preload = true;
   return result;
