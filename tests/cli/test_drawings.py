@@ -2,6 +2,8 @@
 
 import json
 import math
+import re
+import shutil
 import unittest
 
 from program import SOURCE, InOwnFolder
@@ -20,6 +22,20 @@ class Drawings(InOwnFolder):
         for model in DRAWINGS:
             with self.subTest(model.name):
                 self.run_program("normalize", model)
+
+    def test_the_guide_from_a_cad_sketch_runs(self):
+        text = (SOURCE / "docs" / "cad-sketch.md").read_text(encoding="utf-8")
+        workspace, task = re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        commands = [line for block in re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL) for line in block.splitlines()]
+        self.assertEqual(len(commands), 3)
+        shutil.copy(SOURCE / "examples" / "sketches" / "press.dxf", self.folder)
+        for command in commands[:-1]:
+            self.run_program(*command.split()[1:])
+        model = self.folder / "press.yaml"
+        own = model.read_text(encoding="utf-8")
+        model.write_text(re.sub(r"^workspace:\n(  .*\n)+", workspace, own, flags=re.MULTILINE), encoding="utf-8")
+        (self.folder / "task.yaml").write_text(task, encoding="utf-8")
+        self.assertIn("VERIFIED", self.run_program(*commands[-1].split()[1:]).stdout)
 
     def test_hoeken_draws_nearly_a_straight_line(self):
         # Over the half turn of the crank on the far side of the base.

@@ -188,10 +188,11 @@ export class Workbench {
     this.change({ text, at, mode: this.state.mode && drawing.coordinates.length === this.coordinates.length ? this.state.mode : undefined, joints: joints?.length ? joints : undefined }, gesture);
   }
 
-  /** At the drawing, or at what follows from it; no step of undo. */
+  /** At the drawing, in the posture that is drawn if it says one, or at what follows from it; no step of undo. */
   look(drawing: boolean): void {
     const before = this.state;
-    this.history.amend({ ...before, drawing });
+    const at = (drawing ? drawnPose(drawingOf(before.text, this.pose?.posture)) : undefined) ?? before.at;
+    this.history.amend({ ...before, at, drawing });
     this.touched = undefined;
     this.follow(before);
   }
