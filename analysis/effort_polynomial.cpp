@@ -1,6 +1,5 @@
 #include "analysis/effort_polynomial.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +10,7 @@
 
 #include "core/interval.hpp"
 #include "core/rational.hpp"
+#include "numeric/weighted_fit.hpp"
 
 namespace clearloci {
 namespace {
@@ -92,39 +92,15 @@ double EffortPolynomial::at(const std::vector<double>& pose) const {
 
 bool EffortPolynomial::fit(const std::vector<std::vector<double>>& poses,
                            const std::vector<std::array<double, 2>>& between) {
-  const auto rows = static_cast<Eigen::Index>(poses.size()), columns = static_cast<Eigen::Index>(terms());
-  Eigen::MatrixXd basis(rows, columns);
-  Eigen::VectorXd middle(rows), half(rows), weight = Eigen::VectorXd::Ones(rows);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const std::vector<double> all = monomials(poses[k]);
-    for (Eigen::Index t = 0; t < columns; ++t) basis(i, t) = all[static_cast<std::size_t>(t)];
-    middle(i) = 0.5 * (between[k][0] + between[k][1]);
-    half(i) = 0.5 * (between[k][1] - between[k][0]);
-    if (!(half(i) > 0)) return false;
-  }
-  Eigen::VectorXd scale(columns), best;
-  for (Eigen::Index t = 0; t < columns; ++t) scale(t) = std::max(basis.col(t).cwiseAbs().maxCoeff(), 1e-300);
-  double least = std::numeric_limits<double>::infinity();
-  constexpr int steps = 150;
-  for (int step = 0; step < steps; ++step) {
-    const Eigen::VectorXd row = weight.cwiseSqrt().cwiseQuotient(half);
-    const Eigen::MatrixXd left = row.asDiagonal() * basis * scale.cwiseInverse().asDiagonal();
-    const Eigen::VectorXd found = left.colPivHouseholderQr().solve(row.cwiseProduct(middle)).cwiseQuotient(scale);
-    const Eigen::VectorXd off = (basis * found - middle).cwiseQuotient(half).cwiseAbs();
-    if (off.maxCoeff() < least) {
-      least = off.maxCoeff();
-      best = found;
-    }
-    weight = weight.cwiseProduct(off.array().max(1e-12).matrix());
-    weight /= weight.maxCoeff();
-    weight = weight.cwiseMax(1e-12);
-  }
+  std::vector<std::vector<double>> rows;
+  for (const std::vector<double>& pose : poses) rows.push_back(monomials(pose));
+  const auto found = numeric::weighted_fit(rows, between);
+  if (!found) return false;
   coefficients_.clear();
   values_.clear();
-  for (Eigen::Index t = 0; t < columns; ++t) {
+  for (const double own : *found) {
     constexpr int digits = 4;
-    coefficients_.push_back(decimal(best(t), digits));
+    coefficients_.push_back(decimal(own, digits));
     values_.push_back(std::strtod(coefficients_.back().c_str(), nullptr));
   }
   for (std::size_t k = 0; k < poses.size(); ++k)

@@ -23,9 +23,9 @@ std::optional<numeric::EffortGap> own_gap(const mechanism::Mechanism& mechanism,
 
 /// Of a mechanism some of whose efforts are free.
 struct PoseEfforts {
-  mechanism::Mechanism mechanism;            ///< with an effort where none was given
-  std::vector<FeasibleEfforts> efforts;      ///< of every free actuator, without ranges where |A| vanishes
-  std::vector<std::string> notes;            ///< what was chosen, and which reactions are not asked for
+  mechanism::Mechanism mechanism;        ///< with an effort where none was given
+  std::vector<FeasibleEfforts> efforts;  ///< of every free actuator, without ranges where |A| vanishes
+  std::vector<std::string> notes;        ///< what was chosen, and which reactions are not asked for
 };
 
 /// Where no effort is given the smallest feasible one is chosen, one actuator after the other; where none is, or |A|

@@ -49,8 +49,8 @@ std::vector<Mechanism> under_larger_loads(const Mechanism& mechanism, const Task
 namespace {
 
 /// Beyond which effort no reaction changes its sign at some poses of the task, times eight: reactions are linear in it.
-Rational range_without_bounds(const Model& model, const std::vector<WantedEffort>& wanted, std::size_t own, const Task& task,
-                              const VerifyRequest& request) {
+Rational range_without_bounds(const Model& model, const std::vector<WantedEffort>& wanted, std::size_t own,
+                              const Task& task, const VerifyRequest& request) {
   std::vector<Rational> efforts(wanted.size(), 0);
   const std::vector<Mechanism> without =
       under_larger_loads(with_efforts(model, wanted, efforts).content().mechanism, task);

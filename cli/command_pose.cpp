@@ -113,7 +113,8 @@ Command add_pose_command(CLI::App& program) {
   app->add_option("--min-force", arguments->min_force,
                   "Of free efforts: those with which every contact force is at least this large are feasible")
       ->type_name("N");
-  app->add_option("--min-couple", arguments->min_couple, "Of free efforts: the same for the couples of actuators")->type_name("NM");
+  app->add_option("--min-couple", arguments->min_couple, "Of free efforts: the same for the couples of actuators")
+      ->type_name("NM");
   app->footer(
       "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7 --iterate\n"
       "With -o, DIR/pose.json is written.");

@@ -76,7 +76,9 @@ std::vector<EffortGap> effort_gaps(const NumericModel& none, const NumericModel&
     const double least = core::to_double(demand.least);
     if (const auto ends = gap_of(a, b, size * Bounded(least, unit_roundoff * least)))
       gaps.push_back({ends->from, ends->to, demand, ends->rounding,
-                      b.size() != 1 || is_zero(b[0]) ? 0 : (b[0].value > 0) == positive ? 1 : -1});
+                      b.size() != 1 || is_zero(b[0]) ? 0
+                      : (b[0].value > 0) == positive ? 1
+                                                     : -1});
   }
   return gaps;
 }

@@ -154,8 +154,7 @@ TEST(Wording, SaysByVirtualWorkWhatAFactorMeans) {
 TEST(Wording, TellsEachNoteOnce) {
   const std::vector<std::string> notes = {"a", "fAx is zero in every pose under these loads", "b", "a",
                                           "TP is zero in every pose under these loads"};
-  EXPECT_EQ(told_once(notes),
-            (std::vector<std::string>{"a", "fAx, TP are zero in every pose under these loads", "b"}));
+  EXPECT_EQ(told_once(notes), (std::vector<std::string>{"a", "fAx, TP are zero in every pose under these loads", "b"}));
 }
 
 }  // namespace
