@@ -113,7 +113,8 @@ class PatternSearch {
   EffortPattern pattern_of(Sides sides) const {
     EffortPattern pattern;
     for (const Seen& seen : seen_) {
-      EffortCorridor all = free_at(seen), certain = all;
+      EffortCorridor all = free_at(seen);
+      EffortCorridor certain = free_at(seen);
       for (const EffortGap& gap : seen.gaps) {
         const auto own = sides.find(name_of(gap));
         const int side = own != sides.end() ? own->second : roomier_side(all, gap);

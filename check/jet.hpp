@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "check/interval.hpp"
@@ -83,12 +82,12 @@ class Jet {
   }
 
  private:
-  Jet(Interval value, Interval middle) : value_(std::move(value)), middle_(std::move(middle)) {}
+  Jet(const Interval& value, const Interval& middle) : value_(value), middle_(middle) {}
 
   /// A function of two with slopes made of theirs; a null pointer stands for 0, not both are.
   template <class Slope>
-  static Jet combined(const Jet& a, const Jet& b, Interval value, Interval middle, const Slope& slope) {
-    Jet result(std::move(value), std::move(middle));
+  static Jet combined(const Jet& a, const Jet& b, const Interval& value, const Interval& middle, const Slope& slope) {
+    Jet result(value, middle);
     const Jet& longer = a.is_constant() ? b : a;
     result.offsets_ = longer.offsets_;
     for (std::size_t c = 0; c < longer.slopes_.size(); ++c)
@@ -97,8 +96,8 @@ class Jet {
     return result.met();
   }
 
-  Jet through(Interval value, Interval middle, const Interval& slope) const {
-    Jet result(std::move(value), std::move(middle));
+  Jet through(const Interval& value, const Interval& middle, const Interval& slope) const {
+    Jet result(value, middle);
     result.offsets_ = offsets_;
     for (const Interval& own : slopes_) result.slopes_.push_back(own * slope);
     return result.met();

@@ -5,7 +5,7 @@ namespace {
 
 /// A canvas that draws nowhere, for measuring.
 Canvas ruler(const Font& font) {
-  const Canvas canvas = Canvas::on(Raster(1, 1));
+  Canvas canvas = Canvas::on(Raster(1, 1));
   choose_font(canvas, font);
   return canvas;
 }

@@ -202,7 +202,7 @@ Amounts part_along(const Amounts& way, const Amounts& axis) {
 }
 
 Amount SpatialTurning::beside(LinkIndex link, PointIndex from, PointIndex to, const Amounts& along) {
-  const Amount whole = shape(link).distance(from, to);
+  Amount whole = shape(link).distance(from, to);
   if (size_of(along) == 0) return whole;
   const Amount square = whole * whole - dot(along, along);
   if (square.value() <= meant * whole.value() * whole.value())

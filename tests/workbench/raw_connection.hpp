@@ -14,6 +14,14 @@
 namespace clearloci::workbench {
 
 class RawConnection {
+  /// A signal, such as a fuzzer's alarm, ends no call for good.
+  template <typename Call>
+  static auto again(Call call) {
+    auto result = call();
+    while (result == -1 && errno == EINTR) result = call();
+    return result;
+  }
+
  public:
   explicit RawConnection(int port) : handle_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
@@ -54,14 +62,6 @@ class RawConnection {
   }
 
  private:
-  /// A signal, such as a fuzzer's alarm, ends no call for good.
-  template <typename Call>
-  static auto again(Call call) {
-    auto result = call();
-    while (result == -1 && errno == EINTR) result = call();
-    return result;
-  }
-
   int handle_;
   bool open_ = false;
 };
