@@ -122,13 +122,9 @@ class Reader {
     return integer(at(json, key), least, most);
   }
   core::Rational rational(const std::string& digits) const {
-    core::Rational value;
-    if (digits.empty() || digits.size() > most_digits ||
-        digits.find_first_not_of("-0123456789/") != std::string::npos || value.set_str(digits, 10) != 0 ||
-        value.get_den() == 0)
-      fail("'" + digits.substr(0, 40) + "' is no fraction");
-    value.canonicalize();
-    return value;
+    const std::optional<core::Rational> value = fraction_of(digits);
+    if (!value) fail("'" + digits.substr(0, 40) + "' is no fraction");
+    return *value;
   }
   double hex(const std::string& word) const {
     char* end = nullptr;
@@ -323,6 +319,15 @@ class Reader {
 };
 
 }  // namespace
+
+std::optional<core::Rational> fraction_of(const std::string& digits) {
+  core::Rational value;
+  if (digits.empty() || digits.size() > most_digits || digits.find_first_not_of("-0123456789/") != std::string::npos ||
+      value.set_str(digits, 10) != 0 || value.get_den() == 0)
+    return std::nullopt;
+  value.canonicalize();
+  return value;
+}
 
 bool same_text(const std::string& model, const std::string& in_certificate) {
   return Json(model).dump(-1, ' ', false, Json::error_handler_t::replace) == Json(in_certificate).dump();

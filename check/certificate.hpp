@@ -106,6 +106,9 @@ struct CertificateFile {
   std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of the check; not in the file
 };
 
+/// "-3/4"; none: the text is no fraction, or longer than the program writes one.
+std::optional<core::Rational> fraction_of(const std::string& digits);
+
 /// Whether a model's text is the one of a certificate, in which bytes that are no UTF-8 were replaced.
 bool same_text(const std::string& model, const std::string& in_certificate);
 

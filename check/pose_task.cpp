@@ -73,15 +73,10 @@ class Reader {
     return json.get<std::string>();
   }
   Rational rational(const Json& json) const {
-    constexpr std::size_t most_digits = 4000;
     const std::string digits = text(json);
-    Rational value;
-    if (digits.empty() || digits.size() > most_digits ||
-        digits.find_first_not_of("-0123456789/") != std::string::npos || value.set_str(digits, 10) != 0 ||
-        value.get_den() == 0)
-      fail("'" + digits.substr(0, 40) + "' is no fraction");
-    value.canonicalize();
-    return value;
+    const std::optional<Rational> value = fraction_of(digits);
+    if (!value) fail("'" + digits.substr(0, 40) + "' is no fraction");
+    return *value;
   }
   std::vector<Rational> rationals(const Json& json) const {
     std::vector<Rational> all;
