@@ -28,14 +28,9 @@ core::LocusMap with_modes(const mechanism::Mechanism& mechanism, core::LocusMap 
 
 /// The loci that are drawn over the errors, or a map without any, complete with the names of the working modes.
 core::LocusMap loci_below(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
-  // Those of points that close together are known over one coordinate.
-  const bool known = mechanism.groups.empty() || mechanism.coordinates.size() == 1;
-  if (request.with_loci && known && mechanism.coordinates.size() < 3)
+  if (request.with_loci && mechanism.coordinates.size() < 3)
     return with_modes(mechanism, trace_loci(mechanism, request.loci));
-  core::LocusMap none = empty_map(mechanism);
-  if (request.with_loci && !known)
-    none.notes.push_back("no loci are drawn: the points of group " + mechanism.groups.front().name + " close together");
-  return none;
+  return empty_map(mechanism);
 }
 
 std::vector<std::optional<ErrorSizes>> sizes_in(const core::FieldMap& map, const std::vector<std::size_t>* cells) {

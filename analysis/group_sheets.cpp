@@ -7,15 +7,11 @@
 #include "core/errors.hpp"
 
 namespace clearloci {
-namespace {
-
-std::string names_of(const mechanism::Mechanism& mechanism) {
+std::string names_of_groups(const mechanism::Mechanism& mechanism) {
   std::string names;
   for (const mechanism::Group& own : mechanism.groups) names += (names.empty() ? "" : ", ") + own.name;
   return (mechanism.groups.size() > 1 ? "groups " : "group ") + names;
 }
-
-}  // namespace
 
 bool is_full_turn(double lower, double upper) {
   constexpr double of_turn = 1e-12;
@@ -31,7 +27,7 @@ std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& m
   for (std::size_t c = 0; c < lower.size(); ++c)
     effort.turns.push_back(mechanism.coordinates[c].angle && is_full_turn(lower[c], upper[c]));
   loci::pose::CoveredBox found = loci::pose::cover_box(statics.program, lower, upper, effort);
-  const std::string names = names_of(mechanism);
+  const std::string names = names_of_groups(mechanism);
   if (!found.starts)
     throw core::InputError({mechanism.file, mechanism.groups.front().where.line, mechanism.groups.front().where.column},
                            "no straight way leads from the posture of " + names +

@@ -16,6 +16,9 @@ namespace clearloci {
 /// Whether a range of an angle ends where it begins, but for the roundings of its ends.
 bool is_full_turn(double lower, double upper);
 
+/// "group hip", "groups hip, knee".
+std::string names_of_groups(const mechanism::Mechanism& mechanism);
+
 /// Covers a box of poses, of every coordinate of the statics; adds to the notes what is left open. Nothing happens
 /// without groups. Throws core::InputError where no way leads from the groups' posture into the box.
 std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& mechanism,

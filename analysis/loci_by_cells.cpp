@@ -2,12 +2,25 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
+#include "analysis/framed.hpp"
+#include "analysis/group_sheets.hpp"
+#include "analysis/pose_demands.hpp"
+#include "analysis/request_limits.hpp"
+#include "analysis/singular_modes.hpp"
+#include "analysis/task_demands.hpp"
 #include "analysis/zones_by_cells.hpp"
 #include "core/errors.hpp"
+#include "loci/curves/curves.hpp"
+#include "loci/surfaces/surfaces.hpp"
 #include "mechanism/group_closing.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/notes.hpp"
+#include "mechanism/posture_sample.hpp"
+#include "numeric/model.hpp"
+#include "symbolic/pose_statics.hpp"
 
 namespace clearloci {
 namespace {
@@ -15,15 +28,14 @@ namespace {
 using core::LocusKind;
 using core::Zone;
 using core::ZoneEnd;
+using loci::pose::Doubt;
 using mechanism::Mechanism;
 
 /// Of the range: ends of zones that are nearer have one point between them.
 constexpr double one_point = 1e-7;
 
 void require_traceable(const Mechanism& mechanism, const LociRequest& request) {
-  if (mechanism.coordinates.size() != 1)
-    mechanism::require_closed_forms(mechanism, "loci over more than one coordinate are traced",
-                                    "ask for its zones, or make all coordinates but one parameters");
+  require_coordinates(mechanism, 1, 3, "loci are traced");
   for (const core::Quantity own : request.quantities)
     if (own != core::Quantity::f && own != core::Quantity::M && own != core::Quantity::F)
       mechanism::require_closed_forms(mechanism, "loci of the component " + core::to_string(own) + " are traced",
@@ -158,12 +170,202 @@ class Points {
   std::array<double, 2> range_{};
 };
 
+/// Curves and surfaces of every mode.
+class Followed {
+ public:
+  Followed(const Mechanism& mechanism, const LociRequest& request)
+      : mechanism_(mechanism), request_(request), model_(numeric::compile(mechanism)), map_(empty_map(mechanism)) {
+    for (const mechanism::Coordinate& own : mechanism.coordinates) {
+      lower_.push_back(core::to_double(own.lower));
+      upper_.push_back(core::to_double(own.upper));
+    }
+  }
+
+  core::LocusMap follow() {
+    map_.complete = false;
+    map_.tolerance = request_.tolerance;
+    map_.notes = mechanism::notes_of(mechanism_);
+    std::vector<DyadSides> modes = requested_modes(mechanism_, request_);
+    if (modes.size() > 1) modes = regular_modes(mechanism_, modes, map_.notes);
+    int cells = 0;
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      if (request_.progress) request_.progress(static_cast<double>(m) / static_cast<double>(modes.size()), "poses");
+      cells = add_mode(modes[m]);
+    }
+    add_notes(cells);
+    name();
+    return std::move(map_);
+  }
+
+ private:
+  bool over_two() const { return lower_.size() == 2; }
+
+  int add_mode(const DyadSides& sides) {
+    constexpr std::size_t poses = 24;
+    const std::vector<numeric::NumericModel> models{model_};
+    core::PoseStatics statics =
+        symbolic::pose_statics({&mechanism_}, sides,
+                               loaded_demands(models, sides, demands_of(mechanism_, request_),
+                                              mechanism::spread_poses(mechanism_, poses), map_.notes));
+    const auto covered = cover_groups(mechanism_, lower_, upper_, request_.deadline, statics, map_.notes);
+    loci::pose::PoseZerosEffort effort;
+    effort.deadline = request_.deadline;
+    double extent = 0;
+    for (std::size_t c = 0; c < lower_.size(); ++c) extent = std::max(extent, upper_[c] - lower_[c]);
+    effort.tolerance = request_.tolerance / extent;
+    if (!over_two()) effort.cells = std::clamp(static_cast<int>(std::ceil(1 / request_.mesh_size)), 4, 96);
+    const loci::pose::PoseZeros found = loci::pose::pose_zeros(statics, lower_, upper_, effort);
+    map_.out_of_time = map_.out_of_time || found.out_of_time || (covered && covered->out_of_effort);
+    const Mode mode{sides, mode_of(sides, map_.tower), statics};
+    for (const loci::pose::PoseLocus& own : found.loci) add(own, mode);
+    for (const loci::pose::PoseZeroPoint& own : found.points) {
+      core::IsolatedPoint point;
+      describe(point, {.doubt = Doubt::demand, .demand = own.demand}, mode);
+      point.at = {own.at[0], own.at[1]};
+      add(map_.isolated_points, std::move(point));
+    }
+    for (const loci::pose::OpenPoses& own : found.open) {
+      core::OpenRegion& region = map_.open.emplace_back();
+      describe(region, own.zero, mode);
+      region.lower = own.lower;
+      region.upper = own.upper;
+    }
+    if (over_two()) map_.workspace.push_back({mode.mode, found.rings});
+    return found.cells;
+  }
+
+  struct Mode {
+    const DyadSides& sides;
+    core::WorkingMode mode;
+    const core::PoseStatics& statics;
+  };
+
+  /// Of curves, surfaces, points and open regions.
+  template <class Place>
+  void describe(Place& place, const loci::pose::PoseZero& zero, const Mode& mode) const {
+    place.mode = mode.mode;
+    if (zero.doubt == Doubt::workspace) {
+      place.kind = LocusKind::workspace_boundary;
+      if (zero.dead_centre) place.cause = "dead centre of " + names_of_groups(mechanism_);
+    } else if (zero.doubt == Doubt::singularity) {
+      place.kind = LocusKind::direct_singularity;
+    } else {
+      const core::TaskDemand& own = mode.statics.demands[static_cast<std::size_t>(zero.demand)].demand;
+      place.kind = locus_kind_of(own);
+      place.vanishing = {{own.joint, own.quantity, 1}};
+    }
+  }
+
+  /// Sides of a fold on which a link bends are out of reach.
+  bool is_rigid(const std::vector<double>& pose, const DyadSides& sides) const {
+    return !numeric::posture(model_, pose, sides).broken;
+  }
+
+  void add(const loci::pose::PoseLocus& own, const Mode& mode) {
+    if (over_two())
+      add_curve(own, mode);
+    else
+      add_surface(own, mode);
+  }
+
+  void add_curve(const loci::pose::PoseLocus& own, const Mode& mode) {
+    core::LocusCurve curve;
+    describe(curve, own.zero, mode);
+    for (const core::Polyline& points : own.arcs) {
+      const core::Point2& middle = points[points.size() / 2];
+      if (!is_rigid({middle[0], middle[1]}, mode.sides)) continue;
+      core::Arc& arc = curve.arcs.emplace_back();
+      arc.closed = points.size() > 2 && points.front() == points.back();
+      arc.points = points;
+      for (std::size_t i = 1; i < points.size(); ++i)
+        arc.length += std::hypot(points[i][0] - points[i - 1][0], points[i][1] - points[i - 1][1]);
+    }
+    if (!curve.arcs.empty()) add(map_.curves, std::move(curve));
+  }
+
+  template <class Place>
+  bool meet(const Place& p, const Place& q) const {
+    constexpr double same = 1e-9;  // of the box
+    for (std::size_t c = 0; c < lower_.size(); ++c)
+      if (std::abs(p[c] - q[c]) > same * (upper_[c] - lower_[c])) return false;
+    return true;
+  }
+  /// Whether two loci are one, on which several reactions vanish: vertex by vertex.
+  bool is_same(const core::IsolatedPoint& a, const core::IsolatedPoint& b) const { return meet(a.at, b.at); }
+  bool is_same(const core::LocusCurve& a, const core::LocusCurve& b) const {
+    const auto meets = [&](const core::Point2& p, const core::Point2& q) { return meet(p, q); };
+    return std::equal(
+        a.arcs.begin(), a.arcs.end(), b.arcs.begin(), b.arcs.end(), [&](const core::Arc& one, const core::Arc& other) {
+          return std::equal(one.points.begin(), one.points.end(), other.points.begin(), other.points.end(), meets);
+        });
+  }
+  bool is_same(const core::LocusSurface& a, const core::LocusSurface& b) const {
+    return std::equal(a.vertices.begin(), a.vertices.end(), b.vertices.begin(), b.vertices.end(),
+                      [&](const core::Point3& p, const core::Point3& q) { return meet(p, q); });
+  }
+
+  template <class Locus>
+  void add(std::vector<Locus>& all, Locus own) const {
+    for (Locus& other : all) {
+      if (other.mode != own.mode || !is_same(other, own)) continue;
+      other.kind = std::min(other.kind, own.kind);
+      other.vanishing.insert(other.vanishing.end(), own.vanishing.begin(), own.vanishing.end());
+      return;
+    }
+    all.push_back(std::move(own));
+  }
+
+  void add_surface(const loci::pose::PoseLocus& own, const Mode& mode) {
+    const core::Point3& first = own.vertices.front();
+    if (!is_rigid({first.begin(), first.end()}, mode.sides)) return;
+    core::LocusSurface surface;
+    describe(surface, own.zero, mode);
+    surface.vertices = own.vertices;
+    surface.triangles = own.triangles;
+    loci::measure(surface);
+    add(map_.surfaces, std::move(surface));
+  }
+
+  void add_notes(int cells) {
+    const std::string lattice = std::to_string(cells) + " cells along each coordinate";
+    map_.notes.push_back("the points of " + names_of_groups(mechanism_) + " have no formulas: loci are computed in " +
+                         "floating point from " + lattice + ", and are not certified; parts of a locus that are " +
+                         "smaller than a cell may be missing");
+    if (!over_two())
+      map_.notes.push_back("curves along which a contact force of several components vanishes are not computed");
+  }
+
+  void name() {
+    const auto before = [](const auto& a, const auto& b) { return a.kind < b.kind; };
+    std::stable_sort(map_.curves.begin(), map_.curves.end(), before);
+    std::stable_sort(map_.surfaces.begin(), map_.surfaces.end(), before);
+    int number = 0;
+    for (core::LocusCurve& own : map_.curves) own.id = "c" + std::to_string(++number);
+    number = 0;
+    for (core::LocusSurface& own : map_.surfaces) own.id = "s" + std::to_string(++number);
+  }
+
+  const Mechanism& mechanism_;
+  const LociRequest& request_;
+  numeric::NumericModel model_;
+  std::vector<double> lower_, upper_;
+  core::LocusMap map_;
+};
+
+core::LocusMap followed(const Mechanism& mechanism, const LociRequest& request) {
+  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
+    return from_frame(followed(own->mechanism, in_frame(request, own->frame)), mechanism, own->frame);
+  return Followed(mechanism, request).follow();
+}
+
 }  // namespace
 
 core::LocusMap loci_by_cells(const Mechanism& mechanism, const LociRequest& request) {
   require_traceable(mechanism, request);
   const auto start = std::chrono::steady_clock::now();
-  core::LocusMap map = Points(mechanism, zones_by_cells(mechanism, {.loci = request})).collect();
+  core::LocusMap map = mechanism.coordinates.size() == 1
+                           ? Points(mechanism, zones_by_cells(mechanism, {.loci = request})).collect()
+                           : followed(mechanism, request);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   map.timing.emplace_back("cells", taken.count());
   return map;

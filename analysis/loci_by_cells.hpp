@@ -1,5 +1,6 @@
-// Loci over one coordinate of mechanisms whose points have no closed forms: where proven zones (zones_by_cells.hpp)
-// end. Private to analysis/: callers ask trace_loci.
+// Loci of mechanisms whose points have no closed forms. Over one coordinate: where proven zones (zones_by_cells.hpp)
+// end. Over two and three: zeros followed in floating point, and the cells between them that are proven free
+// (loci/curves/pose_zeros.hpp). Private to analysis/: callers ask trace_loci.
 #pragma once
 
 #include "analysis/loci.hpp"
@@ -7,8 +8,9 @@
 namespace clearloci {
 
 /// Of mechanisms with groups. A point is certified where a zero is proven: what has one component, or acts along the
-/// line between the pins of a link without loads, has another sign behind it. Throws core::InputError for more
-/// coordinates and for components.
+/// line between the pins of a link without loads, has another sign behind it. Curves and surfaces are not certified,
+/// and the map is never `complete`: cells that a locus passes are not searched for others. Throws core::InputError for
+/// components, and for more than three coordinates.
 core::LocusMap loci_by_cells(const mechanism::Mechanism& mechanism, const LociRequest& request);
 
 }  // namespace clearloci

@@ -13,4 +13,5 @@
 #include "loci/curves/isolated_points.hpp"
 #include "loci/curves/margin_nodes.hpp"
 #include "loci/curves/open_regions.hpp"
+#include "loci/curves/pose_zeros.hpp"
 #include "loci/curves/sheet_maps.hpp"

@@ -18,8 +18,7 @@ PosePoint::PosePoint(const core::PoseStatics& statics)
   closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
 }
 
-bool PosePoint::run(const std::vector<double>& pose) {
-  if (!values_.run(pose, statics_->sheet.start)) return false;
+bool PosePoint::within_limits() const {
   return std::all_of(statics_->positive.begin(), statics_->positive.end(), [&](int own) { return step(own) > 0; });
 }
 
@@ -65,8 +64,22 @@ bool PosePoint::solve(At& result) {
 }
 
 std::optional<PosePoint::At> PosePoint::at(const std::vector<double>& pose) {
+  return values_.run(pose, statics_->sheet.start) ? solved() : std::nullopt;
+}
+
+std::optional<PosePoint::At> PosePoint::at(const std::vector<double>& pose, core::BlockUnknowns& unknowns) {
+  // Of moves near rounding the ratio of two says nothing.
+  constexpr double quick = 0.25, near = 0.1, hardly = 1e-9;
+  if (!values_.close(pose, unknowns)) return std::nullopt;
+  const double moved = values_.moved() / core::size_of(statics_->program, unknowns);
+  if (moved > near || (moved > hardly && values_.contraction() > quick)) return std::nullopt;
+  return solved();
+}
+
+std::optional<PosePoint::At> PosePoint::solved() {
   At result;
-  if (!run(pose) || !solve(result)) return std::nullopt;
+  result.orientation = values_.orientation();
+  if (!within_limits() || !solve(result)) return std::nullopt;
   for (const int own : closures_) result.closures.push_back(step(own));
   for (const core::PoseDemand& demand : statics_->demands) {
     auto& by_load = result.components.emplace_back(statics_->loads);

@@ -16,6 +16,7 @@ class PosePoint {
     double logarithm = 0;                                      ///< of its size
     std::vector<double> closures;                              ///< positive within the workspace, zero on its boundary
     std::vector<std::vector<std::vector<double>>> components;  ///< demand, load, component: N, N m
+    int orientation = 1;                                       ///< the sign of the groups' det J
   };
 
   /// `statics` must outlive it. One a thread.
@@ -23,9 +24,13 @@ class PosePoint {
 
   /// Nothing where the pose cannot be assembled or A cannot be inverted.
   std::optional<At> at(const std::vector<double>& pose);
+  /// The same by Newton's iteration from values of the groups' unknowns, which are improved. Also nothing where it does
+  /// not converge quickly: these values belong to another posture, or to none.
+  std::optional<At> at(const std::vector<double>& pose, core::BlockUnknowns& unknowns);
 
  private:
-  bool run(const std::vector<double>& pose);
+  bool within_limits() const;
+  std::optional<At> solved();
   bool solve(At& result);
   double step(int index) const { return values_[index]; }
 

@@ -37,11 +37,11 @@ bool is_free(Field& field, const Box& box, const Proof& proof, int cuts, int& bu
 
 }  // namespace
 
-double area(const Frame& frame, const Mesh& mesh) {
+double area(const Mesh& mesh) {
   double sum = 0;
+  const auto at = [&](int point) { return mesh.points[static_cast<std::size_t>(point)]; };
   for (const Triangle& t : mesh.triangles) {
-    const Point a = place_of(frame, mesh, t[0]);
-    const Point normal = cross(place_of(frame, mesh, t[1]) - a, place_of(frame, mesh, t[2]) - a);
+    const Point normal = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
     sum += 0.5 * std::sqrt(dot(normal, normal));
   }
   return sum;

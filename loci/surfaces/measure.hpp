@@ -6,8 +6,7 @@
 
 namespace clearloci::loci::surface {
 
-/// In the coordinates of the frame.
-double area(const Frame& frame, const Mesh& mesh);
+double area(const Mesh& mesh);
 
 /// Largest distance of a triangle's middle from the surface, to first order, in the coordinates of the frame. Triangles
 /// next to the workspace boundary, where slopes are unbounded, do not count.

@@ -231,10 +231,7 @@ class ModeSurfaces {
     result.mode = mode_;
     for (const Point& point : part.points) result.vertices.push_back(field.frame().place(point));
     result.triangles = part.triangles;
-    result.euler_characteristic = static_cast<int>(part.points.size()) -
-                                  static_cast<int>(surface::edges_of(part).size()) +
-                                  static_cast<int>(part.triangles.size());
-    result.area = surface::area(field.frame(), part);
+    loci::measure(result);
     result.deviation = surface::deviation(field, part);
     result.within_resolution = meshed.unexplained == 0;
     for (const OpenCells& open : meshed.open) {
@@ -357,6 +354,15 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   map.angles = {frame.angle[0], frame.angle[1], frame.angle[2]};
   sort_and_name_surfaces(map, problem.modes);
   return map;
+}
+
+void measure(LocusSurface& own) {
+  const Mesh mesh{own.vertices, own.triangles};
+  const std::vector<int> component = surface::components_of(mesh);
+  own.components = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  own.euler_characteristic = static_cast<int>(mesh.points.size()) - static_cast<int>(surface::edges_of(mesh).size()) +
+                             static_cast<int>(mesh.triangles.size());
+  own.area = surface::area(mesh);
 }
 
 }  // namespace clearloci::loci

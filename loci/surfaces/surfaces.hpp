@@ -20,4 +20,7 @@ struct SurfaceOptions {
 /// is none. Where the deadline comes first, what is known, with complete = false.
 core::LocusMap trace_surfaces(const std::vector<const core::LocusProblem*>& charts, const SurfaceOptions& options = {});
 
+/// Counts the components and Euler's characteristic of a surface's triangles, and adds up their area.
+void measure(core::LocusSurface& surface);
+
 }  // namespace clearloci::loci

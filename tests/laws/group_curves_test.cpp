@@ -1,0 +1,182 @@
+// The same mechanism twice over the angles of its two motors: a five-bar whose coupler point is placed by a dyad, so
+// that its loci have formulas and are certified, and as a group of one point, so that they have none and are followed
+// in floating point (loci/curves/pose_zeros.hpp). The curves and points of both are the same.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+
+#include "clearloci/loci.hpp"
+#include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
+
+namespace clearloci {
+namespace {
+
+struct FiveBar {
+  double base, crank_a, crank_b, rod_a, rod_b, alpha, beta, fx, fy, couple;
+  /// Of the other rod, N.
+  double gx = 0, gy = 0;
+};
+
+FiveBar five_bar(std::mt19937& random) {
+  const auto number = [&](double low, double high) {
+    return std::round(1000 * std::uniform_real_distribution<double>(low, high)(random)) / 1000;
+  };
+  return {number(0.6, 1.2), number(0.3, 0.6), number(0.3, 0.6), number(0.5, 0.9),  number(0.5, 0.9),
+          number(1, 2.2),   number(0.9, 2.1), number(-50, 50),  number(-100, -10), number(-4, 4)};
+}
+
+/// Boxes of angles so wide on either side of the posture.
+constexpr double half_width = 0.6;
+
+std::string text_of(const FiveBar& own, const std::string& tip) {
+  return fmt::format(R"(format: 1
+space: planar
+workspace:
+  alpha: {{angle: [{}, {}]}}
+  beta: {{angle: [{}, {}]}}
+points:
+  A1: [0, 0]
+  A2: [{}, 0]
+  B1: [{}*cos(alpha), {}*sin(alpha)]
+  B2: [{} + {}*cos(beta), {}*sin(beta)]
+  {}
+links:
+  crank1: {{points: [A1, B1]}}
+  crank2: {{points: [A2, B2]}}
+  rod1: {{points: [B1, P]}}
+  rod2: {{points: [B2, P]}}
+joints:
+  A1: {{revolute: [ground, crank1], at: A1, actuated: true, clearance: {{radial: 10e-6, angular: 0.5e-3}}}}
+  A2: {{revolute: [ground, crank2], at: A2, actuated: true, clearance: {{radial: 10e-6, angular: 0.5e-3}}}}
+  B1: {{revolute: [crank1, rod1], at: B1, clearance: {{radial: 10e-6}}}}
+  B2: {{revolute: [crank2, rod2], at: B2, clearance: {{radial: 10e-6}}}}
+  P: {{revolute: [rod1, rod2], at: P, clearance: {{radial: 10e-6}}}}
+end_effector: {{link: rod1, at: P}}
+loads:
+  - {{link: rod1, at: P, force: [{}, {}], couple: {}}}
+  - {{link: rod2, at: {{mean: [B2, P]}}, force: [{:.9f}, {:.9f}]}}
+)",
+                     own.alpha - half_width, own.alpha + half_width, own.beta - half_width, own.beta + half_width,
+                     own.base, own.crank_a, own.crank_a, own.base, own.crank_b, own.crank_b, tip, own.fx, own.fy,
+                     own.couple, own.gx, own.gy);
+}
+
+double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+double distance(const Point2& p, const Point2& a, const Point2& b) {
+  const Point2 way = {b[0] - a[0], b[1] - a[1]};
+  const double square = way[0] * way[0] + way[1] * way[1];
+  const double part = square > 0 ? std::clamp(((p[0] - a[0]) * way[0] + (p[1] - a[1]) * way[1]) / square, 0.0, 1.0) : 0;
+  return apart(p, {a[0] + part * way[0], a[1] + part * way[1]});
+}
+
+std::set<std::string> names_of(const std::vector<Vanishing>& all) {
+  std::set<std::string> names;
+  for (const Vanishing& own : all) names.insert(to_string(own.quantity) + own.joint);
+  return names;
+}
+
+/// The least distance of a pose from the curves on which a reaction vanishes; without a name from the direct
+/// singularities and the boundary, which are the same where a group comes to a dead centre.
+double distance(const Point2& at, const std::string& name, const LocusMap& map) {
+  double least = 1e9;
+  for (const LocusCurve& own : map.curves) {
+    if (name.empty() ? !own.vanishing.empty() : names_of(own.vanishing).count(name) == 0) continue;
+    for (const Arc& arc : own.arcs)
+      for (std::size_t i = 1; i < arc.points.size(); ++i)
+        least = std::min(least, distance(at, arc.points[i - 1], arc.points[i]));
+  }
+  return least;
+}
+
+struct Held {
+  int vertices = 0, away = 0, points = 0, missing = 0;
+};
+
+/// How many vertices of the one map's curves are farther than `within` from the other's of the same reactions, and how
+/// many of its isolated points the other neither has nor leaves open.
+void hold(const LocusMap& one, const LocusMap& other, double within, Held& held) {
+  for (const LocusCurve& curve : one.curves) {
+    std::set<std::string> names = names_of(curve.vanishing);
+    if (names.empty()) names.insert("");
+    for (const Arc& arc : curve.arcs)
+      for (const Point2& at : arc.points)
+        for (const std::string& name : names) {
+          ++held.vertices;
+          held.away += distance(at, name, other) < within ? 0 : 1;
+        }
+  }
+  for (const IsolatedPoint& point : one.isolated_points) {
+    ++held.points;
+    const bool known = std::any_of(other.isolated_points.begin(), other.isolated_points.end(), [&](const auto& own) {
+      return names_of(own.vanishing) == names_of(point.vanishing) &&
+             apart({own.at[0], own.at[1]}, {point.at[0], point.at[1]}) < 1e-6;
+    });
+    const bool open = std::any_of(other.open.begin(), other.open.end(), [&](const OpenRegion& own) {
+      return point.at[0] >= own.lower[0] && point.at[0] <= own.upper[0] && point.at[1] >= own.lower[1] &&
+             point.at[1] <= own.upper[1];
+    });
+    held.missing += known || open ? 0 : 1;
+  }
+}
+
+Point2 place(const Pose& pose, const std::string& name) {
+  for (const PosePoint& own : pose.points)
+    if (own.name == name) return {own.at[0], own.at[1]};
+  ADD_FAILURE() << name;
+  return {};
+}
+
+TEST(GroupLaw, CurvesOverTwoMotorsAreThoseOfTheDyad) {
+  int designs = 0;
+  Held followed, formulas;
+  for (unsigned seed = 1; seed <= 24; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    FiveBar own = five_bar(random);
+    const auto dyad = [&] {
+      return text_of(own, fmt::format("P: {{dyad: [B1, B2], lengths: [{}, {}], side: right}}", own.rod_a, own.rod_b));
+    };
+    const Pose posture = solve_pose(Model::parse(dyad(), "dyad.yaml"), {own.alpha, own.beta});
+    if (!posture.unreachable.empty()) continue;
+    const Point2 tip = place(posture, "P"), b1 = place(posture, "B1"), b2 = place(posture, "B2");
+    if (seed % 2 == 0) {
+      // At the posture each rod is in balance without the pin between them.
+      constexpr double force = 40;
+      own.gx = force * (tip[0] - b2[0]);
+      own.gy = force * (tip[1] - b2[1]);
+      own.couple = -((tip[0] - b1[0]) * own.fy - (tip[1] - b1[1]) * own.fx);
+    }
+    const std::string group = text_of(
+        own, fmt::format("tip: {{group: [P], lengths: {{B1-P: {}, B2-P: {}}}, near: {{at: {{alpha: {}, beta: {}}}, P: "
+                         "[{:.9f}, {:.9f}]}}}}",
+                         own.rod_a, own.rod_b, own.alpha, own.beta, tip[0], tip[1]));
+    SCOPED_TRACE(group);
+    const LocusMap one = trace_loci(Model::parse(dyad(), "dyad.yaml")),
+                   other = trace_loci(Model::parse(group, "group.yaml"));
+    ++designs;
+    // What is followed is there: within the chords of the other.
+    hold(other, one, 2e-4, followed);
+    ASSERT_EQ(followed.away, 0);
+    ASSERT_EQ(followed.missing, 0);
+    // What is there is followed, but for strands that are nearer to each other than a cell.
+    hold(one, other, 2 * 2 * half_width / 96, formulas);
+  }
+  fmt::print("{} designs; followed: {} vertices, {} points; by formulas: {} vertices, {} away, {} points, {} missing\n",
+             designs, followed.vertices, followed.points, formulas.vertices, formulas.away, formulas.points,
+             formulas.missing);
+  EXPECT_GT(designs, 12);
+  EXPECT_GT(followed.vertices, 2000);
+  EXPECT_GT(followed.points, 4);
+  EXPECT_LT(formulas.away, formulas.vertices / 50);
+  EXPECT_LE(10 * formulas.missing, formulas.points);
+}
+
+}  // namespace
+}  // namespace clearloci
