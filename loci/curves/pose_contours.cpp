@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "loci/search/work_queue.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci::pose {
 

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <utility>
 
-#include "loci/search/work_queue.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci::pose {
 namespace {
