@@ -332,7 +332,7 @@ class Followed {
                          "floating point from " + lattice + ", and are not certified; parts of a locus that are " +
                          "smaller than a cell may be missing");
     if (!over_two())
-      map_.notes.push_back("curves along which a contact force of several components vanishes are not computed");
+      map_.notes.emplace_back("curves along which a contact force of several components vanishes are not computed");
   }
 
   void name() {

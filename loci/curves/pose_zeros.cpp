@@ -1,8 +1,8 @@
 #include "loci/curves/pose_zeros.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 
@@ -101,7 +101,7 @@ class Tracer {
   /// Rings, and those of their stretches that are not the box's sides.
   void add_outline(PoseArcs& arcs) {
     const PoseContour& own = contours_.outline();
-    std::map<PoseZero, PoseLocus> ends;
+    std::array<PoseLocus, 2> ends;  // at limits, and at dead centres
     for (const std::vector<int>& chain : chains_of(own.segments, own.vertices.size())) {
       if (chain.front() != chain.back()) continue;
       const auto vertex = [&](std::size_t i) -> const PoseContour::Vertex& {
@@ -118,11 +118,12 @@ class Tracer {
             dead += vertex(i).dead_centre ? 1U : 0U;
           }
           arc = arcs.refined(arc, std::nullopt, contours_.sample(vertex(stretch.front()).node));
-          const PoseZero zero{Doubt::workspace, -1, 2 * dead > stretch.size()};
-          ends[zero].zero = zero;
+          const bool dead_centre = 2 * dead > stretch.size();
+          PoseLocus& end = ends[dead_centre ? 1 : 0];
+          end.zero = {Doubt::workspace, -1, dead_centre};
           if (!ring.empty()) ring.pop_back();
           ring.insert(ring.end(), arc.begin(), arc.end());
-          ends[zero].arcs.push_back(std::move(arc));
+          end.arcs.push_back(std::move(arc));
         }
         stretch.clear();
       };
@@ -140,7 +141,8 @@ class Tracer {
       close();
       if (ring.size() > 3) result_.rings.push_back(std::move(ring));
     }
-    for (auto& [zero, locus] : ends) result_.loci.push_back(std::move(locus));
+    for (PoseLocus& own : ends)
+      if (!own.arcs.empty()) result_.loci.push_back(std::move(own));
   }
 
   /// Where a force of two components turns round all directions along a triangle it vanishes within.

@@ -21,7 +21,7 @@ struct PoseZero {
   int demand = -1;           ///< of core::PoseStatics, with Doubt::demand
   bool dead_centre = false;  ///< with Doubt::workspace: of groups
 
-  friend auto operator<=>(const PoseZero&, const PoseZero&) = default;
+  friend bool operator==(const PoseZero&, const PoseZero&) = default;
 };
 
 /// Over two coordinates arcs, a closed one with its first point repeated; over three triangles.
