@@ -141,8 +141,8 @@ class Tracer {
       close();
       if (ring.size() > 3) result_.rings.push_back(std::move(ring));
     }
-    for (PoseLocus& own : ends)
-      if (!own.arcs.empty()) result_.loci.push_back(std::move(own));
+    for (PoseLocus& end : ends)
+      if (!end.arcs.empty()) result_.loci.push_back(std::move(end));
   }
 
   /// Where a force of two components turns round all directions along a triangle it vanishes within.
