@@ -85,6 +85,7 @@ Json sheet_json(const symbolic::EquationSheet& sheet) {
           {"parameters", dictionary_json(sheet.parameters)},
           {"coordinates", sheet.coordinates},
           {"closure", dictionary_json(sheet.closure)},
+          {"closing", sheet.closing},
           {"rows", sheet.rows},
           {"unknowns", sheet.unknowns},
           {"matrix", sheet.matrix},

@@ -138,6 +138,41 @@ std::size_t group_unknowns(const Mechanism& mechanism) {
   return count;
 }
 
+namespace {
+
+/// No coordinate, parameter or point is called so.
+std::string free_name(const Mechanism& mechanism, std::string name) {
+  const auto is_taken = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& own) { return own.name == name; });
+  };
+  while (is_taken(mechanism.coordinates) || is_taken(mechanism.parameters)) name += "_";
+  return name;
+}
+
+}  // namespace
+
+Mechanism with_open_groups(Mechanism mechanism) {
+  constexpr std::array<char, 3> axes = {'x', 'y', 'z'};
+  for (const Group& group : mechanism.groups)
+    for (std::size_t k = 0; k < group.count; ++k) {
+      Point& point = mechanism.points[static_cast<std::size_t>(group.first) + k];
+      ExplicitPoint form;
+      for (std::size_t c = 0; c < dimension(mechanism); ++c) {
+        Coordinate own;
+        own.name = free_name(mechanism, axes[c] + point.name);
+        own.lower = group.near[k][c] - 1;
+        own.upper = group.near[k][c] + 1;
+        own.lower_expression = Expression::number(own.lower);
+        own.upper_expression = Expression::number(own.upper);
+        form.coordinates.push_back(Expression::symbol(own.name));
+        mechanism.coordinates.push_back(std::move(own));
+      }
+      point.form = std::move(form);
+    }
+  mechanism.groups.clear();
+  return mechanism;
+}
+
 void require_closed_forms(const Mechanism& mechanism, const std::string& what, const std::string& mend) {
   if (mechanism.groups.empty()) return;
   const Group& group = mechanism.groups.front();

@@ -53,6 +53,10 @@ std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& m
 /// How many unknowns the groups have together.
 std::size_t group_unknowns(const Mechanism& mechanism);
 
+/// The same with the unknowns of its groups as free coordinates behind its own, "xB", "yB", within a metre of the
+/// posture: all points have formulas then, and what closes the groups is left to the caller.
+Mechanism with_open_groups(Mechanism mechanism);
+
 /// Throws core::InputError for a mechanism with groups: what is asked for needs closed forms. `what`: "loci over two
 /// coordinates are traced".
 void require_closed_forms(const Mechanism& mechanism, const std::string& what, const std::string& mend);

@@ -13,6 +13,7 @@
 #include "core/locus_map.hpp"
 #include "core/virtual_work.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/group_closing.hpp"
 #include "symbolic/algebra_turn.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/code_names.hpp"
@@ -32,16 +33,18 @@ using mechanism::Mechanism;
 class SheetWriter {
  public:
   SheetWriter(const Mechanism& m, const SheetOptions& options)
-      : mechanism_(m),
+      : groups_(m.groups),
+        opened_(m.groups.empty() ? std::nullopt : std::optional(mechanism::with_open_groups(m))),
+        mechanism_(opened_ ? *opened_ : m),
         language_(options.language),
-        geometry_(m, options.keep_parameters),
+        geometry_(mechanism_, options.keep_parameters),
         determinants_(factored_determinants(geometry_)),
         elimination_(geometry_),
         causes_(geometry_, &determinants_.equations),
         names_(options.language) {
     name_symbols();
     if (!geometry_.has_dependent_roots()) return;
-    for (SheetGeometry& sheet : sheet_geometries(m, geometry_.charts(), all_modes(m))) {
+    for (SheetGeometry& sheet : sheet_geometries(mechanism_, geometry_.charts(), all_modes(mechanism_))) {
       sheets_.push_back(std::make_unique<const Geometry>(std::move(sheet.geometry)));
       eliminations_.push_back(std::make_unique<const Elimination>(*sheets_.back()));
     }
@@ -66,6 +69,7 @@ class SheetWriter {
     for (const ConstructedPoint& c : geometry_.constructed()) write_closure(c, sheet.closure);
     for (const InverseLength& length : geometry_.inverse_lengths()) write_length(length, sheet.closure);
     for (const TorsionAngle& angle : geometry_.torsion_angles()) write_angle(angle, sheet.closure);
+    for (const mechanism::Group& own : groups_) write_closing(own, sheet.closing);
     sheet.determinant = determinant("A", determinants_.determinant, nullptr);
     for (std::size_t k = 0; k < equations.unknown_names.size(); ++k) {
       sheet.numerators.push_back(
@@ -187,6 +191,8 @@ class SheetWriter {
                                     [&](const Implicit& entry) { return entry.natural == natural; });
     if (known != implicit_.end()) return *known;
     if (is_constant(natural)) return implicit_.emplace_back(Implicit{natural, {}, false, true});
+    // Over unknowns there is nothing to eliminate with.
+    if (opened_) return implicit_.emplace_back(Implicit{natural, {}, false});
     std::vector<ImplicitPolynomial> list;
     bool too_heavy = false;
     const auto add = [&](const Elimination& elimination, const Poly& in_its_ring) {
@@ -301,6 +307,24 @@ class SheetWriter {
       if (geometry_.poly(geometry_.natural(c.point)[0]).depends_on(c.x)) write_offset(c, point.name, *offset, lines);
     } else if (const auto* crossing = std::get_if<mechanism::CrossingPoint>(&point.form)) {
       write_crossing(c, point.name, *crossing, lines);
+    }
+  }
+
+  /// |Q - P|^2 - length^2 of the distances of a group, (P - Q) x u of its lines.
+  void write_closing(const mechanism::Group& own, std::vector<std::string>& polynomials) const {
+    const auto way = [&](mechanism::PointIndex from, mechanism::PointIndex to, std::size_t axis) {
+      return coordinate(to, axis) - coordinate(from, axis);
+    };
+    for (const mechanism::Group::Distance& distance : own.distances) {
+      Poly sum = -geometry_.squared_length(distance.length);
+      for (std::size_t axis = 0; axis < mechanism::dimension(mechanism_); ++axis)
+        sum += way(distance.first, distance.second, axis).pow(2);
+      polynomials.push_back(text(sum));
+    }
+    for (const mechanism::Group::Line& line : own.lines) {
+      const std::vector<GiNaC::ex> along = geometry_.vector(line.along);
+      polynomials.push_back(text(way(line.base, line.point, 0) * geometry_.poly(along[1]) -
+                                 way(line.base, line.point, 1) * geometry_.poly(along[0])));
     }
   }
 
@@ -434,6 +458,8 @@ class SheetWriter {
     return {along(0), along(1), along(2)};
   }
 
+  std::vector<mechanism::Group> groups_;
+  std::optional<Mechanism> opened_;  ///< with the unknowns of its groups as coordinates
   const Mechanism& mechanism_;
   Language language_;
   Geometry geometry_;

@@ -46,6 +46,9 @@ struct EquationSheet {
   std::vector<std::string> loads;                ///< the column -w_e
   /// How every constructed point's symbols follow from the coordinates, in order of evaluation: "xB1" = "...".
   std::vector<std::pair<std::string, std::string>> closure;
+  /// Of points that close together, whose places are unknowns behind the coordinates: the polynomials that are zero
+  /// where they close, as many as unknowns.
+  std::vector<std::string> closing;
   Determinant determinant;
   std::vector<Determinant> numerators;
 };

@@ -41,6 +41,8 @@ std::string format_text(const EquationSheet& sheet) {
   for (const auto& [name, written] : sheet.renamed) out << "  " << name << " is written " << written << "\n";
   out << "\nClosure\n";
   for (const auto& [name, value] : sheet.closure) out << "  " << name << " = " << value << "\n";
+  if (!sheet.closing.empty()) out << "\nClosing equations\n";
+  for (const std::string& polynomial : sheet.closing) out << "  " << polynomial << " = 0\n";
   out << "\nMatrix A and right-hand side -w_e\n";
   std::size_t label = 0;
   for (const std::string& row : sheet.rows) label = std::max(label, row.size());
@@ -88,6 +90,7 @@ std::string format_latex(const EquationSheet& sheet) {
       << "\\setcounter{MaxMatrixCols}{" << sheet.unknowns.size() + 1 << "}\n";
   write_renamed(out, sheet, "% ");
   for (const auto& [name, value] : sheet.closure) out << "\\[ " << name << " = " << value << " \\]\n";
+  for (const std::string& polynomial : sheet.closing) out << "\\[ " << polynomial << " = 0 \\]\n";
   out << "\\setcounter{MaxMatrixCols}{" << sheet.unknowns.size() + 1 << "}\n\\[\n\\begin{bmatrix}\n";
   for (const auto& row : sheet.matrix) {
     for (std::size_t j = 0; j < row.size(); ++j) out << (j == 0 ? "  " : " & ") << row[j];
@@ -191,6 +194,15 @@ std::string format_c(const EquationSheet& sheet) {
   };
   out << matrix << ";\n";
   for (const Determinant* d : all_determinants(sheet)) out << head(*d) << ";\n";
+  const std::string closing = "void closing(" + places + ", double g[" + std::to_string(sheet.closing.size()) + "])";
+  if (!sheet.closing.empty()) {
+    out << closing << ";\n\n/* zero where the points of groups close */\n" << closing << " {\n";
+    std::vector<const std::string*> polynomials;
+    for (const std::string& own : sheet.closing) polynomials.push_back(&own);
+    write_c_definitions(out, sheet, polynomials);
+    for (std::size_t i = 0; i < sheet.closing.size(); ++i) out << "  g[" << i << "] = " << sheet.closing[i] << ";\n";
+    out << "}\n";
+  }
   out << "\n" << matrix << " {\n";
   std::vector<const std::string*> formulas;
   for (const auto& row : sheet.matrix)
@@ -233,6 +245,15 @@ std::string format_python(const EquationSheet& sheet) {
   out << "    ]\n    b = [";
   for (std::size_t i = 0; i < sheet.loads.size(); ++i) out << (i == 0 ? "" : ", ") << sheet.loads[i];
   out << "]\n    return A, b\n";
+  if (!sheet.closing.empty()) {
+    out << "\n\ndef closing(" << arguments(sheet, "") << "):\n    \"\"\"Zero where the points of groups close.\"\"\"\n";
+    std::set<std::string> needed;
+    for (const std::string& own : sheet.closing) needed.merge(identifiers(own));
+    for (const auto& [name, value] : used(sheet.closure, needed)) out << "    " << name << " = " << value << "\n";
+    out << "    return [";
+    for (std::size_t i = 0; i < sheet.closing.size(); ++i) out << (i == 0 ? "" : ", ") << sheet.closing[i];
+    out << "]\n";
+  }
   for (const Determinant* d : all_determinants(sheet)) {
     out << "\n\ndef determinant_" << identifier(d->name) << "(" << arguments(sheet, "") << "):\n";
     std::set<std::string> needed = identifiers(d->expression);
@@ -244,12 +265,14 @@ std::string format_python(const EquationSheet& sheet) {
 
 std::string format_matlab(const EquationSheet& sheet) {
   std::ostringstream out;
-  out << "function [A, b, determinants] = newton_euler(" << arguments(sheet, "") << ")\n% "
-      << comment_text(sheet.mechanism, Language::matlab) << ": A w = -w_e. Unknowns:";
+  const bool closes = !sheet.closing.empty();
+  out << "function [A, b, determinants" << (closes ? ", closing" : "") << "] = newton_euler(" << arguments(sheet, "")
+      << ")\n% " << comment_text(sheet.mechanism, Language::matlab) << ": A w = -w_e. Unknowns:";
   for (const std::string& unknown : sheet.unknowns) out << " " << unknown;
   out << "\n";
   write_renamed(out, sheet, "% ");
   out << "% determinants: |A|, then the numerator of every unknown\n";
+  if (closes) out << "% closing: zero where the points of groups close\n";
   for (const Lines* lines : {&sheet.parameters, &sheet.closure})
     for (const auto& [name, value] : *lines) out << name << " = " << value << ";\n";
   out << "A = [\n";
@@ -261,7 +284,10 @@ std::string format_matlab(const EquationSheet& sheet) {
   for (const std::string& load : sheet.loads) out << "(" << load << "); ";
   out << "];\ndeterminants = [\n";
   for (const Determinant* d : all_determinants(sheet)) out << "  (" << d->expression << ");\n";
-  out << "];\nend\n";
+  out << "];\n";
+  if (closes) out << "closing = [\n";
+  for (const std::string& own : sheet.closing) out << "  (" << own << ");\n";
+  out << (closes ? "];\n" : "") << "end\n";
   return out.str();
 }
 
