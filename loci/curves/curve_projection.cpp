@@ -236,7 +236,9 @@ const core::LocusFactor* factor_of(const core::LocusProblem& problem, const core
     if (role == FactorRole::workspace_boundary || factor.role != role) continue;
     // The two senses of a least force have one polynomial.
     if (role == FactorRole::margin && factor.expression != curve.factor) continue;
-    if (std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end())
+    if (curve.implicit.is_zero()
+            ? factor.implicit.empty() && factor.expression == curve.factor
+            : std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end())
       return &factor;
   }
   return nullptr;

@@ -33,6 +33,8 @@ constexpr double smallest_cut = 1e-12;
 constexpr std::size_t most_cut_cells = 8192, most_cut_cells_of_a_sketch = 256, most_star_cells = 256;
 // Nearer than this, relative to the region, a point is on the curve to rounding.
 constexpr double at_rounding = 1e-14;
+// Of an open cell that may be out of reach.
+constexpr int most_halvings = 8;
 // Vertices are this near to their curve, relative to the region.
 constexpr double vertex_accuracy = 1e-12;
 // An arc shorter than this, relative to the region, is none.
@@ -158,8 +160,14 @@ class Tracer {
     trace.isolated_points = isolated_points_;
     std::vector<PlaneCell> undecided = graph_.undecided;
     for (const Chain& chain : pieces_) trace.arcs.push_back(place(chain, tolerance, undecided));
+    std::erase_if(undecided, [&](const PlaneCell& cell) { return !meets_box(cell); });
+    if (!undecided.empty() && !own_.dropped.empty()) {
+      const SheetProgram whole(tower_, std::vector<core::Polynomial>{});
+      SheetCell look(whole, mode_);
+      std::erase_if(undecided, [&](const PlaneCell& cell) { return is_out_of_reach(look, cell, most_halvings); });
+    }
     for (const PlaneCell& cell : open_places(undecided, size_))
-      if (meets_box(cell)) trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
+      trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
     trace.certified = trace.undecided.empty();
     // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
     trace.stopped = options_.stop && options_.stop();
@@ -229,6 +237,18 @@ class Tracer {
       const core::Polynomial sign = core::constant_polynomial(n, i % 2 == 0 ? 1 : -1);
       cuts.push_back({{sign * line}, core::ArcEnd::box, true, i});
     }
+  }
+
+  /// By halves: roots on which the curve does not depend, as that of a limit, leave no pose in the cell.
+  static bool is_out_of_reach(SheetCell& look, const PlaneCell& cell, int halvings) {
+    if (!look.enter(cell.x, cell.y)) return true;
+    if (halvings == 0) return false;
+    const bool wide = cell.x.width() > cell.y.width();
+    const Interval& range = wide ? cell.x : cell.y;
+    const Interval parts[] = {{range.lower(), range.middle()}, {range.middle(), range.upper()}};
+    return std::all_of(std::begin(parts), std::end(parts), [&](const Interval& part) {
+      return is_out_of_reach(look, wide ? PlaneCell{part, cell.y} : PlaneCell{cell.x, part}, halvings - 1);
+    });
   }
 
   bool meets_box(const PlaneCell& cell) const {

@@ -17,7 +17,8 @@ constexpr double most_offset = 0.06;
 // A cell is not made more slender than this. Enclosures over a long cell may be so wide, or infinite, that they vary
 // most along the axis that was cut all the time.
 constexpr double most_slender = 32;
-// Below this size, relative to the patch, multi-precision is worth its price where rounding is what hides a sign.
+// Below this size, relative to the patch, multi-precision is worth its price where rounding is what hides a sign, and
+// so are plain enclosures where second-order ones tell nothing.
 constexpr double worth_precision = 1e-4;
 constexpr int cells_between_stops = 256;
 // Enough that what is left of them after a first look fills batches again.
@@ -90,8 +91,9 @@ int steeper_axis(const SheetCell& cell) {
   return variation[0] >= variation[1] ? 0 : 1;
 }
 
-/// What second-order enclosures tell of a cell. False: plain ones may tell more.
-bool judge_smoothly(const SmoothCells& cells, std::size_t lane, Judgement& judgement) {
+/// What second-order enclosures tell of a cell. False: plain ones may tell more. Near a rim they do on tiny cells: the
+/// slopes of a root are steep there and cancel in the chain rule, which is applied once, but not step by step.
+bool judge_smoothly(const SmoothCells& cells, std::size_t lane, bool is_tiny, Judgement& judgement) {
   if (cells.place(lane) == SmoothCell::Standing::outside || cells.excludes(lane, 0)) {
     judgement.kind = LeafKind::empty;
     return true;
@@ -106,7 +108,7 @@ bool judge_smoothly(const SmoothCells& cells, std::size_t lane, Judgement& judge
     judgement.kind = LeafKind::graph;
     judgement.along = along;
   }
-  return judgement.kind != LeafKind::undecided || cells.is_far_from_rims(lane);
+  return judgement.kind != LeafKind::undecided || (!is_tiny && cells.is_far_from_rims(lane));
 }
 
 /// Judges cells a group at a time, for which enclosures are computed side by side: what is told of one does not depend
@@ -171,8 +173,10 @@ class Judge {
         ranges[lane] = {cell.x, cell.y};
       }
       smooth_->enter(ranges, count);
-      for (std::size_t lane = 0; lane < count; ++lane)
-        if (!judge_smoothly(*smooth_, lane, judgements_[cells[first + lane]])) left.push_back(cells[first + lane]);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        const std::size_t index = cells[first + lane];
+        if (!judge_smoothly(*smooth_, lane, is_tiny((*cells_)[index]), judgements_[index])) left.push_back(index);
+      }
     }
     return left;
   }

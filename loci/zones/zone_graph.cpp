@@ -235,13 +235,18 @@ class Builder {
         const core::LocusCurve &a = curve(owners[i]), &b = curve(owners[k]);
         const bool one_singular =
             (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
-        if (one_singular || a.implicit == b.implicit || add_closed_crossings(owners[i], owners[k])) continue;
+        if (one_singular || is_one_curve(a, b) || add_closed_crossings(owners[i], owners[k])) continue;
         for (const sheet::PlaneCell& place : meeting_places(owners[i], owners[k]))
           if (!add_crossings_in(place, owners[i], owners[k])) {
             add_plane_crossings(a, b);
             break;
           }
       }
+  }
+
+  /// Arcs of one curve do not cross: they end where it crosses itself.
+  static bool is_one_curve(const core::LocusCurve& a, const core::LocusCurve& b) {
+    return a.implicit == b.implicit && (!a.implicit.is_zero() || a.factor == b.factor);
   }
 
   /// Boxes outside which the curves stay apart: their arcs are next to their polylines.

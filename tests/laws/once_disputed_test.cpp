@@ -73,6 +73,36 @@ TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
   EXPECT_GE(map.modes.front().in_doubt, map.modes.front().workspace);
 }
 
+// The load is along the folded lower leg where the couple in A1 vanishes on the boundary: beside it the slopes of that
+// leg's root are steep. Second-order enclosures told nothing there, and 40 of 73 arcs were withheld.
+TEST(OnceDisputed, ACurveThatRunsIntoTheFoldOfALowerLeg) {
+  const core::LocusMap map = trace_loci(corpus("loci/coupler_load_along_the_folded_leg"), {});
+  EXPECT_TRUE(map.complete);
+  for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id << " " << curve.factor;
+}
+
+// The crossings of curves of which no polynomial is computed were taken for unproven, and no zone was certified.
+TEST(OnceDisputed, ZonesBetweenCurvesWithoutPolynomials) {
+  const core::Zones map = find_zones(corpus("loci/stacked_curves_without_polynomials_cross"), {});
+  EXPECT_EQ(map.zones.size(), 13u);
+  double sum = 0;
+  for (const core::Zone& zone : map.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    sum += zone.size;
+  }
+  EXPECT_NEAR(sum, map.modes.front().workspace, 1e-4 * sum);
+}
+
+// A base of a leg on a side of the box, where curves stay open; a limit keeps every pose away from it.
+TEST(OnceDisputed, NothingIsOpenWhereNoPoseIs) {
+  LociRequest request;
+  request.min_force = 50;
+  const core::LocusMap map = trace_loci(corpus("loci/rprpr_base_beyond_a_limit"), request);
+  EXPECT_TRUE(map.complete);
+  EXPECT_TRUE(map.open.empty());
+  for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id << " " << curve.factor;
+}
+
 // Two zones that meet in one point, where a side of the box touches the boundary, were one with a wrong sign.
 TEST(OnceDisputed, ZonesThatASideOfTheBoxTellsApart) {
   const core::Zones map = find_zones(corpus("witness/prrr_r_pinched_by_a_side"), {});
