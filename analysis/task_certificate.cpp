@@ -14,12 +14,10 @@ void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task
     throw core::InputError({.file = "--certificate"}, "there is no certificate of " + what, "leave --certificate out");
   };
   if (!mechanism.groups.empty()) refuse("mechanisms whose points close together");
-  if (task.loads || !task.loads_within.empty()) refuse("a task under other loads than the file's");
   if (task.pose_error) refuse("a task that bounds the pose error");
   if (!task.preload.empty() || !mechanism::joints_without_preload(mechanism).empty())
     refuse("a task that chooses efforts");
-  if (std::holds_alternative<core::TaskPolygon>(task.shape) || std::holds_alternative<core::TaskMesh>(task.shape))
-    refuse("a polygon or a mesh over these coordinates");
+  if (std::holds_alternative<core::TaskMesh>(task.shape)) refuse("a mesh");
 }
 
 core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, const core::Task& task,

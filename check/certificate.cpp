@@ -303,15 +303,12 @@ class Reader {
   TaskClaim task(const Json& entry, const CertificateFile& c) const {
     TaskClaim t;
     t.mode = mode(entry, c);
-    t.shape = text(entry, "shape");
-    for (const Json& p : array(entry, "points")) t.points.push_back({rational(text(p, 0)), rational(text(p, 1))});
-    t.radius = rational(text(entry, "radius"));
-    t.margin = rational(text(entry, "margin"));
+    t.shape.name = text(entry, "shape");
+    for (const Json& p : array(entry, "points")) t.shape.points.push_back({rational(text(p, 0)), rational(text(p, 1))});
+    t.shape.radius = rational(text(entry, "radius"));
+    t.shape.margin = rational(text(entry, "margin"));
     for (const Json& what : array(entry, "unchecked")) t.unchecked.push_back(text(what));
-    const std::size_t least = t.shape == "circle" ? 1 : t.shape == "polygon" ? 3 : 2;
-    const bool known = t.shape == "box" || t.shape == "circle" || t.shape == "polygon" || t.shape == "path";
-    if (!known || t.points.size() < least || (t.shape == "box" && t.points.size() != 2) || t.margin < 0 || t.radius < 0)
-      fail("the task has no shape");
+    if (!t.shape.is_shape(2)) fail("the task has no shape");
     return t;
   }
 

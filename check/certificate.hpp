@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "check/task_region.hpp"
 #include "core/certificate.hpp"
 #include "core/task.hpp"
 
@@ -74,9 +75,7 @@ struct ZoneClaim {
 /// Over the task and its margin nothing wanted vanishes.
 struct TaskClaim {
   int mode = 0;
-  std::string shape;                       ///< "box", "circle", "polygon", "path"
-  std::vector<core::RationalPose> points;  ///< opposite corners; the centre; corners
-  core::Rational radius, margin;
+  ClaimedShape shape;
   std::vector<std::string> unchecked;  ///< what else was asked for
 };
 

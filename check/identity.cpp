@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/elimination.hpp"
 #include "mechanism/guide.hpp"
 
 namespace clearloci::check {
@@ -42,29 +43,9 @@ struct LogSystem {
   std::size_t columns = 0;
   std::vector<std::size_t> pivots;
 
-  /// To reduced row echelon form, column by column; columns that depend on earlier ones stay.
   void eliminate() {
-    const std::size_t width = rows.front().size();
-    for (std::size_t column = 0; column < columns; ++column) {
-      const std::size_t next = pivots.size();
-      std::size_t pivot = next;
-      double best = 0;
-      for (std::size_t i = next; i < rows.size(); ++i)
-        if (const double size = std::abs(rows[i][column].middle()); size > best && rows[i][column].sign() != 0) {
-          best = size;
-          pivot = i;
-        }
-      if (best < nothing) continue;
-      std::swap(rows[pivot], rows[next]);
-      const Interval scale = Interval(1.0, identity_bits) / rows[next][column];
-      for (std::size_t j = column; j < width; ++j) rows[next][j] = rows[next][j] * scale;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (i == next) continue;
-        const Interval factor = rows[i][column];
-        for (std::size_t j = column; j < width; ++j) rows[i][j] = rows[i][j] - factor * rows[next][j];
-      }
-      pivots.push_back(column);
-    }
+    Interval determinant(1.0, identity_bits);
+    pivots = reduce(rows, columns, determinant, nothing);
   }
 
   bool is_pivot(std::size_t column) const { return std::find(pivots.begin(), pivots.end(), column) != pivots.end(); }

@@ -5,6 +5,8 @@
 #include <mpfi.h>
 // mpfi_io.h is not needed: nothing is printed.
 
+#include <algorithm>
+
 #include "core/rational.hpp"
 
 namespace clearloci::check {
@@ -44,6 +46,7 @@ class Interval {
     return mpfr_sgn(&value_->left) > 0 ? 1 : mpfr_sgn(&value_->right) < 0 ? -1 : 0;
   }
   bool is_finite() const { return mpfi_bounded_p(value_) != 0; }
+  bool is_zero() const { return mpfi_is_zero(value_) != 0; }
   bool contains_zero() const { return sign() == 0; }
   /// Every number of it is at most 0; at least 0.
   bool below() const { return mpfi_nan_p(value_) == 0 && mpfr_sgn(&value_->right) < 0; }
@@ -52,29 +55,35 @@ class Interval {
   mpfi_t value_;
 };
 
+inline mpfr_prec_t finer_bits(const Interval& a, const Interval& b) { return std::max(a.bits(), b.bits()); }
 inline Interval operator+(const Interval& a, const Interval& b) {
-  Interval r(a.bits());
+  Interval r(finer_bits(a, b));
   mpfi_add(r.get(), a.get(), b.get());
   return r;
 }
 inline Interval operator-(const Interval& a, const Interval& b) {
-  Interval r(a.bits());
+  Interval r(finer_bits(a, b));
   mpfi_sub(r.get(), a.get(), b.get());
   return r;
 }
 inline Interval operator*(const Interval& a, const Interval& b) {
-  Interval r(a.bits());
+  Interval r(finer_bits(a, b));
   mpfi_mul(r.get(), a.get(), b.get());
   return r;
 }
 inline Interval operator/(const Interval& a, const Interval& b) {
-  Interval r(a.bits());
+  Interval r(finer_bits(a, b));
   mpfi_div(r.get(), a.get(), b.get());
   return r;
 }
 inline Interval operator-(const Interval& a) {
   Interval r(a.bits());
   mpfi_neg(r.get(), a.get());
+  return r;
+}
+inline Interval inverse(const Interval& a) {
+  Interval r(a.bits());
+  mpfi_inv(r.get(), a.get());
   return r;
 }
 inline Interval squared(const Interval& a) {

@@ -31,7 +31,7 @@ class Jet {
   /// Of a constant: none.
   const std::vector<Interval>& slopes() const { return slopes_; }
   int sign() const { return value_.sign(); }
-  bool is_zero() const { return is_constant() && mpfi_is_zero(value_.get()) != 0; }
+  bool is_zero() const { return is_constant() && value_.is_zero(); }
 
   friend Jet operator+(const Jet& a, const Jet& b) {
     return combined(a, b, a.value_ + b.value_, a.middle_ + b.middle_, [](const Interval* p, const Interval* q) {

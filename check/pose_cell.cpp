@@ -4,11 +4,20 @@
 #include <cmath>
 #include <limits>
 
+#include "check/elimination.hpp"
+
 namespace clearloci::check {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double ulp = 0x1p-52;
+
+/// Every value is c + sum a_i e_i within r, where |e_i| <= 1, of balls |e| <= 1.
+struct PoseForm {
+  double c = 0;
+  std::vector<double> a;
+  double r = 0;
+};
 
 /// A double within, and how far the others are from it at most.
 std::pair<double, double> ball_of(const Interval& x) {
@@ -61,38 +70,23 @@ class Sum {
 
 using Dense = std::vector<std::vector<double>>;
 
-/// By Gauss and Jordan, in doubles; nothing of it is trusted.
+/// In doubles; nothing of it is trusted.
 std::optional<Dense> inverse_of(Dense a) {
   const std::size_t n = a.size();
-  Dense inverse(n, std::vector<double>(n, 0.0));
-  for (std::size_t i = 0; i < n; ++i) inverse[i][i] = 1;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k; i < n; ++i)
-      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
-    if (!(std::abs(a[pivot][k]) > 0) || !std::isfinite(a[pivot][k])) return std::nullopt;
-    std::swap(a[pivot], a[k]);
-    std::swap(inverse[pivot], inverse[k]);
-    const double scale = 1 / a[k][k];
-    for (std::size_t j = 0; j < n; ++j) {
-      a[k][j] *= scale;
-      inverse[k][j] *= scale;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const double factor = a[i][k];
-      if (i == k || factor == 0) continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        a[i][j] -= factor * a[k][j];
-        inverse[i][j] -= factor * inverse[k][j];
-      }
-    }
+  for (std::size_t i = 0; i < n; ++i) {
+    a[i].resize(2 * n, 0.0);
+    a[i][n + i] = 1;
   }
-  return inverse;
+  double determinant = 1;
+  if (reduce(a, n, determinant).size() < n) return std::nullopt;
+  for (std::vector<double>& row : a) row.erase(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
+  return a;
 }
 
 class Solved {
  public:
-  Solved(const PoseEquations& equations, const Jet::Offsets& offsets) : equations_(equations), n_(equations.unknowns) {
+  Solved(const PoseEquations& equations, const Jet::Offsets& offsets, const std::vector<LoadBall>& balls)
+      : equations_(equations), balls_(balls), n_(equations.unknowns) {
     for (const Interval& own : offsets) half_.push_back(std::max(std::abs(own.lower()), std::abs(own.upper())));
     proof_.spreads.assign(half_.size(), 0.0);
     for (const PoseEntry& entry : equations.matrix) entries_.push_back(form_of(entry.value, half_));
@@ -153,7 +147,7 @@ class Solved {
         for (const std::size_t e : of_unknown[j]) sum.add(-inverse_[k][equations_.matrix[e].row], entries_[e]);
         const PoseForm form = sum.done();
         note(form, scale_[j] / scale_[k]);
-        bound[k][j] = form.magnitude();
+        bound[k][j] = magnitude(form);
       }
     }
     proof_.regular = find_radius(bound);
@@ -167,7 +161,7 @@ class Solved {
   bool find_radius(const Dense& bound) {
     radius_.clear();
     constexpr double part = 1e-9;
-    for (std::size_t k = 0; k < n_; ++k) radius_.push_back(1.01 * rho_[k].magnitude() + part * scale_[k]);
+    for (std::size_t k = 0; k < n_; ++k) radius_.push_back(1.01 * magnitude(rho_[k]) + part * scale_[k]);
     rest_.assign(n_, 0.0);
     constexpr int attempts = 20;
     for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -177,7 +171,7 @@ class Solved {
         double sum = 0;
         for (std::size_t j = 0; j < n_; ++j) sum += bound[k][j] * radius_[j];
         rest_[k] = sum * (1 + static_cast<double>(n_ + 2) * ulp);
-        const double all = (rest_[k] + rho_[k].magnitude()) * (1 + 4 * ulp);
+        const double all = (rest_[k] + magnitude(rho_[k])) * (1 + 4 * ulp);
         if (!std::isfinite(all)) return false;
         inside = inside && all <= radius_[k] && rest_[k] < radius_[k];
         next[k] = std::max(radius_[k], 1.1 * all + part * scale_[k]);
@@ -197,7 +191,7 @@ class Solved {
       Sum& sum = sums[entry.row];
       sum.add(w0_[entry.unknown], q);
       sum.add(q.c, rho_[entry.unknown]);
-      sum.widen((q.spread() + q.r) * radius_[entry.unknown] + std::abs(q.c) * rest_[entry.unknown]);
+      sum.widen((spread(q) + q.r) * radius_[entry.unknown] + std::abs(q.c) * rest_[entry.unknown]);
     }
     // Along its direction at the middle.
     std::vector<PoseForm> components;
@@ -212,10 +206,29 @@ class Solved {
     for (const PoseForm& own : components) along.add(own.c / length, own);
     const PoseForm form = along.done();
     note(form, 1 / length);
-    return form.lower() > least * (1 + 16 * ulp);
+    return form.c - (spread(form) + form.r) * (1 + 0x1p-40) > least * (1 + 16 * ulp);
   }
 
+  double spread(const PoseForm& form) const {
+    double sum = 0;
+    auto ball = balls_.begin();
+    for (std::size_t c = 0; c < form.a.size();) {
+      if (ball == balls_.end() || c != ball->first) {
+        sum += std::abs(form.a[c++]);
+        continue;
+      }
+      double square = 0;
+      for (const std::size_t end = c + ball->count; c < end; ++c) square += form.a[c] * form.a[c];
+      sum += std::sqrt(square);
+      ++ball;
+    }
+    return sum * (1 + (static_cast<double>(form.a.size()) + 16) * ulp);
+  }
+
+  double magnitude(const PoseForm& form) const { return (std::abs(form.c) + spread(form) + form.r) * (1 + 4 * ulp); }
+
   const PoseEquations& equations_;
+  const std::vector<LoadBall>& balls_;
   std::size_t n_;
   std::vector<double> half_, w0_, scale_, radius_, rest_;
   std::vector<PoseForm> entries_, right_, rho_;
@@ -225,21 +238,13 @@ class Solved {
 
 }  // namespace
 
-double PoseForm::spread() const {
-  double sum = 0;
-  for (const double own : a) sum += std::abs(own);
-  return sum * (1 + 16 * ulp);
-}
-
-double PoseForm::magnitude() const { return (std::abs(c) + spread() + r) * (1 + 4 * ulp); }
-
 bool PoseCellProof::holds() const {
   return regular && std::all_of(demands.begin(), demands.end(), [](bool own) { return own; });
 }
 
 PoseCellProof prove_cell(const PoseEquations& equations, const std::vector<core::TaskDemand>& demands,
-                         const Jet::Offsets& offsets) {
-  return Solved(equations, offsets).run(demands);
+                         const Jet::Offsets& offsets, const std::vector<LoadBall>& balls) {
+  return Solved(equations, offsets, balls).run(demands);
 }
 
 }  // namespace clearloci::check

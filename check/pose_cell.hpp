@@ -9,15 +9,9 @@
 
 namespace clearloci::check {
 
-/// Every value is c + sum a_i e_i within r, where |e_i| <= 1.
-struct PoseForm {
-  double c = 0;
-  std::vector<double> a;
-  double r = 0;
-
-  double spread() const;
-  double magnitude() const;
-  double lower() const { return c - (spread() + r) * (1 + 0x1p-40); }
+/// Coordinates of the cell that stand one behind the other and lie in a ball around the middle, not in a box.
+struct LoadBall {
+  std::size_t first = 0, count = 0;
 };
 
 /// What a cell was found to be.
@@ -28,8 +22,8 @@ struct PoseCellProof {
   bool holds() const;
 };
 
-/// `offsets`: X_c - m_c of the cell.
+/// `offsets`: X_c - m_c of the cell. `balls`: by their first coordinates.
 PoseCellProof prove_cell(const PoseEquations& equations, const std::vector<core::TaskDemand>& demands,
-                         const Jet::Offsets& offsets);
+                         const Jet::Offsets& offsets, const std::vector<LoadBall>& balls = {});
 
 }  // namespace clearloci::check

@@ -1,11 +1,11 @@
 #include "check/pose_task.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "check/certificate.hpp"
 #include "check/pose_cell.hpp"
@@ -15,12 +15,11 @@ namespace clearloci::check {
 namespace {
 
 using Json = nlohmann::json;
+using core::Expression;
 using core::Rational;
 using mechanism::Mechanism;
 
-constexpr std::size_t most_pose_cells = 1'000'000, most_variables = 32, most_points = 10'000, most_demands = 10'000;
-/// Of the whole: cells are not cut further.
-constexpr double finest = 1e-9;
+constexpr std::size_t most_variables = 32, most_points = 10'000, most_demands = 10'000;
 
 class Reader {
  public:
@@ -33,10 +32,7 @@ class Reader {
       claim.overrides.emplace_back(text(item(pair, 0)), text(item(pair, 1)));
     for (const Json& name : list(at(root, "coordinates"), most_variables)) claim.coordinates.push_back(text(name));
     const Json& task = at(root, "pose_task");
-    claim.shape = text(at(task, "shape"));
-    for (const Json& point : list(at(task, "points"), most_points)) claim.points.push_back(rationals(point));
-    claim.radius = rational(at(task, "radius"));
-    claim.margin = rational(at(task, "margin"));
+    claim.shape = shape(task);
     if (const Json& own = at(task, "angle_length"); !own.is_null()) claim.angle_length = rational(own);
     for (const Json& side : list(at(task, "sides"), 10 * most_variables)) {
       if (side != 1 && side != -1) fail("a side is 1 or -1");
@@ -47,7 +43,13 @@ class Reader {
     for (const Json& own : list(at(task, "demands"), most_demands))
       claim.demands.push_back({text(item(own, 0)), quantity(text(item(own, 1))), rational(item(own, 2))});
     for (const Json& own : list(at(task, "unchecked"), most_variables)) claim.unchecked.push_back(text(own));
-    check_shape(claim);
+    if (task.contains("loads_from"))
+      for (const Json& own : list(task["loads_from"], 2)) claim.loads_from.push_back(rationals(own));
+    if (task.contains("loads_within"))
+      for (const Json& own : list(task["loads_within"], most_variables))
+        claim.loads_within.push_back({index(item(own, 0)), rational(item(own, 1)), rational(item(own, 2))});
+    if (!claim.shape.is_shape(claim.coordinates.size()) || (claim.angle_length && *claim.angle_length <= 0))
+      fail("the task has no shape");
     return claim;
   }
 
@@ -88,70 +90,47 @@ class Reader {
       if (core::to_string(q) == name) return q;
     fail("an unknown quantity");
   }
-  void check_shape(const PoseTaskClaim& claim) const {
-    const std::size_t count = claim.points.size();
-    const bool known = (claim.shape == "box" && count == 2) || (claim.shape == "ball" && count == 1) ||
-                       (claim.shape == "path" && count >= 2);
-    if (!known || claim.margin < 0 || claim.radius < 0 || (claim.angle_length && *claim.angle_length <= 0))
-      fail("the task has no shape");
-    for (const auto& point : claim.points)
-      if (point.size() != claim.coordinates.size()) fail("a pose has one number a coordinate");
+  std::size_t index(const Json& json) const {
+    if (!json.is_number_unsigned() || json.get<std::size_t>() >= most_variables)
+      fail("a number is missing, or too large");
+    return json.get<std::size_t>();
+  }
+  ClaimedShape shape(const Json& task) const {
+    ClaimedShape own;
+    own.name = text(at(task, "shape"));
+    for (const Json& point : list(at(task, "points"), most_points)) own.points.push_back(rationals(point));
+    own.radius = rational(at(task, "radius"));
+    own.margin = rational(at(task, "margin"));
+    if (task.contains("across")) own.across = {index(item(task["across"], 0)), index(item(task["across"], 1))};
+    if (task.contains("above")) own.above = rationals(task["above"]);
+    return own;
   }
 
   const std::string& file_;
 };
 
-using Range = std::array<double, 2>;
-using Box = std::vector<Range>;
-
-/// The double next to it on one side.
-Range around(const Rational& value) {
-  const Interval own(value, cell_bits);
-  return {own.lower(), own.upper()};
+Expression sum(const Expression& a, const Expression& b) { return Expression::apply(Expression::Kind::add, {a, b}); }
+Expression product(const Expression& a, const Expression& b) {
+  return Expression::apply(Expression::Kind::multiply, {a, b});
 }
 
 class PoseTaskCheck {
  public:
   PoseTaskCheck(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline)
-      : m_(m), claim_(claim), deadline_(deadline), coordinates_(claim.coordinates.size()) {
+      : m_(m), claim_(claim), deadline_(deadline), coordinates_(claim.coordinates.size()), names_(claim.coordinates) {
     check_names();
-    const bool any_length =
-        std::any_of(m.coordinates.begin(), m.coordinates.end(), [](const auto& own) { return !own.angle; });
-    for (const mechanism::Coordinate& own : m.coordinates) {
-      const bool counted = own.angle && claim.angle_length;
-      weights_.push_back(counted ? around(*claim.angle_length)[0] : 1.0);
-      grows_.push_back(!own.angle || counted || !any_length);
-    }
-    names_ = claim.coordinates;
-    for (const PoseTaskClaim::Range& own : claim.parameters) names_.push_back(own.parameter);
-    whole_ = whole();
-    for (const auto& point : claim.points) points_.push_back(rounded(point));
+    region_.emplace(region());
+    whole_ = region_->whole();
+    for (const PoseTaskClaim::Range& own : claim.parameters) add_variable(own.parameter, own.lower, own.upper);
+    if (!claim.loads_from.empty()) turn_load();
+    for (const PoseTaskClaim::LoadWithin& own : claim.loads_within) widen_load(own);
   }
 
   std::size_t run() {
     check_links();
-    std::vector<Box> open = {whole_};
-    std::size_t cells = 0;
-    for (std::size_t count = 0; !open.empty(); ++count) {
-      const Box cell = std::move(open.back());
-      open.pop_back();
-      if (deadline_ && std::chrono::steady_clock::now() >= *deadline_)
-        throw core::LimitReached("the time limit was reached before every claim was looked at");
-      if (is_apart(cell)) continue;
-      std::vector<double> spreads;
-      if (holds(cell, spreads)) {
-        ++cells;
-        continue;
-      }
-      const std::size_t along = chosen(cell, spreads);
-      if (count >= most_pose_cells || along == cell.size())
-        throw FalseClaim("task: that it keeps clear is not shown in " + described(cell));
-      Box low = cell, high = cell;
-      low[along][1] = high[along][0] = 0.5 * (cell[along][0] + cell[along][1]);
-      open.push_back(std::move(high));
-      open.push_back(std::move(low));
-    }
-    return cells;
+    return covered(
+        whole_, names_, [&](const Cell& cell) { return region_->is_apart(cell) || is_beyond_balls(cell); },
+        [&](const Cell& cell, std::vector<double>& spreads) { return holds(cell, spreads); }, deadline_);
   }
 
  private:
@@ -170,92 +149,93 @@ class PoseTaskCheck {
                          "' is none of the model's, or not in its range");
     }
     if (claim_.demands.empty()) throw FalseClaim("demands: there is none");
-    for (const auto& point : claim_.points)
-      for (std::size_t c = 0; c < coordinates_; ++c)
-        if (point[c] < m_.coordinates[c].lower || point[c] > m_.coordinates[c].upper)
+    for (const auto& point : claim_.shape.points)
+      for (std::size_t c = 0; c < coordinates_; ++c) {
+        const Rational above = claim_.shape.above.empty() ? Rational(0) : claim_.shape.above[c];
+        if (point[c] < m_.coordinates[c].lower || point[c] + above > m_.coordinates[c].upper)
           throw FalseClaim("task: it leaves the workspace of the model");
-    if (claim_.shape == "box")
-      for (std::size_t c = 0; c < coordinates_; ++c)
-        if (claim_.points[0][c] > claim_.points[1][c]) throw FalseClaim("task: its box is empty");
+      }
   }
 
-  std::vector<double> rounded(const std::vector<Rational>& point) const {
-    std::vector<double> own;
-    for (const Rational& value : point) own.push_back(value.get_d());
+  TaskRegion region() const {
+    std::vector<double> weights;
+    std::vector<bool> grows;
+    const bool any_length =
+        std::any_of(m_.coordinates.begin(), m_.coordinates.end(), [](const auto& own) { return !own.angle; });
+    for (const mechanism::Coordinate& own : m_.coordinates) {
+      const bool counted = own.angle && claim_.angle_length;
+      weights.push_back(counted ? around(*claim_.angle_length)[0] : 1.0);
+      grows.push_back(!own.angle || counted || !any_length);
+    }
+    return {claim_.shape, std::move(weights), std::move(grows)};
+  }
+
+  void add_variable(const std::string& name, const Rational& lower, const Rational& upper) {
+    names_.push_back(name);
+    whole_.push_back({around(lower)[0], around(upper)[1]});
+  }
+
+  /// (1 - t) first + t last instead of the force of the load, t from 0 to 1.
+  void turn_load() {
+    const auto& [first, last] = std::tie(claim_.loads_from.front(), claim_.loads_from.back());
+    if (m_.loads.size() != 1 || claim_.loads_from.size() != 2 || m_.loads[0].force_vector ||
+        first.size() != m_.loads[0].force.size() || last.size() != first.size())
+      throw FalseClaim("loads: the model has no such force");
+    const Expression way = Expression::symbol("way of the load");  // no name of a file
+    for (std::size_t c = 0; c < first.size(); ++c)
+      m_.loads[0].force[c] = sum(Expression::number(first[c]), product(Expression::number(last[c] - first[c]), way));
+    add_variable(way.name(), 0, 1);
+  }
+
+  /// Parts of the force, and of a couple, that are variables in a ball.
+  void widen_load(const PoseTaskClaim::LoadWithin& within) {
+    const bool planar = m_.space == mechanism::Space::planar;
+    if (within.load >= m_.loads.size() || within.force < 0 || within.couple < 0 ||
+        (within.force > 0 && m_.loads[within.load].force.empty()) || (within.couple > 0 && !planar))
+      throw FalseClaim("loads: the model has no such force");
+    mechanism::Load& load = m_.loads[within.load];
+    if (within.force > 0) add_ball(load.force, within.force);
+    if (!(within.couple > 0)) return;
+    std::vector<Expression> couple = {load.couple};
+    add_ball(couple, within.couple);
+    load.couple = couple.front();
+  }
+
+  void add_ball(std::vector<Expression>& parts, const Rational& radius) {
+    balls_.push_back({names_.size(), parts.size()});
+    for (Expression& part : parts) {
+      const std::string name = fmt::format("part {} of loads", names_.size());
+      part = sum(part, Expression::symbol(name));
+      add_variable(name, -radius, radius);
+    }
+  }
+
+  /// No load of the cell is within the ball of its parts.
+  bool is_beyond_balls(const Cell& cell) const {
+    return std::any_of(balls_.begin(), balls_.end(), [&](const LoadBall& ball) {
+      double square = 0;
+      for (std::size_t c = ball.first; c < ball.first + ball.count; ++c)
+        square += std::pow(std::max({0.0, cell[c][0], -cell[c][1]}), 2);
+      return std::sqrt(square) * (1 - 1e-12) > whole_[ball.first][1];
+    });
+  }
+
+  /// Those that the cell has the whole of.
+  std::vector<LoadBall> balls_in(const Cell& cell) const {
+    std::vector<LoadBall> own;
+    for (const LoadBall& ball : balls_) {
+      const auto first = static_cast<std::ptrdiff_t>(ball.first),
+                 last = first + static_cast<std::ptrdiff_t>(ball.count);
+      if (std::equal(cell.begin() + first, cell.begin() + last, whole_.begin() + first)) own.push_back(ball);
+    }
     return own;
   }
 
-  double reach() const {
-    const Rational sum = claim_.margin + (claim_.shape == "ball" ? claim_.radius : Rational(0));
-    return around(sum)[1] * (1 + 1e-12);
-  }
-
-  Box whole() const {
-    Box box;
-    for (std::size_t c = 0; c < coordinates_; ++c) {
-      Range own = around(claim_.points[0][c]);
-      for (const auto& point : claim_.points) {
-        const Range next = around(point[c]);
-        own = {std::min(own[0], next[0]), std::max(own[1], next[1])};
-      }
-      const bool wide = grows_[c] || claim_.shape == "ball";
-      const double more = wide && reach() > 0 ? reach() / weights_[c] * (1 + 1e-12) : 0;
-      box.push_back({own[0] - more, own[1] + more});
-      if (more > 0) box.back() = {std::nextafter(box.back()[0], -HUGE_VAL), std::nextafter(box.back()[1], HUGE_VAL)};
-    }
-    for (const PoseTaskClaim::Range& own : claim_.parameters)
-      box.push_back({around(own.lower)[0], around(own.upper)[1]});
-    return box;
-  }
-
-  /// No pose of the cell is within reach of the task, for certain.
-  bool is_apart(const Box& cell) const {
-    if (claim_.shape == "box") {
-      double square = 0;
-      for (std::size_t c = 0; c < coordinates_; ++c) {
-        const double off = std::max({0.0, cell[c][0] - points_[1][c], points_[0][c] - cell[c][1]});
-        square += grows_[c] ? std::pow(weights_[c] * off, 2) : 0.0;
-      }
-      return std::sqrt(square) * (1 - 1e-12) > reach() + hair();
-    }
-    double half = 0;
-    std::vector<double> middle;
-    for (std::size_t c = 0; c < coordinates_; ++c) {
-      middle.push_back(0.5 * (cell[c][0] + cell[c][1]));
-      half += std::pow(weights_[c] * 0.5 * (cell[c][1] - cell[c][0]), 2);
-    }
-    double nearest = distance(middle, points_[0], points_[0]);
-    for (std::size_t i = 1; i < points_.size(); ++i)
-      nearest = std::min(nearest, distance(middle, points_[i - 1], points_[i]));
-    return nearest * (1 - 1e-12) - std::sqrt(half) * (1 + 1e-12) > reach() + hair();
-  }
-
-  /// Rounding of the task's own numbers.
-  double hair() const {
-    double size = 0;
-    for (const auto& point : points_)
-      for (std::size_t c = 0; c < coordinates_; ++c) size = std::max(size, weights_[c] * std::abs(point[c]));
-    return 1e-14 * size;
-  }
-
-  double distance(const std::vector<double>& p, const std::vector<double>& a, const std::vector<double>& b) const {
-    double along = 0, square = 0;
-    for (std::size_t c = 0; c < coordinates_; ++c) {
-      const double w = weights_[c] * weights_[c];
-      along += w * (p[c] - a[c]) * (b[c] - a[c]);
-      square += w * (b[c] - a[c]) * (b[c] - a[c]);
-    }
-    const double t = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
-    double sum = 0;
-    for (std::size_t c = 0; c < coordinates_; ++c) sum += std::pow(weights_[c] * (p[c] - a[c] - t * (b[c] - a[c])), 2);
-    return std::sqrt(sum);
-  }
-
-  PoseVariables variables_over(const Box& cell, Jet::Offsets& offsets) const {
+  PoseVariables variables_over(const Cell& cell, Jet::Offsets& offsets) const {
     PoseVariables variables{names_, {}};
     std::vector<Interval> ranges;
     offsets.clear();
-    for (const Range& own : cell) {
+    for (const auto& own : cell) {
       ranges.emplace_back(own[0], own[1], cell_bits);
       offsets.push_back(ranges.back() - middle_of(ranges.back()));
     }
@@ -263,51 +243,35 @@ class PoseTaskCheck {
     return variables;
   }
 
-  bool holds(const Box& cell, std::vector<double>& spreads) const {
+  bool holds(const Cell& cell, std::vector<double>& spreads) const {
     Jet::Offsets offsets;
     const PoseVariables variables = variables_over(cell, offsets);
     const PosePosture posture = posture_over(m_, claim_.sides, variables);
-    spreads.assign(cell.size(), 0.0);
-    if (!posture.is_proven) {
-      const std::vector<Interval>& slopes = posture.positive.back().slopes();
+    if (posture.stopped_by) {
+      const std::vector<Interval>& slopes = posture.stopped_by->slopes();
       for (std::size_t c = 0; c < slopes.size(); ++c)
         if (slopes[c].is_finite()) spreads[c] = std::abs(slopes[c].middle()) * 0.5 * (cell[c][1] - cell[c][0]);
       return false;
     }
-    PoseCellProof proof = prove_cell(equations_over(m_, posture, variables, claim_.demands), claim_.demands, offsets);
+    const std::vector<LoadBall> balls = balls_in(cell);
+    PoseCellProof proof =
+        prove_cell(equations_over(m_, posture, variables, claim_.demands), claim_.demands, offsets, balls);
     spreads = std::move(proof.spreads);
+    // A ball that is cut is no ball any more: poses are cut before.
+    constexpr double last = 0.125;
+    for (const LoadBall& ball : balls)
+      for (std::size_t c = ball.first; c < ball.first + ball.count; ++c) spreads[c] *= last;
     return proof.holds();
-  }
-
-  /// Where a cut helps most; all of them where the cell is too fine.
-  std::size_t chosen(const Box& cell, const std::vector<double>& spreads) const {
-    constexpr double share_of_width = 1e-3;
-    std::size_t best = cell.size();
-    double most = -1, total = 0;
-    for (const double own : spreads) total += own;
-    if (!(total > 0) || !std::isfinite(total)) total = 1;
-    for (std::size_t c = 0; c < cell.size(); ++c) {
-      const double width = cell[c][1] - cell[c][0], all = whole_[c][1] - whole_[c][0];
-      if (!(width > finest * all) || !(width > 0x1p-50 * std::max(std::abs(cell[c][0]), std::abs(cell[c][1]))))
-        continue;
-      const double own = (std::isfinite(spreads[c]) ? spreads[c] : 0) + share_of_width * total * width / all;
-      if (own > most) {
-        most = own;
-        best = c;
-      }
-    }
-    return best;
   }
 
   /// Lengths within links do not change with the pose, at a pose of the task and two beside it.
   void check_links() const {
     for (const double share : {0.5, 0.3819, 0.7071}) {
-      Box cell;
-      for (const Range& own : whole_) cell.push_back({own[0] + share * (own[1] - own[0]), 0});
-      for (Range& own : cell) own[1] = own[0];
+      Cell cell = whole_;
+      for (auto& own : cell) own[0] = own[1] = own[0] + share * (own[1] - own[0]);
       Jet::Offsets offsets;
       const PosePosture posture = posture_over(m_, claim_.sides, variables_over(cell, offsets));
-      if (!posture.is_proven) continue;  // the cells tell
+      if (posture.stopped_by) continue;  // the cells tell
       for (const mechanism::Link& link : m_.links) check_link(link, posture);
     }
   }
@@ -328,22 +292,14 @@ class PoseTaskCheck {
       }
   }
 
-  std::string described(const Box& cell) const {
-    std::vector<std::string> parts;
-    for (std::size_t c = 0; c < cell.size(); ++c)
-      parts.push_back(fmt::format("{} {:.6g} to {:.6g}", names_[c], cell[c][0], cell[c][1]));
-    return fmt::format("{}", fmt::join(parts, ", "));
-  }
-
-  const Mechanism& m_;
+  Mechanism m_;  ///< with what its loads vary by
   const PoseTaskClaim& claim_;
   const Deadline& deadline_;
   std::size_t coordinates_;
-  std::vector<double> weights_;
-  std::vector<bool> grows_;
-  std::vector<std::string> names_;
-  Box whole_;
-  std::vector<std::vector<double>> points_;
+  std::vector<std::string> names_;  ///< of the coordinates, and of all that varies besides
+  std::optional<TaskRegion> region_;
+  Cell whole_;
+  std::vector<LoadBall> balls_;
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 // That a mechanism keeps clear of every locus over a task of poses, over one to six coordinates, and of the parameters
-// that vary within tolerances: cells that cover the task and its margin, each shown by equations of the checker's own.
-// Private to check/.
+// that vary within tolerances and loads that vary within ranges: cells that cover the task and its margin, each shown
+// by equations of the checker's own. Private to check/.
 //
 // Over a cell with the middle m, C is an inverse of A(m) in doubles, w0 one of the solution, and E = I - C A. With
 // rho = C (b - A w0) each solution w over the cell has
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "check/task_region.hpp"
 #include "core/rational.hpp"
 #include "core/task_conditions.hpp"
 #include "mechanism/mechanism.hpp"
@@ -26,9 +27,7 @@ struct PoseTaskClaim {
   std::string model;  ///< its text
   std::vector<std::pair<std::string, std::string>> overrides;
   std::vector<std::string> coordinates;
-  std::string shape;                                ///< "box", "ball", "path"
-  std::vector<std::vector<core::Rational>> points;  ///< opposite corners; the centre; corners
-  core::Rational radius, margin;
+  ClaimedShape shape;
   std::optional<core::Rational> angle_length;
   std::vector<int> sides;  ///< one a dyad or slider
   struct Range {
@@ -36,6 +35,14 @@ struct PoseTaskClaim {
     core::Rational lower, upper;
   };
   std::vector<Range> parameters;
+  /// None, or what the force of the model's one load turns from and to, N.
+  std::vector<std::vector<core::Rational>> loads_from;
+  /// A force that differs from a load's in any direction by so much, N, and a couple, N m.
+  struct LoadWithin {
+    std::size_t load = 0;
+    core::Rational force, couple;
+  };
+  std::vector<LoadWithin> loads_within;
   std::vector<core::TaskDemand> demands;
   std::vector<std::string> unchecked;
 };

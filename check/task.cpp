@@ -1,9 +1,6 @@
 #include "check/task.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "check/curves.hpp"
 #include "mechanism/guide.hpp"
@@ -11,43 +8,20 @@
 namespace clearloci::check {
 namespace {
 
-using core::Point2;
 using core::Quantity;
-
-constexpr std::size_t most_cells = 400'000;
 
 class TaskCheck {
  public:
   TaskCheck(const mechanism::Mechanism& m, const CertificateFile& c, const Orders& orders)
       : m_(m), c_(c), task_(*c.task), orders_(orders), sides_(sides_of(c, task_.mode)), sheet_(sheet()) {
-    for (const auto& p : task_.points) points_.push_back({p[0].get_d(), p[1].get_d()});
-    if (task_.shape == "box") {
-      const Point2 a = points_.at(0), b = points_.at(1);
-      points_ = {a, {b[0], a[1]}, b, {a[0], b[1]}};
-    }
     collect_conditions();
   }
 
   std::size_t run() {
-    const double reach = reach_of_all();
-    std::array<double, 4> bound = {points_[0][0], points_[0][0], points_[0][1], points_[0][1]};
-    for (const Point2& p : points_)
-      bound = {std::min(bound[0], p[0]), std::max(bound[1], p[0]), std::min(bound[2], p[1]), std::max(bound[3], p[1])};
-    std::vector<Rectangle> open = {{bound[0] - reach, bound[1] + reach, bound[2] - reach, bound[3] + reach}};
-    std::size_t cells = 0;
-    for (std::size_t count = 0; !open.empty(); ++count) {
-      const Rectangle cell = open.back();
-      open.pop_back();
-      if (is_apart(cell, reach)) continue;
-      if (holds(cell)) {
-        ++cells;
-        continue;
-      }
-      if (count > most_cells || cell.size() < 1e-9 * (bound[1] - bound[0] + bound[3] - bound[2] + reach))
-        throw FalseClaim("task: that it keeps clear is not shown in " + describe(cell));
-      for (const Rectangle& half : halves(cell)) open.push_back(half);
-    }
-    return cells;
+    const TaskRegion region(task_.shape, {1, 1}, {true, true});
+    return covered(
+        region.whole(), c_.coordinates, [&](const Cell& cell) { return region.is_apart(cell); },
+        [&](const Cell& cell, std::vector<double>&) { return holds(cell); }, c_.deadline);
   }
 
  private:
@@ -60,30 +34,6 @@ class TaskCheck {
     for (const Function& f : c_.functions) programs.push_back(&f.program);
     for (const core::StraightLine& root : roots_) programs.push_back(&root);
     return Sheet(parts_of(c_, task_.mode), programs);
-  }
-
-  /// The margin, the radius of a circle and rounding.
-  double reach_of_all() const {
-    double size = 0;
-    for (const Point2& p : points_) size = std::max({size, std::abs(p[0]), std::abs(p[1])});
-    return (task_.margin.get_d() + (task_.shape == "circle" ? task_.radius.get_d() : 0.0) + 1e-15 * size) * (1 + 1e-12);
-  }
-
-  /// No place of the cell is within reach of the task, for certain.
-  bool is_apart(const Rectangle& cell, double reach) const {
-    const Point2 middle = {0.5 * (cell.x0 + cell.x1), 0.5 * (cell.y0 + cell.y1)};
-    const double half = 0.5 * std::hypot(cell.x1 - cell.x0, cell.y1 - cell.y0) * (1 + 1e-12);
-    const bool filled = task_.shape == "box" || task_.shape == "polygon";
-    double nearest = std::hypot(middle[0] - points_[0][0], middle[1] - points_[0][1]);
-    bool in = false;
-    for (std::size_t i = filled ? 0 : 1; i < points_.size(); ++i) {
-      const Point2 &a = points_[i == 0 ? points_.size() - 1 : i - 1], &b = points_[i];
-      nearest = std::min(nearest, distance_to_segment(middle, a, b));
-      if (filled && (a[1] > middle[1]) != (b[1] > middle[1]) &&
-          middle[0] < a[0] + (middle[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
-        in = !in;
-    }
-    return !in && nearest - half > reach;
   }
 
   /// Sets of functions: of each one condition's alternatives, one has to be free of zeros.
@@ -114,8 +64,8 @@ class TaskCheck {
     }
   }
 
-  bool holds(const Rectangle& cell) {
-    const Interval x(cell.x0, cell.x1, cell_bits), y(cell.y0, cell.y1, cell_bits);
+  bool holds(const Cell& cell) {
+    const Interval x(cell[0][0], cell[0][1], cell_bits), y(cell[1][0], cell[1][1], cell_bits);
     // The closure of the model itself, and what the certificate's functions say.
     const std::optional<Posture> here = posture(m_, sides_, x, y);
     if (!here || !std::all_of(here->squares.begin(), here->squares.end(), [](const auto& q) { return q.sign() > 0; }))
@@ -147,7 +97,6 @@ class TaskCheck {
   Sides sides_;
   std::vector<core::StraightLine> roots_;
   Sheet sheet_;
-  std::vector<Point2> points_;
   std::vector<std::vector<std::vector<int>>> conditions_;
 };
 

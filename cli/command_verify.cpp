@@ -61,12 +61,9 @@ TaskFit parse_fit(const std::string& word) {
 
 /// Whether a task is certified with the loci around it: what these do not cover is certified of the task alone.
 bool goes_with_loci(const mechanism::Mechanism& mechanism, const core::Task& task) {
-  const bool alone = std::holds_alternative<core::TaskBox>(task.shape) ||
-                     std::holds_alternative<core::TaskBall>(task.shape) ||
-                     std::holds_alternative<core::TaskPath>(task.shape);
-  const bool more = !task.tolerances.empty() || task.min_force || task.min_couple;
-  const bool other = task.loads || !task.loads_within.empty() || task.pose_error;
-  return has_certified_loci(mechanism) && (!more || other || !alone);
+  const bool more =
+      !task.tolerances.empty() || task.min_force || task.min_couple || task.loads || !task.loads_within.empty();
+  return has_certified_loci(mechanism) && (!more || task.pose_error);
 }
 
 /// The loci of the file's load with their cells, and the task where it was verified.

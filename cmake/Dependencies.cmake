@@ -14,32 +14,22 @@ find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
 
-# FLINT 2.9 ships neither a CMake package nor a pkg-config file.
-if(NOT TARGET flint)
-  find_path(FLINT_INCLUDE_DIR flint/fmpz_mpoly_factor.h REQUIRED)
-  find_library(FLINT_LIBRARY flint REQUIRED)
-  add_library(flint INTERFACE IMPORTED)
-  target_include_directories(flint SYSTEM INTERFACE "${FLINT_INCLUDE_DIR}")
-  target_link_libraries(flint INTERFACE "${FLINT_LIBRARY}" PkgConfig::mpfr)
-endif()
+# clearloci_plain_library(<name> <header> [libs...]): of a library whose package does not say where its header is.
+function(clearloci_plain_library name header)
+  if(TARGET ${name})
+    return()
+  endif()
+  string(TOUPPER ${name} upper)
+  find_path(${upper}_INCLUDE_DIR ${header} REQUIRED)
+  find_library(${upper}_LIBRARY ${name} REQUIRED)
+  add_library(${name} INTERFACE IMPORTED)
+  target_include_directories(${name} SYSTEM INTERFACE "${${upper}_INCLUDE_DIR}")
+  target_link_libraries(${name} INTERFACE "${${upper}_LIBRARY}" ${ARGN})
+endfunction()
 
-# NLopt's CMake package names its library without saying where the header is.
-if(NOT TARGET nlopt)
-  find_path(NLOPT_INCLUDE_DIR nlopt.h REQUIRED)
-  find_library(NLOPT_LIBRARY nlopt REQUIRED)
-  add_library(nlopt INTERFACE IMPORTED)
-  target_include_directories(nlopt SYSTEM INTERFACE "${NLOPT_INCLUDE_DIR}")
-  target_link_libraries(nlopt INTERFACE "${NLOPT_LIBRARY}")
-endif()
-
-# MPFI ships neither.
-if(NOT TARGET mpfi)
-  find_path(MPFI_INCLUDE_DIR mpfi.h REQUIRED)
-  find_library(MPFI_LIBRARY mpfi REQUIRED)
-  add_library(mpfi INTERFACE IMPORTED)
-  target_include_directories(mpfi SYSTEM INTERFACE "${MPFI_INCLUDE_DIR}")
-  target_link_libraries(mpfi INTERFACE "${MPFI_LIBRARY}" PkgConfig::mpfr)
-endif()
+clearloci_plain_library(flint flint/fmpz_mpoly_factor.h PkgConfig::mpfr)
+clearloci_plain_library(nlopt nlopt.h)
+clearloci_plain_library(mpfi mpfi.h PkgConfig::mpfr)
 
 # CGAL is header-only; its CMake package sets flags we do not want, so only the headers are used.
 if(NOT TARGET cgal)

@@ -1,19 +1,20 @@
 # GoogleTest and RapidCheck for every folder's tests.
 find_package(GTest REQUIRED)
 find_package(rapidcheck REQUIRED)
-include(GoogleTest)
 
 # Laws over random inputs try as many as each says (hundreds of small ones, a dozen designs). A build that is many times
 # slower, such as that of the preset asan, takes a smaller share of them, but leaves no law out.
 set(CLEARLOCI_LAW_INPUTS "" CACHE STRING "How many random inputs a law tries; empty: as many as it says itself")
-set(law_properties ENVIRONMENT "RC_PARAMS=seed=20110501")  # a fixed seed: the same inputs from run to run
+set(law_inputs "RC_PARAMS=seed=20110501")  # a fixed seed: the same inputs from run to run
 if(CLEARLOCI_LAW_INPUTS)
-  set(law_properties ENVIRONMENT "RC_PARAMS=seed=20110501 max_success=${CLEARLOCI_LAW_INPUTS} max_discard_ratio=100"
-    ENVIRONMENT_MODIFICATION "CLEARLOCI_DESIGNS=set:${CLEARLOCI_LAW_INPUTS}")
+  set(law_inputs "RC_PARAMS=seed=20110501 max_success=${CLEARLOCI_LAW_INPUTS} max_discard_ratio=100"
+    "CLEARLOCI_DESIGNS=${CLEARLOCI_LAW_INPUTS}")
 endif()
 
-# clearloci_test(<name> sources... [LIBS libs...]): a GoogleTest executable, each of its tests known to ctest.
-# Sources may use "tests/source_dir.hpp" (the repository) and RapidCheck's <rapidcheck/gtest.h>.
+set(CLEARLOCI_TEST_COST 0)
+# clearloci_test(<name> sources... [LIBS libs...]): a GoogleTest executable, each of its suites known to ctest. Suites of
+# a directory with a larger CLEARLOCI_TEST_COST start earlier: the long ones, so that no processor waits for them at the
+# end. Sources may use "tests/source_dir.hpp" (the repository) and RapidCheck's <rapidcheck/gtest.h>.
 function(clearloci_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBS")
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
@@ -32,7 +33,9 @@ function(clearloci_test name)
     clearloci_precompiled(${name} PRIVATE <gtest/gtest.h> <algorithm> <array> <cmath> <fstream> <functional> <map> <optional> <random> <sstream>)
     set_property(GLOBAL PROPERTY clearloci_first_test ${name})
   endif()
-  # DISCOVERY_TIMEOUT: a loaded machine may start programs slowly.
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 120
-    PROPERTIES ${law_properties})
+  set(suites "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")
+  file(GENERATE OUTPUT "${suites}" CONTENT "include([[${PROJECT_SOURCE_DIR}/cmake/Suites.cmake]])
+clearloci_suites([[${name}]] [[$<TARGET_FILE:${name}>]] [[${law_inputs}]] ${CLEARLOCI_TEST_COST})
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${suites}")
 endfunction()

@@ -61,7 +61,7 @@ struct Certificate {
 /// A task over any coordinates that was verified: what is claimed of it, for someone else to prove anew.
 struct TaskCertificate {
   std::vector<std::string> coordinates;
-  Task task;               ///< a box, a ball or a path
+  Task task;               ///< of any shape but a mesh
   std::vector<int> sides;  ///< of the working mode, one a dyad or slider
   struct Range {
     std::string parameter;

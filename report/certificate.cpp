@@ -279,6 +279,8 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
   } else if (const auto* ball = std::get_if<core::TaskBall>(&task.shape)) {
     points.push_back(pose_list(ball->centre));
     radius = ball->radius;
+  } else if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape)) {
+    for (const core::RationalPose& corner : polygon->corners) points.push_back(pose_list(corner));
   } else {
     for (const core::RationalPose& pose : std::get<core::TaskPath>(task.shape).points)
       points.push_back(pose_list(pose));
@@ -299,6 +301,14 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
                        {"parameters", std::move(parameters)},
                        {"demands", std::move(demands)},
                        {"unchecked", Json::array()}};
+  if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape)) {
+    root["pose_task"]["across"] = polygon->across;
+    root["pose_task"]["above"] = pose_list(polygon->above);
+  }
+  if (task.loads)
+    root["pose_task"]["loads_from"] = Json::array({pose_list(task.loads->first), pose_list(task.loads->second)});
+  for (const core::LoadWithin& own : task.loads_within)
+    root["pose_task"]["loads_within"].push_back({own.load, core::to_string(own.force), core::to_string(own.couple)});
   return text_of(root);
 }
 

@@ -2,7 +2,7 @@
 // label press as a CAD sketch: opened, given its workspace and its load, and a task proven.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { montage, type Still } from "./montage";
+import { montage, Stills } from "./montage";
 import { launch, open, rest, Served, source } from "./program";
 import { Sheet } from "./sheet";
 
@@ -11,23 +11,18 @@ const browser = await launch();
 const { page, faults } = await open(browser, served.address, { width: 1000, height: 640 });
 const sheet = new Sheet(page);
 
-const stills: Still[] = [];
-const still = async (words: string): Promise<void> => {
-  await page.mouse.move(5, 5);
-  await rest(page);
-  stills.push({ words, image: (await page.locator(".stage-column").screenshot()).toString("base64") });
-};
+const stills = new Stills(page, ".stage-column");
 
 await page.locator("#open-file").setInputFiles({ name: "press.dxf", mimeType: "image/vnd.dxf", buffer: readFileSync(join(source, "examples", "sketches", "press.dxf")) });
 await page.locator("h1", { hasText: "DXF" }).waitFor();
 await rest(page);
 await page.locator(".said").getByRole("button", { name: "Close" }).click();
 await sheet.press("Draw");
-await still("The sketch, opened: layers are links, circles are pins, the layer motor drives");
+await stills.takeAtRest("The sketch, opened: layers are links, circles are pins, the layer motor drives");
 await sheet.take("workspace");
 await sheet.drag([-150, 50], [270, 340]);
 await page.keyboard.press("0");
-await still("A workspace box: loci and zones over the place of the stamp");
+await stills.takeAtRest("A workspace box: loci and zones over the place of the stamp");
 await page.getByText("Task", { exact: true }).click();
 await sheet.press("box");
 const verdict = page.locator(".verdict");
@@ -37,7 +32,7 @@ if ((await verdict.textContent())?.includes("Refuted")) {
   await verdict.filter({ hasText: "Verified" }).waitFor();
 }
 await rest(page);
-await still(`A task: ${(await verdict.textContent())?.split(/[.:]/)[0]?.toLowerCase() ?? ""}`);
+await stills.takeAtRest(`A task: ${(await verdict.textContent())?.split(/[.:]/)[0]?.toLowerCase() ?? ""}`);
 console.log(faults.join("\n") || "no faults");
 await montage(browser, stills, process.argv[3] ?? "sketch.png");
 await browser.close();
