@@ -223,12 +223,18 @@ OffsetPoint read_offset(const Mechanism& mechanism, const Value& value) {
 }
 
 ShiftedPoint read_shifted(const Mechanism& mechanism, const Value& value) {
-  const Mapping mapping(value, {"from", "by"});
+  const Mapping mapping(value, {"from", "by", "in"});
   Value by = mapping.at("by");
   by.what = "the way of " + value.what;
   by.field = "points";
-  return {read_point_name(mechanism, mapping.at("from")),
-          read_vector_expression(mechanism, by, Scope::parameters_and_coordinates)};
+  ShiftedPoint point{read_point_name(mechanism, mapping.at("from")),
+                     read_vector_expression(mechanism, by, Scope::parameters_and_coordinates)};
+  const std::optional<Value> in = mapping.find("in");
+  if (!in) return point;
+  point.by = in_directions_of(mechanism, *in, by, point.by);
+  for (const Expression& component : point.by.numbers)
+    check_polynomial(mechanism, by, component, "write angles that are coordinates, or numbers, under turned");
+  return point;
 }
 
 CrossingPoint read_crossing(const Mechanism& mechanism, const Value& value) {
@@ -307,6 +313,7 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
   if (!value.is_map())
     throw InputError(value.where, value.what + " is neither coordinates nor a construction",
                      "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
+  if (has_key(value, "by")) return read_shifted(mechanism, value);
   if (has_key(value, "in")) {
     ExplicitPoint point = read_point_in_frame(mechanism, value);
     const PolynomialCheck check(mechanism, value, "write angles that are coordinates, or numbers, under turned");
@@ -320,7 +327,6 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
     return MeanPoint{first, second};
   }
   if (has_key(value, "slider")) return read_slider(mechanism, value);
-  if (has_key(value, "by")) return read_shifted(mechanism, value);
   if (has_key(value, "foot")) return read_foot(mechanism, value);
   if (has_key(value, "crossing")) return read_crossing(mechanism, value);
   const std::vector<std::string> forms = {"dyad", "slider", "on", "mean", "in", "from", "crossing", "foot"};

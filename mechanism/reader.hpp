@@ -78,6 +78,9 @@ void read_group(Mechanism& mechanism, const Entry& entry);
 // --- read_frames.cpp
 /// A point {in: frame, place: [u, v, w]} as its coordinates.
 ExplicitPoint read_point_in_frame(const Mechanism& mechanism, const Value& value);
+/// Components in a frame, named by `in`, as those in the ground. `by`: where they are written, for messages.
+VectorExpression in_directions_of(const Mechanism& mechanism, const Value& in, const Value& by,
+                                  const VectorExpression& vector);
 /// The frames that stand at points known so far, and are not among `mechanism.body_frames` yet.
 void read_known_frames(Mechanism& mechanism, const std::optional<Value>& frames);
 /// Throws where a frame of the file is still unknown.
