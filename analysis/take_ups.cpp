@@ -32,8 +32,7 @@ std::vector<core::TaskDemand> take_up_demands(const mechanism::Mechanism& open) 
   for (const mechanism::Joint& joint : open.joints) {
     if (!joint.clearance) continue;
     // A sleeve slides, and is pressed all the same.
-    if (!mechanism::traits(joint).slides || open.space == mechanism::Space::spatial)
-      demands.push_back({joint.name, Quantity::f, 1});
+    if (!mechanism::is_guide(open, joint)) demands.push_back({joint.name, Quantity::f, 1});
     if (mechanism::has_guide_ends(open, joint))
       for (const Quantity end : {Quantity::end_ahead, Quantity::end_behind}) demands.push_back({joint.name, end, 1});
     if (joint.actuated) demands.push_back({joint.name, mechanism::actuator_quantity(joint), 1});

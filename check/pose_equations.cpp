@@ -334,7 +334,7 @@ class Assembly {
     own.axis = axis_of(m_, values_, points_, joint);
     if (is_planar() && traits.slides) {
       own.normal = add_unknown(joint, force_at(joint.at, cross(unit_along(2), own.axis)));
-      own.couple = {add_unknown(joint, couple(unit_along(2)))};
+      if (!traits.pinned) own.couple = {add_unknown(joint, couple(unit_along(2)))};
       if (joint.actuated) own.along = add_unknown(joint, force_at(joint.at, own.axis));
     } else if (is_planar()) {
       own.force = add_forces(joint, 2);
@@ -452,7 +452,7 @@ class Assembly {
         along_axis(own.couple);
     } else if (demand.quantity == Quantity::f && own.normal) {
       add(0, *own.normal, Values::number(1.0));
-      add(1, own.couple.front(), Values::number(1.0));
+      if (!own.couple.empty()) add(1, own.couple.front(), Values::number(1.0));
     } else if (demand.quantity == Quantity::f && mechanism::presses_across_axis(m_, *found)) {
       // u x f is as large as the part of f across u.
       for (std::size_t i = 0; i < 3; ++i) {

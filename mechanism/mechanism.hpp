@@ -171,7 +171,8 @@ struct Fit {
 };
 
 /// Clearances of a joint, m and rad; 0 where absent. A prismatic joint touches its guide in two places, `half_length`
-/// to both sides of its point, each free to move by `gap` to either side; `axial` is the play of its actuator.
+/// to both sides of its point, each free to move by `gap` to either side; `axial` is the play of its actuator. A pin in
+/// a slot has half of the slot's gap for its `radial`.
 struct Clearance {
   Expression radial;
   Expression angular;
@@ -181,7 +182,7 @@ struct Clearance {
   std::optional<Fit> fit = {};  ///< that `radial` was taken from
 };
 
-enum class JointType { revolute, prismatic, universal, spherical, cylindrical };
+enum class JointType { revolute, prismatic, universal, spherical, cylindrical, slot };
 
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
@@ -195,8 +196,8 @@ struct FreeEffort {
 };
 
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
-/// joint and of a spatial revolute one, two of a universal joint (the one fixed in `from` first), none otherwise. Their
-/// lengths are of no consequence.
+/// joint, of a slot and of a spatial revolute joint, two of a universal joint (the one fixed in `from` first), none
+/// otherwise. Their lengths are of no consequence.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
@@ -337,11 +338,11 @@ struct Mass {
 /// Every mass that is not written as 0, link after link.
 std::vector<Mass> masses(const Mechanism& mechanism);
 
-/// Unknowns in column order. Planar: fx, fy of every revolute joint and N, T of every prismatic one in the file's
-/// order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its couple. A force
-/// or couple that may have any direction has components x, y, z; one across an axis has two, 1 and 2; the couple of a
-/// universal joint, across both of its axes, is T. The actuator of a revolute or prismatic joint fills up its couple or
-/// force.
+/// Unknowns in column order. Planar: fx, fy of every revolute joint, N, T of every prismatic one and N of every slot in
+/// the file's order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its
+/// couple. A force or couple that may have any direction has components x, y, z; one across an axis has two, 1 and 2;
+/// the couple of a universal joint, across both of its axes, is T. The actuator of a revolute or prismatic joint fills
+/// up its couple or force.
 std::vector<Unknown> unknowns(const Mechanism& mechanism);
 
 /// The columns of one joint, without a planar joint's actuator.

@@ -34,6 +34,9 @@ const std::vector<OtherWords>& table() {
        "no joint goes through gears, a belt or a chain: actuate the joint that they turn, with their play as its "
        "angular "
        "clearance; a belt of ratio 1 does what a parallelogram of two more links does"},
+      {{"pininslot", "follower", "roller", "track", "groove"},
+       "slot",
+       "a pin in a straight slot is slot: [carrier, follower], with the axis of the slot"},
       {{"cam", "slot", "pininslot", "follower", "roller", "track", "groove"},
        "",
        "a pin in a straight slot is a small link of its own: revolute at the pin, prismatic along the slot"},

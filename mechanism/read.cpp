@@ -94,6 +94,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   check_axes(mechanism);
   check_springs(mechanism);
   check_rigidity(mechanism);
+  check_slots(mechanism);
   limit_spring_ends(mechanism);
   return mechanism;
 }

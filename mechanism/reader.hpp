@@ -163,6 +163,10 @@ void check_springs(const Mechanism& mechanism);
 /// The points of a link keep their distances in sampled postures, or may on one side of a fold.
 void check_rigidity(const Mechanism& mechanism);
 
+// --- slots.cpp
+/// The pin of a slot stays on one line of the link that carries the slot, in sampled postures.
+void check_slots(const Mechanism& mechanism);
+
 // --- reachability.cpp
 /// Every dyad can be closed somewhere in the box.
 void check_reachability(const Mechanism& mechanism);

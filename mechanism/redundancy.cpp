@@ -48,6 +48,8 @@ void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& 
     if (is_guide(m, joint)) {
       force({-axes[0][1], axes[0][0], 0});
       couple(xyz[2]);
+    } else if (is_slot(m, joint)) {
+      force({-axes[0][1], axes[0][0], 0});
     } else {
       force(xyz[0]);
       force(xyz[1]);

@@ -92,6 +92,7 @@ std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<cons
   for (std::size_t j = 0; j < lost.size() && !singular; ++j) {
     const mechanism::Joint& joint = model.mechanism.joints[j];
     std::array<Bounded, 3> force = {part(j, Quantity::fx), part(j, Quantity::fy), part(j, Quantity::fz)};
+    if (mechanism::is_slot(model.mechanism, joint)) force[0] = part(j, Quantity::N);
     if (mechanism::traits(joint).turns_about_axis()) {
       std::array<Bounded, 3> u;
       for (std::size_t c = 0; c < 3; ++c) u[c] = evaluator.value((*model.axes[j])[c], 0);

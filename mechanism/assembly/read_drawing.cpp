@@ -7,6 +7,7 @@
 
 #include "mechanism/assembly/drawn_pose.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/units.hpp"
@@ -31,6 +32,14 @@ void add_words(const Node& node, std::set<std::string>& words) {
   for (const auto& [key, content] : node.pairs()) add_words(content, words);
 }
 
+void refuse_slots(const Mechanism& mechanism) {
+  for (const Joint& joint : mechanism.joints)
+    if (is_slot(mechanism, joint))
+      throw InputError(
+          joint.where, "joint " + joint.name + " is a slot, which a drawing has no constructions for",
+          "write the points as constructions, or a small link: revolute at the pin, prismatic along the slot");
+}
+
 class DrawingReader {
  public:
   DrawingReader(const Value& document, const std::vector<Override>& overrides, PlainSections& plain)
@@ -48,6 +57,7 @@ class DrawingReader {
     read_points();
     read_links();
     read_joints(m, required("joints"));
+    refuse_slots(m);
     check_size();
     place_axes();
     coordinates_->resolve();
