@@ -78,6 +78,11 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
           add(Quantity::f, request.min_force);
     }
   }
+  // The teeth of a gear keep their flank all over a task.
+  for (const mechanism::Joint& joint : mechanism.joints)
+    if (joint.meshing && joint.meshing->flank &&
+        std::none_of(demands.begin(), demands.end(), [&](const TaskDemand& own) { return own.joint == joint.name; }))
+      demands.push_back({joint.name, Quantity::F, 0});
   return demands;
 }
 

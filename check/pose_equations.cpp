@@ -336,6 +336,10 @@ class Assembly {
       own.normal = add_unknown(joint, force_at(joint.at, cross(unit_along(2), own.axis)));
       if (!traits.pinned) own.couple = {add_unknown(joint, couple(unit_along(2)))};
       if (joint.actuated) own.along = add_unknown(joint, force_at(joint.at, own.axis));
+    } else if (traits.meshes && joint.axes.empty()) {
+      own.couple = {add_unknown(joint, couple(unit_along(2)))};
+    } else if (traits.meshes) {
+      own.along = add_unknown(joint, force_at(joint.at, own.axis));
     } else if (is_planar()) {
       own.force = add_forces(joint, 2);
       if (joint.actuated) own.couple = {add_unknown(joint, couple(unit_along(2)))};
@@ -440,7 +444,7 @@ class Assembly {
       const Jet tilt = half / values_.value(found->clearance->half_length);
       add(0, *own.normal, half);
       add(0, own.couple.front(), demand.quantity == Quantity::end_ahead ? tilt : -tilt);
-    } else if (demand.quantity == Quantity::F && found->actuated && mechanism::traits(*found).slides) {
+    } else if (demand.quantity == Quantity::F && found->actuated && mechanism::actuator_quantity(*found) == Quantity::F) {
       if (own.along)
         add(0, *own.along, Values::number(1.0));
       else

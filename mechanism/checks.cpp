@@ -139,11 +139,12 @@ std::string count_unknowns(const Mechanism& mechanism) {
   std::vector<Kind> kinds;
   std::size_t actuators = 0;
   for (const Joint& joint : mechanism.joints) {
-    if (joint.actuated) ++actuators;
+    const bool meshes = traits(joint).meshes;
+    if (joint.actuated && !meshes) ++actuators;
     Joint passive = joint;
     passive.actuated = false;
-    const std::size_t unknowns = reaction_components(mechanism, passive).size();
-    const bool alike = mechanism.space == Space::planar && !is_slot(mechanism, joint);  // these bear two
+    const std::size_t unknowns = meshes ? 1 : reaction_components(mechanism, passive).size();
+    const bool alike = mechanism.space == Space::planar && !meshes && !is_slot(mechanism, joint);  // these bear two
     const std::string name = alike ? "joint" : to_string(joint.type) + " joint";
     const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
     if (known == kinds.end())

@@ -37,6 +37,7 @@ std::vector<Quantity> force_unknowns(const Mechanism& mechanism, const Joint& jo
 
 std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint) {
   if (is_guide(mechanism, joint)) return {Quantity::N, Quantity::T};
+  if (traits(joint).meshes) return {};
   if (is_slot(mechanism, joint)) return {Quantity::N};
   if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
   const JointTraits& own = traits(joint);

@@ -182,7 +182,7 @@ struct Clearance {
   std::optional<Fit> fit = {};  ///< that `radial` was taken from
 };
 
-enum class JointType { revolute, prismatic, universal, spherical, cylindrical, slot };
+enum class JointType { revolute, prismatic, universal, spherical, cylindrical, slot, gear, belt };
 
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
@@ -195,8 +195,17 @@ struct FreeEffort {
   bool given = false;
 };
 
+/// Two wheels, or a wheel and a rack, whose teeth touch at the pitch point; or two pulleys of one size.
+struct Meshing {
+  PointIndex first = 0;              ///< centre of `from`
+  std::optional<PointIndex> second;  ///< centre of `to`; none of a rack
+  std::optional<PointIndex> flank;   ///< of a gear: where the line of action touches the base circle of `from`
+  Expression most = {};              ///< of a belt: the couple beyond which a span is slack, N m
+  Expression radius = {};            ///< of the pitch circle of `from`, m
+};
+
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
-/// joint, of a slot and of a spatial revolute joint, two of a universal joint (the one fixed in `from` first), none
+/// joint, of a slot, of a gear (its line of action) and of a spatial revolute joint, two of a universal joint (the one fixed in `from` first), none
 /// otherwise. Their lengths are of no consequence.
 struct Joint {
   std::string name;
@@ -210,6 +219,7 @@ struct Joint {
   /// Of an actuator of known effort, N m or N, on `to` along its axis: a load between the two links, and no unknown.
   std::optional<Expression> effort = {};
   std::optional<FreeEffort> free_effort = {};  ///< with `effort`: the symbol of its parameter
+  std::optional<Meshing> meshing = {};         ///< of a gear, which is actuated: its force is an unknown along its axis
 };
 
 /// Components are polynomials in the free coordinates (and cos, sin of an angle).
@@ -284,6 +294,7 @@ struct BodyFrame {
   std::string name;
   PointIndex origin = 0;             ///< an explicit point
   std::vector<Expression> rotation;  ///< 4 or 9
+  std::optional<Expression> angle = {};  ///< of its rotation in the plane, rad
 };
 
 /// A change of coordinates (mechanism/frame.hpp): place p = origin + scale p', free length q = from + scale q'.

@@ -64,13 +64,20 @@ Turn read_turn(const Mechanism& mechanism, const Value& value) {
   return turn_by(read_expression(mechanism, value, Scope::parameters_and_coordinates));
 }
 
+/// In the plane.
+Expression read_angle(const Mechanism& mechanism, const Mapping& mapping) {
+  const std::optional<Value> turned = mapping.find("turned");
+  if (!turned) return {};
+  return read_expression(mechanism, turned->is_sequence() ? elements(*turned, 1)[0] : *turned,
+                         Scope::parameters_and_coordinates);
+}
+
 /// `zyx`: R = Rz Ry Rx, so that the last letter's rotation comes first. Any order of the three.
 Matrix read_rotation(const Mechanism& mechanism, const Mapping& mapping) {
   const std::optional<Value> turned = mapping.find("turned"), order = mapping.find("order");
   if (mechanism.space == Space::planar) {
     if (order) throw InputError(order->where, order->what + " has no meaning in the plane", "remove it");
-    if (!turned) return {Expression::number(1), Expression(), Expression(), Expression::number(1)};
-    const Turn turn = read_turn(mechanism, turned->is_sequence() ? elements(*turned, 1)[0] : *turned);
+    const Turn turn = turn_by(read_angle(mechanism, mapping));
     return {turn.cosine, negated(turn.sine), turn.sine, turn.cosine};
   }
   std::string letters = order ? text_of(*order) : "zyx";
@@ -103,6 +110,7 @@ BodyFrame read_frame(const Mechanism& mechanism, const Entry& entry) {
         at.where, described.what + " stands at " + text_of(at) + ", which is no point with coordinates",
         "name one that is written as coordinates; on a link whose points are constructed, write {on: ...}");
   frame.rotation = read_rotation(mechanism, mapping);
+  if (mechanism.space == Space::planar) frame.angle = read_angle(mechanism, mapping);
   return frame;
 }
 

@@ -259,7 +259,9 @@ std::vector<Expression> read_varying_vector(const Mechanism& mechanism, const Va
 void read_joints(Mechanism& mechanism, const Value& value) {
   for (const Entry& entry : entries(value)) {
     check_label(entry.key, entry.where, "a joint");
-    mechanism.joints.push_back(read_joint(mechanism, entry));
+    mechanism.joints.push_back(is_gear(entry.value)   ? read_gear(mechanism, entry)
+                               : is_belt(entry.value) ? read_belt(mechanism, entry)
+                                                      : read_joint(mechanism, entry));
   }
   if (mechanism.joints.empty())
     throw InputError(value.where, "there are no joints", "write such as A: {revolute: [ground, AB], at: A}");

@@ -340,21 +340,25 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
 }
 
 void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames,
-                 const std::optional<Value>& links) {
+                 const std::optional<Value>& links, const std::optional<Value>& joints) {
+  const auto read_known = [&] {
+    read_known_frames(mechanism, frames);
+    read_known_wheels(mechanism, joints);
+  };
   const std::vector<Entry> points = entries(value);
   if (points.empty()) throw InputError(value.where, "there are no points", "write such as A: [0, 0]");
   check_order(points, links);
   for (const Entry& entry : points) {
     if (is_group(entry.value)) {
       read_group(mechanism, entry);
-      read_known_frames(mechanism, frames);
+      read_known();
       continue;
     }
     check_label(entry.key, entry.where, "a point");
     Value form = entry.value;
     form.what = "point " + entry.key;
     mechanism.points.push_back({entry.key, read_point_form(mechanism, form), false, entry.where});
-    read_known_frames(mechanism, frames);
+    read_known();
   }
   check_all_frames_read(mechanism, frames);
 }

@@ -329,6 +329,7 @@ std::vector<BodyDirection> directions_of(const NumericModel& model, const std::v
     for (std::size_t j = 0; j < m.joints.size(); ++j) {
       const mechanism::Joint& joint = m.joints[j];
       if (mechanism::traits(joint).slides != slides || mechanism::holds_idle_freedom(joint)) continue;
+      if (mechanism::traits(joint).meshes) continue;  // a line of action turns with neither wheel
       // Not fixed in `to`, which turns against it.
       const bool crossed = joint.type == mechanism::JointType::universal || mechanism::is_slot(m, joint);
       if (model.axes[j] && (holds(joint.from) || (holds(joint.to) && !crossed))) all.push_back({0, 0, model.axes[j]});

@@ -17,8 +17,9 @@ std::vector<JointClearance> joint_clearances(const mechanism::Mechanism& mechani
       const auto value = [&](const core::Expression& e) { return core::to_double(mechanism::value_of(e, mechanism)); };
       clearance.radial = value(joint.clearance->radial);
       if (joint.actuated)
-        (mechanism::traits(joint).slides ? clearance.axial : clearance.angular) =
-            value(mechanism::traits(joint).slides ? joint.clearance->axial : joint.clearance->angular);
+        (mechanism::actuator_quantity(joint) == core::Quantity::F ? clearance.axial : clearance.angular) =
+            value(mechanism::actuator_quantity(joint) == core::Quantity::F ? joint.clearance->axial
+                                                                           : joint.clearance->angular);
       clearance.gap = value(joint.clearance->gap);
       clearance.half_length = value(joint.clearance->half_length);
     }

@@ -6,6 +6,7 @@
 //     pin in a slot along u:        d_J = -ρ sign(N) k × u   m; ρ: half of the slot's gap
 //     actuated, turning about u:    θ_J = -δ sign(M) u      rad
 //     actuated, sliding along u:    d_J = -a sign(F) u      m
+//     gear, u the line of action:   d_J = -a sign(F) u       m; a: half of the backlash, times cos(pressure angle)
 //     block in a guide, planar:     each end of the contact, at ±h along the axis, is pressed to one side by its share
 //                                   (N ± T/h)/2 of the normal force and the couple: d± = -g sign(N ± T/h); normal
 //                                   (d+ + d-)/2 along k × u, tilt (d+ - d-)/(2 h) about k

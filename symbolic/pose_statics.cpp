@@ -86,7 +86,7 @@ class StaticsBuilder {
     std::vector<int> force, couple;  ///< Cartesian; of the plane fx, fy and the couple about z
     Vector axis{};                   ///< of length one
     int normal = -1;                 ///< of a guide or a slot in the plane
-    int along = -1;                  ///< of a planar guide: its actuator
+    int along = -1;                  ///< of a planar guide: its actuator; of a gear
     int across = -1;                 ///< of a universal joint
   };
 
@@ -152,6 +152,10 @@ class StaticsBuilder {
       own.normal = add_unknown(joint, force_at(r, {b_.negate(u[1]), u[0], b_.zero()}));
       if (mechanism::is_guide(m_, joint)) own.couple = {add_unknown(joint, couple(direction(2)))};
       if (joint.actuated) own.along = add_unknown(joint, force_at(r, u));
+    } else if (traits.meshes && joint.axes.empty()) {
+      own.couple = {add_unknown(joint, couple(direction(2)))};
+    } else if (traits.meshes) {
+      own.along = add_unknown(joint, force_at(r, own.axis));
     } else if (planar) {
       for (std::size_t c = 0; c < 2; ++c) own.force.push_back(add_unknown(joint, force_at(r, direction(c))));
       if (joint.actuated) own.couple = {add_unknown(joint, couple(direction(2)))};

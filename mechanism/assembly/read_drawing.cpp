@@ -7,7 +7,6 @@
 
 #include "mechanism/assembly/drawn_pose.hpp"
 #include "mechanism/evaluate.hpp"
-#include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/units.hpp"
@@ -32,12 +31,18 @@ void add_words(const Node& node, std::set<std::string>& words) {
   for (const auto& [key, content] : node.pairs()) add_words(content, words);
 }
 
-void refuse_slots(const Mechanism& mechanism) {
-  for (const Joint& joint : mechanism.joints)
-    if (is_slot(mechanism, joint))
-      throw InputError(
-          joint.where, "joint " + joint.name + " is a slot, which a drawing has no constructions for",
-          "write the points as constructions, or a small link: revolute at the pin, prismatic along the slot");
+/// A drawing has no constructions for them.
+void refuse_slots(const Value& joints) {
+  for (const Entry& entry : entries(joints)) {
+    if (!entry.value.is_map()) continue;
+    if (entry.value.node.has("slot"))
+      throw InputError(entry.where, "joint " + entry.key + " is a slot, which a drawing cannot have",
+                       "write the points as constructions, or a small link: revolute at the pin, prismatic along the slot");
+    for (const char* type : {"gear", "belt"})
+      if (entry.value.node.has(type))
+        throw InputError(entry.where, "joint " + entry.key + " is a " + type + ", which a drawing cannot have",
+                         "write the points as constructions");
+  }
 }
 
 class DrawingReader {
@@ -56,8 +61,8 @@ class DrawingReader {
     read_workspace(m, {plain_.workspace, "'workspace'", plain_.workspace.where(), "workspace"});
     read_points();
     read_links();
+    refuse_slots(required("joints"));
     read_joints(m, required("joints"));
-    refuse_slots(m);
     check_size();
     place_axes();
     coordinates_->resolve();

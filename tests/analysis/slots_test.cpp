@@ -147,7 +147,7 @@ TEST(ScissorLift, PinsTakeUpHalfTheGap) {
 TEST(ScissorLift, PinsChangeSidesUnderTheLoad) {
   const Model model = shipped("scissor_lift.yaml");
   const LocusMap map = trace_loci(model);
-  EXPECT_TRUE(map.complete());
+  EXPECT_TRUE(map.complete);
   bool hinge = false, slot = false;
   for (const LocusCurve& curve : map.curves)
     for (const Vanishing& own : curve.vanishing) {
