@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/loci_by_cells.hpp"
 #include "analysis/model.hpp"
@@ -380,8 +381,10 @@ namespace {
 /// In the frame of the mechanism's own, with a family or without one.
 core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociRequest& request,
                               const TraceMeans& means) {
-  if (means.certificate != nullptr)
+  if (means.certificate != nullptr) {
     mechanism::require_closed_forms(mechanism, "certificates are written", "leave --certificate out");
+    refuse_gears(mechanism, "certificates are written", "leave --certificate out");
+  }
   if (!mechanism.groups.empty()) return loci_by_cells(mechanism, request);
   const std::optional<Framed> own = framed(mechanism);
   core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), means).map

@@ -65,6 +65,7 @@ bool changes_through_zero(const Mechanism& mechanism, const core::Vanishing& wha
   if (what.quantity != core::Quantity::f) return true;
   for (const mechanism::Joint& joint : mechanism.joints) {
     if (joint.name != what.joint) continue;
+    if (mechanism::is_slot(mechanism, joint)) return true;
     for (const mechanism::LinkIndex link : {joint.from, joint.to})
       if (link != mechanism::ground && mechanism::traits(joint).pinned && bears_along_its_pins(mechanism, link))
         return true;

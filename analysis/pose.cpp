@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose_efforts.hpp"
@@ -93,9 +94,10 @@ std::vector<JointTakeUp> take_up_of(const mechanism::Mechanism& mechanism,
     own.joint = mechanism.joints[j].name;
     const bool lost = t.force_vanishes && joint.presses();
     // A pin in the plane that has play but no radial clearance is displaced by nothing, in a direction.
-    if (joint.presses() || (planar && !mechanism::traits(joint.type).slides))
+    const bool pin = planar && mechanism::traits(joint.type).pinned && !mechanism::traits(joint.type).slides;
+    if (joint.presses() || pin)
       own.displacement = components(mechanism.space, lost ? Eigen::Vector3d::Constant(nan) : t.displacement);
-    if (planar && !mechanism::traits(joint.type).slides) own.beta = t.beta.value_or(nan);
+    if (pin) own.beta = t.beta.value_or(nan);
     if (joint.clearance.angular > 0) own.rotation = t.actuator_vanishes ? nan : t.turn;
     if (joint.clearance.axial > 0) own.axial = t.actuator_vanishes ? nan : t.travel;
     if (joint.is_guided()) {
@@ -367,11 +369,34 @@ Pose solve_given(const mechanism::Mechanism& mechanism, const std::vector<core::
 
 }  // namespace
 
+namespace {
+
+/// Where no working mode is asked for, on the flanks that the load presses.
+Pose solve_on_flanks(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
+                     const PoseRequest& request) {
+  Pose pose = solve_given(mechanism, at, request);
+  for (const std::string& belt : slack_belts(mechanism, pose))
+    pose.notes.push_back("a span of belt " + belt + " is slack");
+  const std::vector<std::string> pulled = pulled_gears(mechanism, pose);
+  if (pulled.empty()) return pose;
+  PoseRequest own = request;
+  if (request.working_mode.empty())
+    for (const DyadSides& sides : modes_of_flanks(mechanism, mechanism::working_mode(mechanism))) {
+      own.working_mode = sides;
+      if (Pose other = solve_given(mechanism, at, own); pulled_gears(mechanism, other).empty()) return other;
+    }
+  pose.notes.push_back(words_of_pulled(pulled) + ": in this working mode its teeth would have to pull");
+  return pose;
+}
+
+}  // namespace
+
 Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                 const PoseRequest& request) {
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
-  if (mechanism::preloaded_joints(mechanism).empty()) return solve_given(mechanism, at, request);
+  if (request.iterate) refuse_gears(mechanism, "pose errors are iterated", "leave out --iterate");
+  if (mechanism::preloaded_joints(mechanism).empty()) return solve_on_flanks(mechanism, at, request);
   const std::vector<numeric::Bounded> values = with_rounding(at);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   PoseEfforts chosen = pose_efforts(mechanism, values, sides, request);
@@ -395,6 +420,8 @@ ModePose solve_in(const mechanism::Mechanism& mechanism, const std::vector<core:
       own.why_not = "beyond the limit of the " + pose.beyond_limit;
     else if (pose.actual && !pose.actual->converged)
       own.why_not = "the pose error cannot be iterated: " + pose.actual->reason;
+    else if (const std::vector<std::string> pulled = pulled_gears(mechanism, pose); !pulled.empty())
+      own.why_not = words_of_pulled(pulled);
     else
       own.pose = std::move(pose);
   } catch (const core::InputError& error) {  // singular in every pose of this mode

@@ -21,7 +21,7 @@ const Expression& clearance_of(const mechanism::OpenDesign& open, const core::Va
     if (joint.name != reaction.joint) continue;
     if (reaction.quantity == Quantity::f) return own.radial;
     if (core::is_guide_end(reaction.quantity)) return own.gap;
-    return mechanism::traits(joint).slides ? own.axial : own.angular;
+    return mechanism::actuator_quantity(joint) == Quantity::F ? own.axial : own.angular;
   }
   core::ensure(false, "a take-up is of a joint with a clearance");
   return open.clearances.front().radial;
@@ -32,7 +32,7 @@ std::vector<core::TaskDemand> take_up_demands(const mechanism::Mechanism& open) 
   for (const mechanism::Joint& joint : open.joints) {
     if (!joint.clearance) continue;
     // A sleeve slides, and is pressed all the same.
-    if (!mechanism::traits(joint).slides || open.space == mechanism::Space::spatial)
+    if (!mechanism::is_guide(open, joint) && !mechanism::traits(joint).meshes)
       demands.push_back({joint.name, Quantity::f, 1});
     if (mechanism::has_guide_ends(open, joint))
       for (const Quantity end : {Quantity::end_ahead, Quantity::end_behind}) demands.push_back({joint.name, end, 1});

@@ -1,5 +1,7 @@
 #include "analysis/task_certificate.hpp"
 
+#include <algorithm>
+
 #include "analysis/pose_demands.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/widened_task.hpp"
@@ -14,6 +16,8 @@ void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task
     throw core::InputError({.file = "--certificate"}, "there is no certificate of " + what, "leave --certificate out");
   };
   if (!mechanism.groups.empty()) refuse("mechanisms whose points close together");
+  if (std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [](const auto& own) { return own.meshing; }))
+    refuse("mechanisms with gears or belts");
   if (task.pose_error) refuse("a task that bounds the pose error");
   if (!task.preload.empty() || !mechanism::joints_without_preload(mechanism).empty())
     refuse("a task that chooses efforts");

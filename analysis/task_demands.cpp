@@ -61,6 +61,10 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
         if (wanted(q) || wanted(Quantity::f) || request.min_force) add(q, request.min_force);
         break;
       case Quantity::N:
+        if (mechanism::is_slot(mechanism, *joint)) {
+          if (wanted(Quantity::f) || request.min_force) add(Quantity::f, request.min_force);
+          break;
+        }
         // A guide whose ends are not known loses its contact where N and T vanish together.
         if (mechanism.space == mechanism::Space::planar && !mechanism::has_guide_ends(mechanism, *joint) &&
             wanted(Quantity::f))
@@ -74,6 +78,11 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
           add(Quantity::f, request.min_force);
     }
   }
+  // The teeth of a gear keep their flank all over a task.
+  for (const mechanism::Joint& joint : mechanism.joints)
+    if (joint.meshing && joint.meshing->flank &&
+        std::none_of(demands.begin(), demands.end(), [&](const TaskDemand& own) { return own.joint == joint.name; }))
+      demands.push_back({joint.name, Quantity::F, 0});
   return demands;
 }
 

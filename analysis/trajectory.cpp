@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
@@ -214,6 +215,7 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   if (const std::optional<Framed> own = framed_where_far(mechanism))
     return from_frame(follow_trajectory(own->mechanism, in_frame(trajectory, own->frame), request), mechanism,
                       own->frame);
+  refuse_gears(mechanism, "trajectories are followed", "ask for pose at places of the path");
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
   const numeric::Motion motion = numeric::compile_motion(mechanism, trajectory, sides);

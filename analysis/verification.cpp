@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "analysis/flanks.hpp"
 #include "analysis/loci.hpp"
 #include "analysis/model.hpp"
 #include "analysis/preload.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
+#include "analysis/widened_task.hpp"
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
@@ -81,9 +83,41 @@ core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::Numeri
   return told;
 }
 
-Verification verify(const Model& model, const Task& task, const VerifyRequest& request) {
+namespace {
+
+bool has(const Mechanism& mechanism, mechanism::JointType type) {
+  return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
+                     [&](const mechanism::Joint& joint) { return joint.type == type; });
+}
+
+/// With gears a task is verified on the flanks that bear in it: no teeth change theirs between two of its poses.
+VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequest request) {
+  if (!has(mechanism, mechanism::JointType::gear)) return request;
+  if (task.loads || !task.loads_within.empty() || request.fit != TaskFit::none)
+    throw InputError({task.file}, "tasks with gears are verified under the loads of the file, where they lie",
+                     "leave out the loads of the task, and --fit");
+  const WidenedTask widened(mechanism, task);
+  const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
+  const std::vector<double> pose = region.samples().front();
+  const DyadSides sides = requested_modes(mechanism, request.loci).front(),
+                  bearing = sides_that_push(mechanism, sides, pose);
+  if (!request.loci.working_modes.empty() && bearing != sides)
+    throw InputError({.file = "--working-mode"},
+                     "in this working mode the teeth of a gear would have to pull in the task",
+                     "leave it out, or ask for the other flank");
+  request.loci.working_modes = {bearing};
+  return request;
+}
+
+}  // namespace
+
+Verification verify(const Model& model, const Task& task, const VerifyRequest& asked) {
   const Mechanism& mechanism = model.content().mechanism;
-  check_request(mechanism, request.loci);
+  check_request(mechanism, asked.loci);
+  const VerifyRequest request = on_flanks(mechanism, task, asked);
+  if (has(mechanism, mechanism::JointType::belt) && !is_asked_of_tower(mechanism, task, request.fit))
+    throw InputError({task.file}, "tasks with belts are verified over two lengths alone, since a span may go slack",
+                     "make all coordinates but two lengths parameters");
   check_task(mechanism, task);
   require_answerable(mechanism, task, request);
   if (!task.preload.empty()) return verify_preloaded(model, task, request);

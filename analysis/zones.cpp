@@ -13,6 +13,7 @@
 #include "loci/search/search.hpp"
 #include "loci/zones/zones.hpp"
 #include "mechanism/guide.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/read_task.hpp"
 #include "numeric/line_witness.hpp"
 #include "numeric/reactions.hpp"
@@ -73,7 +74,10 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
         return reaction.joint == joint && reaction.quantity == q;
       });
       const core::Vanishing what{joint, q, 1};
-      if (!component && chosen && (!guide || keeps_sign_in_zones(what, request, map.loci, always_zero)))
+      const bool slot = mechanism::is_slot(mechanism, mechanism.joints[static_cast<std::size_t>(unknown.joint)]);
+      const bool cuts = slot && std::find(request.quantities.begin(), request.quantities.end(), core::Quantity::f) !=
+                                    request.quantities.end();
+      if (!component && chosen && (!guide || cuts || keeps_sign_in_zones(what, request, map.loci, always_zero)))
         zone.signs.emplace_back(what, sign(at.values[k]) * zone.assembly_mode);
     }
     for (std::size_t j = 0; j < mechanism.joints.size(); ++j)

@@ -92,7 +92,11 @@ class Assembly {
     own.axis = axis_of(m_, values_, points_, joint);
     if (is_planar() && traits.slides) {
       own.normal = add_unknown(joint, force_at(joint.at, cross(unit_along<Number>(2), own.axis)));
+      if (!traits.pinned) own.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
+    } else if (traits.meshes && joint.axes.empty()) {
       own.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
+    } else if (traits.meshes) {
+      own.along = add_unknown(joint, force_at(joint.at, own.axis));
     } else if (is_planar()) {
       own.force = add_forces(joint, 2);
     } else {
@@ -203,7 +207,8 @@ class Assembly {
       const Number tilt = half / values_.value(found->clearance->half_length);
       add(0, *own.normal, half);
       add(0, own.couple.front(), demand.quantity == Quantity::end_ahead ? tilt : -tilt);
-    } else if (demand.quantity == Quantity::F && found->actuated && mechanism::traits(*found).slides) {
+    } else if (demand.quantity == Quantity::F && found->actuated &&
+               mechanism::actuator_quantity(*found) == Quantity::F) {
       if (own.along)
         add(0, *own.along, Values<Number>::number(1.0));
       else
@@ -215,7 +220,7 @@ class Assembly {
         along_axis(own.couple);
     } else if (demand.quantity == Quantity::f && own.normal) {
       add(0, *own.normal, Values<Number>::number(1.0));
-      add(1, own.couple.front(), Values<Number>::number(1.0));
+      if (!own.couple.empty()) add(1, own.couple.front(), Values<Number>::number(1.0));
     } else if (demand.quantity == Quantity::f && mechanism::presses_across_axis(m_, *found)) {
       // u x f is as large as the part of f across u.
       for (std::size_t i = 0; i < 3; ++i) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanism/actions.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/redundancy.hpp"
@@ -138,11 +139,12 @@ std::string count_unknowns(const Mechanism& mechanism) {
   std::vector<Kind> kinds;
   std::size_t actuators = 0;
   for (const Joint& joint : mechanism.joints) {
-    if (joint.actuated) ++actuators;
+    const bool meshes = traits(joint).meshes;
+    if (joint.actuated && !meshes) ++actuators;
     Joint passive = joint;
     passive.actuated = false;
-    const std::size_t unknowns = reaction_components(mechanism, passive).size();
-    const bool alike = mechanism.space == Space::planar;  // every planar joint bears two
+    const std::size_t unknowns = meshes ? 1 : reaction_components(mechanism, passive).size();
+    const bool alike = mechanism.space == Space::planar && !meshes && !is_slot(mechanism, joint);  // these bear two
     const std::string name = alike ? "joint" : to_string(joint.type) + " joint";
     const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
     if (known == kinds.end())
@@ -312,9 +314,10 @@ void check_axes(const Mechanism& mechanism) {
         throw InputError(joint.where, name + " of joint " + joint.name + " is zero in every pose",
                          "write a vector with a direction");
       // An axis that the ground holds stands still: of a universal joint the ground's own, of others the one axis.
-      const LinkIndex holder = joint.axes.size() == 2 ? (i == 0 ? joint.from : joint.to)
-                               : joint.from == ground ? joint.from
-                                                      : joint.to;
+      const LinkIndex holder = is_slot(mechanism, joint) ? joint.from
+                               : joint.axes.size() == 2  ? (i == 0 ? joint.from : joint.to)
+                               : joint.from == ground    ? joint.from
+                                                         : joint.to;
       if (sampled && holder == ground && greatest - least > 1e-9)
         throw InputError(joint.where,
                          name + " of joint " + joint.name + " is fixed in the ground, but turns over the workspace",

@@ -6,7 +6,7 @@ namespace clearloci::mechanism {
 
 std::span<const JointTraits> joint_types() {
   using core::Quantity;
-  static const std::array<JointTraits, 5> table = {{
+  static const std::array<JointTraits, 8> table = {{
       {.type = JointType::revolute,
        .name = "revolute",
        .in_plane = true,
@@ -39,6 +39,30 @@ std::span<const JointTraits> joint_types() {
        .couple = BorneCouple::across_axis,
        .actuator = Quantity::F,
        .clearances = {"radial", "axial"}},
+      {.type = JointType::slot,
+       .name = "slot",
+       .in_plane = true,
+       .in_space = false,
+       .planar_axes = 1,
+       .slides = true,
+       .planar_clearances = {"gap"}},
+      {.type = JointType::gear,
+       .name = "gear",
+       .in_plane = true,
+       .in_space = false,
+       .planar_axes = 1,
+       .meshes = true,
+       .pinned = false,
+       .actuator = Quantity::F,
+       .planar_clearances = {"backlash"}},
+      {.type = JointType::belt,
+       .name = "belt",
+       .in_plane = true,
+       .in_space = false,
+       .meshes = true,
+       .pinned = false,
+       .actuator = Quantity::M,
+       .planar_clearances = {"backlash"}},
   }};
   return table;
 }

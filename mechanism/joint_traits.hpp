@@ -25,8 +25,10 @@ struct JointTraits {
   JointType type = JointType::revolute;
   std::string_view name;                  ///< the key of the file
   bool in_plane = false;                  ///< planar mechanisms have it
+  bool in_space = true;                   ///< spatial ones have it
   std::size_t planar_axes = 0, axes = 0;  ///< that are written, in the plane and in space
   bool slides = false;                    ///< along its axis, where it bears no force
+  bool meshes = false;  ///< bears nothing but what an actuator of it would exert: teeth, belts
   bool pinned = true;  ///< by a pin, a ball or a sleeve, which loses its contact where its force vanishes
   BorneCouple couple = BorneCouple::none;
   /// What an actuator of it exerts, M about its axis or F along it; nothing where it may have none.
@@ -44,7 +46,12 @@ inline const JointTraits& traits(const Joint& joint) { return traits(joint.type)
 
 /// A block in its guide in the plane: it bears a normal force N and a couple T.
 inline bool is_guide(const Mechanism& mechanism, const Joint& joint) {
-  return mechanism.space == Space::planar && traits(joint).slides;
+  return mechanism.space == Space::planar && traits(joint).slides && !traits(joint).pinned;
+}
+
+/// A pin in a slot of the plane: it bears a normal force N alone.
+inline bool is_slot(const Mechanism& mechanism, const Joint& joint) {
+  return mechanism.space == Space::planar && traits(joint).slides && traits(joint).pinned;
 }
 
 /// A pin or a sleeve about an axis in space: what presses its parts together is the part of its force across the axis.

@@ -22,13 +22,14 @@ std::string to_string(JointType type) { return std::string(traits(type).name); }
 std::vector<Quantity> force_components(const Mechanism& mechanism, const Joint& joint) {
   if (!traits(joint).pinned) return {};
   if (presses_across_axis(mechanism, joint)) return {Quantity::f1, Quantity::f2};
-  if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
+  if (mechanism.space == Space::planar) return reaction_components(mechanism, joint);
   return {Quantity::fx, Quantity::fy, Quantity::fz};
 }
 
 std::vector<Quantity> force_unknowns(const Mechanism& mechanism, const Joint& joint) {
   if (!traits(joint).pinned) return {};
   std::vector<Quantity> own = reaction_components(mechanism, joint);
+  if (is_slot(mechanism, joint)) return own;
   constexpr std::array forces = {Quantity::fx, Quantity::fy, Quantity::fz, Quantity::f1, Quantity::f2};
   std::erase_if(own, [&](Quantity q) { return std::find(forces.begin(), forces.end(), q) == forces.end(); });
   return own;
@@ -36,6 +37,8 @@ std::vector<Quantity> force_unknowns(const Mechanism& mechanism, const Joint& jo
 
 std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint) {
   if (is_guide(mechanism, joint)) return {Quantity::N, Quantity::T};
+  if (traits(joint).meshes) return {};
+  if (is_slot(mechanism, joint)) return {Quantity::N};
   if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
   const JointTraits& own = traits(joint);
   // An actuator takes the place of what the joint does not bear along or about its axis.

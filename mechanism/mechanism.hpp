@@ -171,7 +171,8 @@ struct Fit {
 };
 
 /// Clearances of a joint, m and rad; 0 where absent. A prismatic joint touches its guide in two places, `half_length`
-/// to both sides of its point, each free to move by `gap` to either side; `axial` is the play of its actuator.
+/// to both sides of its point, each free to move by `gap` to either side; `axial` is the play of its actuator. A pin in
+/// a slot has half of the slot's gap for its `radial`.
 struct Clearance {
   Expression radial;
   Expression angular;
@@ -181,7 +182,7 @@ struct Clearance {
   std::optional<Fit> fit = {};  ///< that `radial` was taken from
 };
 
-enum class JointType { revolute, prismatic, universal, spherical, cylindrical };
+enum class JointType { revolute, prismatic, universal, spherical, cylindrical, slot, gear, belt };
 
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
@@ -194,9 +195,18 @@ struct FreeEffort {
   bool given = false;
 };
 
+/// Two wheels, or a wheel and a rack, whose teeth touch at the pitch point; or two pulleys of one size.
+struct Meshing {
+  PointIndex first = 0;              ///< centre of `from`
+  std::optional<PointIndex> second;  ///< centre of `to`; none of a rack
+  std::optional<PointIndex> flank;   ///< of a gear: where the line of action touches the base circle of `from`
+  Expression most = {};              ///< of a belt: the couple beyond which a span is slack, N m
+  Expression radius = {};            ///< of the pitch circle of `from`, m
+};
+
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
-/// joint and of a spatial revolute one, two of a universal joint (the one fixed in `from` first), none otherwise. Their
-/// lengths are of no consequence.
+/// joint, of a slot, of a gear (its line of action) and of a spatial revolute joint, two of a universal joint (the one fixed in `from` first), none
+/// otherwise. Their lengths are of no consequence.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
@@ -209,6 +219,7 @@ struct Joint {
   /// Of an actuator of known effort, N m or N, on `to` along its axis: a load between the two links, and no unknown.
   std::optional<Expression> effort = {};
   std::optional<FreeEffort> free_effort = {};  ///< with `effort`: the symbol of its parameter
+  std::optional<Meshing> meshing = {};         ///< of a gear, which is actuated: its force is an unknown along its axis
 };
 
 /// Components are polynomials in the free coordinates (and cos, sin of an angle).
@@ -283,6 +294,7 @@ struct BodyFrame {
   std::string name;
   PointIndex origin = 0;             ///< an explicit point
   std::vector<Expression> rotation;  ///< 4 or 9
+  std::optional<Expression> angle = {};  ///< of its rotation in the plane, rad
 };
 
 /// A change of coordinates (mechanism/frame.hpp): place p = origin + scale p', free length q = from + scale q'.
@@ -337,11 +349,11 @@ struct Mass {
 /// Every mass that is not written as 0, link after link.
 std::vector<Mass> masses(const Mechanism& mechanism);
 
-/// Unknowns in column order. Planar: fx, fy of every revolute joint and N, T of every prismatic one in the file's
-/// order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its couple. A force
-/// or couple that may have any direction has components x, y, z; one across an axis has two, 1 and 2; the couple of a
-/// universal joint, across both of its axes, is T. The actuator of a revolute or prismatic joint fills up its couple or
-/// force.
+/// Unknowns in column order. Planar: fx, fy of every revolute joint, N, T of every prismatic one and N of every slot in
+/// the file's order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its
+/// couple. A force or couple that may have any direction has components x, y, z; one across an axis has two, 1 and 2;
+/// the couple of a universal joint, across both of its axes, is T. The actuator of a revolute or prismatic joint fills
+/// up its couple or force.
 std::vector<Unknown> unknowns(const Mechanism& mechanism);
 
 /// The columns of one joint, without a planar joint's actuator.

@@ -28,12 +28,17 @@ const std::vector<OtherWords>& table() {
       {{"fixed", "fix", "weld", "welded", "rigid", "clamp", "clamped", "bolted", "lock"},
        "",
        "list the points of both parts in one link"},
+      {{"gears", "rack", "pinion", "cogwheel", "spur"},
+       "gear",
+       "write gear: [wheel, wheel] with centres and teeth, or gear: [wheel, rack] with centre, radius and along"},
       {{"gear", "belt", "chain", "pulley", "sprocket", "rack", "pinion", "gearbox", "transmission", "ratio",
         "differential"},
        "",
-       "no joint goes through gears, a belt or a chain: actuate the joint that they turn, with their play as its "
-       "angular "
-       "clearance; a belt of ratio 1 does what a parallelogram of two more links does"},
+       "no joint goes through gears, a belt or a chain here: actuate the joint that they turn, with their play as its "
+       "angular clearance; in the plane write a gear or a belt"},
+      {{"pininslot", "follower", "roller", "track", "groove"},
+       "slot",
+       "a pin in a straight slot is slot: [carrier, follower], with the axis of the slot"},
       {{"cam", "slot", "pininslot", "follower", "roller", "track", "groove"},
        "",
        "a pin in a straight slot is a small link of its own: revolute at the pin, prismatic along the slot"},

@@ -74,7 +74,8 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   read_parameters(mechanism, root.find("parameters"), free_effort_parameters(root.at("joints"), efforts.laws),
                   efforts.values);
   read_workspace(mechanism, root.at("workspace"));
-  read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"));
+  read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"), root.find("joints"));
+  read_gear_points(mechanism, root.at("joints"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
   give_free_efforts(mechanism, efforts);
@@ -94,6 +95,8 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   check_axes(mechanism);
   check_springs(mechanism);
   check_rigidity(mechanism);
+  check_slots(mechanism);
+  check_gears(mechanism);
   limit_spring_ends(mechanism);
   return mechanism;
 }

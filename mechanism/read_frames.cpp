@@ -64,13 +64,20 @@ Turn read_turn(const Mechanism& mechanism, const Value& value) {
   return turn_by(read_expression(mechanism, value, Scope::parameters_and_coordinates));
 }
 
+/// In the plane.
+Expression read_angle(const Mechanism& mechanism, const Mapping& mapping) {
+  const std::optional<Value> turned = mapping.find("turned");
+  if (!turned) return {};
+  return read_expression(mechanism, turned->is_sequence() ? elements(*turned, 1)[0] : *turned,
+                         Scope::parameters_and_coordinates);
+}
+
 /// `zyx`: R = Rz Ry Rx, so that the last letter's rotation comes first. Any order of the three.
 Matrix read_rotation(const Mechanism& mechanism, const Mapping& mapping) {
   const std::optional<Value> turned = mapping.find("turned"), order = mapping.find("order");
   if (mechanism.space == Space::planar) {
     if (order) throw InputError(order->where, order->what + " has no meaning in the plane", "remove it");
-    if (!turned) return {Expression::number(1), Expression(), Expression(), Expression::number(1)};
-    const Turn turn = read_turn(mechanism, turned->is_sequence() ? elements(*turned, 1)[0] : *turned);
+    const Turn turn = turn_by(read_angle(mechanism, mapping));
     return {turn.cosine, negated(turn.sine), turn.sine, turn.cosine};
   }
   std::string letters = order ? text_of(*order) : "zyx";
@@ -103,6 +110,7 @@ BodyFrame read_frame(const Mechanism& mechanism, const Entry& entry) {
         at.where, described.what + " stands at " + text_of(at) + ", which is no point with coordinates",
         "name one that is written as coordinates; on a link whose points are constructed, write {on: ...}");
   frame.rotation = read_rotation(mechanism, mapping);
+  if (mechanism.space == Space::planar) frame.angle = read_angle(mechanism, mapping);
   return frame;
 }
 
@@ -137,28 +145,50 @@ void check_all_frames_read(const Mechanism& mechanism, const std::optional<Value
     if (!is_read(mechanism, entry.key)) (void)read_frame(mechanism, entry);  // says what is wrong with it
 }
 
-ExplicitPoint read_point_in_frame(const Mechanism& mechanism, const Value& value) {
-  const Mapping mapping(value, {"in", "place"});
-  const Value in = mapping.at("in");
+namespace {
+
+const BodyFrame& frame_named(const Mechanism& mechanism, const Value& in, const std::string& what) {
   const std::string name = text_of(in);
   const auto frame = std::find_if(mechanism.body_frames.begin(), mechanism.body_frames.end(),
                                   [&](const BodyFrame& one) { return one.name == name; });
-  if (frame == mechanism.body_frames.end()) {
-    std::vector<std::string> known;
-    for (const BodyFrame& one : mechanism.body_frames) known.push_back(one.name);
-    throw InputError(in.where, value.what + ": there is no frame '" + name + "' above it",
-                     known.empty() ? "describe it under frames, at a point that is written above this one"
-                                   : suggest(name, known, "frames whose points are known here"));
-  }
-  const std::size_t n = dimension(mechanism);
-  std::vector<Expression> place;
-  for (const Value& part : elements(mapping.at("place"), static_cast<int>(n)))
-    place.push_back(read_number(mechanism, part, Sign::any).expression);
-  ExplicitPoint point = std::get<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(frame->origin)].form);
+  if (frame != mechanism.body_frames.end()) return *frame;
+  std::vector<std::string> known;
+  for (const BodyFrame& one : mechanism.body_frames) known.push_back(one.name);
+  throw InputError(in.where, what + ": there is no frame '" + name + "' above it",
+                   known.empty() ? "describe it under frames, at a point that is written above this one"
+                                 : suggest(name, known, "frames whose points are known here"));
+}
+
+/// R v.
+std::vector<Expression> turned(const BodyFrame& frame, const std::vector<Expression>& v) {
+  const std::size_t n = v.size();
+  std::vector<Expression> result(n);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      point.coordinates[i] = sum(point.coordinates[i], product(frame->rotation[n * i + j], place[j]));
+    for (std::size_t j = 0; j < n; ++j) result[i] = sum(result[i], product(frame.rotation[n * i + j], v[j]));
+  return result;
+}
+
+}  // namespace
+
+ExplicitPoint read_point_in_frame(const Mechanism& mechanism, const Value& value) {
+  const Mapping mapping(value, {"in", "place"});
+  const BodyFrame& frame = frame_named(mechanism, mapping.at("in"), value.what);
+  std::vector<Expression> place;
+  for (const Value& part : elements(mapping.at("place"), static_cast<int>(dimension(mechanism))))
+    place.push_back(read_number(mechanism, part, Sign::any).expression);
+  ExplicitPoint point = std::get<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(frame.origin)].form);
+  const std::vector<Expression> way = turned(frame, place);
+  for (std::size_t i = 0; i < way.size(); ++i) point.coordinates[i] = sum(point.coordinates[i], way[i]);
   return point;
+}
+
+VectorExpression in_directions_of(const Mechanism& mechanism, const Value& in, const Value& by,
+                                  const VectorExpression& vector) {
+  const BodyFrame& frame = frame_named(mechanism, in, by.what);
+  if (vector.kind != VectorExpression::Kind::components)
+    throw InputError(by.where, by.what + " is made of points, whose directions are those of the ground",
+                     "write its components in the frame, or leave out in:");
+  return {VectorExpression::Kind::components, turned(frame, vector.numbers), 0, {}};
 }
 
 }  // namespace clearloci::mechanism

@@ -10,11 +10,17 @@
 namespace clearloci::mechanism {
 namespace {
 
-/// "revolute, prismatic, ... or cylindrical", as far as there are such in the plane.
-std::string names_of_joint_types(const Mechanism& mechanism) {
+/// Those that there are in the mechanism's space.
+std::vector<std::string> known_types(const Mechanism& mechanism) {
   std::vector<std::string> types;
   for (const JointTraits& type : joint_types())
-    if (mechanism.space == Space::spatial || type.in_plane) types.emplace_back(type.name);
+    if (mechanism.space == Space::spatial ? type.in_space : type.in_plane) types.emplace_back(type.name);
+  return types;
+}
+
+/// "revolute, prismatic, ... or cylindrical".
+std::string names_of_joint_types(const Mechanism& mechanism) {
+  std::vector<std::string> types = known_types(mechanism);
   const std::string last = types.back();
   types.pop_back();
   return join(types) + " or " + last;
@@ -29,9 +35,7 @@ std::string link_text(const Mechanism& mechanism, LinkIndex link) {
 /// Throws where a joint of no type that exists has a key that seems to name one: of two links.
 void refuse_type(const Mechanism& mechanism, const Entry& entry) {
   static const std::vector<std::string> others = {"at", "axis", "axes", "actuated", "clearance"};
-  std::vector<std::string> types;
-  for (const JointTraits& type : joint_types())
-    if (mechanism.space == Space::spatial || type.in_plane) types.emplace_back(type.name);
+  const std::vector<std::string> types = known_types(mechanism);
   for (const Entry& part : entries(entry.value)) {
     if (std::find(others.begin(), others.end(), part.key) != others.end()) continue;
     if (mechanism.space == Space::planar && !part.value.is_sequence()) continue;
@@ -56,6 +60,9 @@ JointType read_type(const Mechanism& mechanism, const Entry& entry) {
       if (mechanism.space == Space::planar && !type.in_plane)
         throw InputError(part.where, "joint " + entry.key + " is " + part.key + ", a joint of spatial mechanisms",
                          "use revolute and prismatic joints in the plane, or write space: spatial");
+      if (mechanism.space == Space::spatial && !type.in_space)
+        throw InputError(part.where, "joint " + entry.key + " is a " + part.key + ", a joint of planar mechanisms",
+                         "write it with joints of space: " + names_of_joint_types(mechanism));
     }
   }
   if (!found && entry.value.is_map()) refuse_type(mechanism, entry);
@@ -112,7 +119,7 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const J
     throw InputError(diameter->where, "joint " + joint.name + " has a diameter but no fit", "add such as fit: H7/g6");
   }
   const auto has = [&](const char* key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
-  if (has("gap") && mapping.find("gap") && !mapping.find("half_length"))
+  if (has("half_length") && mapping.find("gap") && !mapping.find("half_length"))
     throw InputError(value.where, "joint " + joint.name + " has a gap but no half_length",
                      "add half_length: the distance from its point to either end of its contact, m");
   clearance.radial = clearance.fit ? Expression::number(clearance.fit->largest) : part("radial");
@@ -120,6 +127,12 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const J
   clearance.gap = part("gap");
   clearance.half_length = part("half_length");
   clearance.axial = part("axial");
+  if (is_slot(mechanism, joint)) {
+    // A pin moves by half of the slot's gap to either side.
+    clearance.radial =
+        Expression::apply(Expression::Kind::multiply, {Expression::number(Rational(1, 2)), clearance.gap});
+    clearance.gap = Expression();
+  }
   return clearance;
 }
 
@@ -150,6 +163,10 @@ Clearance read_clearance(const Mechanism& mechanism, const Value& value, const J
 /// A pin is a point of both links that it joins; a slider's point travels along one of them.
 void check_place(const Mechanism& mechanism, const Joint& joint, const Value& at) {
   const bool on_from = is_on_link(mechanism, joint.at, joint.from), on_to = is_on_link(mechanism, joint.at, joint.to);
+  if (is_slot(mechanism, joint)) {
+    if (!on_to) refuse_joint_point(mechanism, joint, joint.to, at);
+    return;
+  }
   if (traits(joint).slides ? on_from || on_to : on_from && on_to) return;
   if (traits(joint).slides) refuse_slider_point(mechanism, joint, at);
   refuse_joint_point(mechanism, joint, on_from ? joint.to : joint.from, at);
@@ -242,7 +259,9 @@ std::vector<Expression> read_varying_vector(const Mechanism& mechanism, const Va
 void read_joints(Mechanism& mechanism, const Value& value) {
   for (const Entry& entry : entries(value)) {
     check_label(entry.key, entry.where, "a joint");
-    mechanism.joints.push_back(read_joint(mechanism, entry));
+    mechanism.joints.push_back(is_gear(entry.value)   ? read_gear(mechanism, entry)
+                               : is_belt(entry.value) ? read_belt(mechanism, entry)
+                                                      : read_joint(mechanism, entry));
   }
   if (mechanism.joints.empty())
     throw InputError(value.where, "there are no joints", "write such as A: {revolute: [ground, AB], at: A}");

@@ -126,7 +126,7 @@ void fill_inertia(Mechanism& mechanism) {
     if (link.inertia || link.points.size() > 1) continue;
     const auto index = static_cast<LinkIndex>(i);
     const bool guided = std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const Joint& joint) {
-      return traits(joint).slides &&
+      return traits(joint).slides && !is_slot(mechanism, joint) &&
              ((joint.from == ground && joint.to == index) || (joint.from == index && joint.to == ground));
     });
     if (!guided)

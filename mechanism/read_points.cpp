@@ -223,12 +223,18 @@ OffsetPoint read_offset(const Mechanism& mechanism, const Value& value) {
 }
 
 ShiftedPoint read_shifted(const Mechanism& mechanism, const Value& value) {
-  const Mapping mapping(value, {"from", "by"});
+  const Mapping mapping(value, {"from", "by", "in"});
   Value by = mapping.at("by");
   by.what = "the way of " + value.what;
   by.field = "points";
-  return {read_point_name(mechanism, mapping.at("from")),
-          read_vector_expression(mechanism, by, Scope::parameters_and_coordinates)};
+  ShiftedPoint point{read_point_name(mechanism, mapping.at("from")),
+                     read_vector_expression(mechanism, by, Scope::parameters_and_coordinates)};
+  const std::optional<Value> in = mapping.find("in");
+  if (!in) return point;
+  point.by = in_directions_of(mechanism, *in, by, point.by);
+  for (const Expression& component : point.by.numbers)
+    check_polynomial(mechanism, by, component, "write angles that are coordinates, or numbers, under turned");
+  return point;
 }
 
 CrossingPoint read_crossing(const Mechanism& mechanism, const Value& value) {
@@ -307,6 +313,7 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
   if (!value.is_map())
     throw InputError(value.where, value.what + " is neither coordinates nor a construction",
                      "write [x, y], {dyad: ...}, {slider: ...}, {on: ...} or {mean: ...}");
+  if (has_key(value, "by")) return read_shifted(mechanism, value);
   if (has_key(value, "in")) {
     ExplicitPoint point = read_point_in_frame(mechanism, value);
     const PolynomialCheck check(mechanism, value, "write angles that are coordinates, or numbers, under turned");
@@ -320,7 +327,6 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
     return MeanPoint{first, second};
   }
   if (has_key(value, "slider")) return read_slider(mechanism, value);
-  if (has_key(value, "by")) return read_shifted(mechanism, value);
   if (has_key(value, "foot")) return read_foot(mechanism, value);
   if (has_key(value, "crossing")) return read_crossing(mechanism, value);
   const std::vector<std::string> forms = {"dyad", "slider", "on", "mean", "in", "from", "crossing", "foot"};
@@ -334,21 +340,25 @@ PointForm read_point_form(const Mechanism& mechanism, const Value& value) {
 }
 
 void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames,
-                 const std::optional<Value>& links) {
+                 const std::optional<Value>& links, const std::optional<Value>& joints) {
+  const auto read_known = [&] {
+    read_known_frames(mechanism, frames);
+    read_known_wheels(mechanism, joints);
+  };
   const std::vector<Entry> points = entries(value);
   if (points.empty()) throw InputError(value.where, "there are no points", "write such as A: [0, 0]");
   check_order(points, links);
   for (const Entry& entry : points) {
     if (is_group(entry.value)) {
       read_group(mechanism, entry);
-      read_known_frames(mechanism, frames);
+      read_known();
       continue;
     }
     check_label(entry.key, entry.where, "a point");
     Value form = entry.value;
     form.what = "point " + entry.key;
     mechanism.points.push_back({entry.key, read_point_form(mechanism, form), false, entry.where});
-    read_known_frames(mechanism, frames);
+    read_known();
   }
   check_all_frames_read(mechanism, frames);
 }

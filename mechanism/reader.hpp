@@ -66,8 +66,9 @@ void check_load(const Mechanism& mechanism, const Value& value, const Expression
 /// The length of a rod, or a polynomial in the coordinates: that of a leg which a motor makes longer.
 Expression read_length(const Mechanism& mechanism, const Value& value);
 /// `frames`: those of the file, each read as soon as its origin is known. `links`: as they are written, for messages.
+/// `joints`: among them gears, whose wheels have frames.
 void read_points(Mechanism& mechanism, const Value& value, const std::optional<Value>& frames,
-                 const std::optional<Value>& links);
+                 const std::optional<Value>& links, const std::optional<Value>& joints);
 
 // --- read_group.cpp
 /// {group: [C, E], lengths: ...}, in the place of a point.
@@ -78,6 +79,9 @@ void read_group(Mechanism& mechanism, const Entry& entry);
 // --- read_frames.cpp
 /// A point {in: frame, place: [u, v, w]} as its coordinates.
 ExplicitPoint read_point_in_frame(const Mechanism& mechanism, const Value& value);
+/// Components in a frame, named by `in`, as those in the ground. `by`: where they are written, for messages.
+VectorExpression in_directions_of(const Mechanism& mechanism, const Value& in, const Value& by,
+                                  const VectorExpression& vector);
 /// The frames that stand at points known so far, and are not among `mechanism.body_frames` yet.
 void read_known_frames(Mechanism& mechanism, const std::optional<Value>& frames);
 /// Throws where a frame of the file is still unknown.
@@ -159,6 +163,31 @@ void check_springs(const Mechanism& mechanism);
 // --- rigidity.cpp
 /// The points of a link keep their distances in sampled postures, or may on one side of a fold.
 void check_rigidity(const Mechanism& mechanism);
+
+// --- read_gears.cpp
+/// Of every gear among the joints: the pitch point, which has the gear's name, and K, `flank_` and its name.
+void read_gear_points(Mechanism& mechanism, const Value& joints);
+/// An entry {gear: [wheel, wheel], ...} of the joints.
+bool is_gear(const Value& value);
+/// The joint of a gear whose points are read.
+Joint read_gear(const Mechanism& mechanism, const Entry& entry);
+/// Frames of wheels that turn with another one, whose frame is known: frames have the names of the wheels' links.
+void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints);
+
+// --- read_belts.cpp
+/// An entry {belt: [pulley, pulley], ...} of the joints.
+bool is_belt(const Value& value);
+/// Adds the spring of the belt's tension to the mechanism.
+Joint read_belt(Mechanism& mechanism, const Entry& entry);
+
+// --- check_gears.cpp
+/// The wheels of a gear and the pulleys of a belt are pinned to one carrier, and their teeth move alike, in sampled
+/// postures.
+void check_gears(const Mechanism& mechanism);
+
+// --- slots.cpp
+/// The pin of a slot stays on one line of the link that carries the slot, in sampled postures.
+void check_slots(const Mechanism& mechanism);
 
 // --- reachability.cpp
 /// Every dyad can be closed somewhere in the box.

@@ -48,6 +48,12 @@ void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& 
     if (is_guide(m, joint)) {
       force({-axes[0][1], axes[0][0], 0});
       couple(xyz[2]);
+    } else if (is_slot(m, joint)) {
+      force({-axes[0][1], axes[0][0], 0});
+    } else if (own.meshes && axes.empty()) {
+      couple(xyz[2]);
+    } else if (own.meshes) {
+      force(axes[0]);
     } else {
       force(xyz[0]);
       force(xyz[1]);
@@ -82,7 +88,7 @@ std::optional<std::vector<BorneReaction>> reactions_at(const Mechanism& m, const
     }
     const auto index = static_cast<JointIndex>(j);
     add_borne(m, index, axes, columns);
-    if (!joint.actuated) continue;
+    if (!joint.actuated || traits(joint).meshes) continue;
     const Vector along = axes.empty() ? xyz[2] : axes[0];
     if (actuator_quantity(joint) == core::Quantity::F)
       columns.push_back({index, true, joint.from, joint.to, joint.at, along, {}});

@@ -36,6 +36,8 @@ WitnessColumns columns_of(const NumericModel& model, const TracedReaction& react
     return {column(Quantity::N), column(Quantity::T), -1, lever};
   }
   if (reaction.quantity != Quantity::f) return {column(reaction.quantity)};
+  if (joint >= 0 && mechanism::is_slot(model.mechanism, model.mechanism.joints[static_cast<std::size_t>(joint)]))
+    return {column(Quantity::N)};
   if (model.mechanism.space == mechanism::Space::planar) return {column(Quantity::fx), column(Quantity::fy)};
   const bool pin =
       mechanism::presses_across_axis(model.mechanism, model.mechanism.joints[static_cast<std::size_t>(joint)]);

@@ -295,7 +295,8 @@ namespace {
 mechanism::JointIndex guide_of(const mechanism::Mechanism& mechanism, mechanism::LinkIndex link) {
   if (mechanism.links[static_cast<std::size_t>(link)].points.size() > 1) return -1;
   const auto own = std::find_if(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
-    return mechanism::traits(joint).slides && (joint.from == link || joint.to == link);
+    return mechanism::traits(joint).slides && !mechanism::is_slot(mechanism, joint) &&
+           (joint.from == link || joint.to == link);
   });
   return own == mechanism.joints.end() ? -1 : static_cast<mechanism::JointIndex>(own - mechanism.joints.begin());
 }
@@ -328,7 +329,9 @@ std::vector<BodyDirection> directions_of(const NumericModel& model, const std::v
     for (std::size_t j = 0; j < m.joints.size(); ++j) {
       const mechanism::Joint& joint = m.joints[j];
       if (mechanism::traits(joint).slides != slides || mechanism::holds_idle_freedom(joint)) continue;
-      const bool crossed = joint.type == mechanism::JointType::universal;
+      if (mechanism::traits(joint).meshes) continue;  // a line of action turns with neither wheel
+      // Not fixed in `to`, which turns against it.
+      const bool crossed = joint.type == mechanism::JointType::universal || mechanism::is_slot(m, joint);
       if (model.axes[j] && (holds(joint.from) || (holds(joint.to) && !crossed))) all.push_back({0, 0, model.axes[j]});
       if (crossed && model.second_axes[j] && holds(joint.to)) all.push_back({0, 0, model.second_axes[j]});
     }
@@ -450,6 +453,11 @@ PressingForce pressing_force(const Motion& motion, const Instant& at, mechanism:
                              const Eigen::VectorXd& values, const Eigen::VectorXd& rates) {
   const auto j = static_cast<std::size_t>(joint);
   const JointColumns& c = motion.columns[j];
+  if (c.fx < 0) {  // a slot: N k × u
+    const Vector3d &u = at.axes[j], &turn = at.axes_rate[j];
+    const Vector3d across(-u.y(), u.x(), 0), across_rate(-turn.y(), turn.x(), 0);
+    return {values(c.normal) * across, rates(c.normal) * across + values(c.normal) * across_rate};
+  }
   const auto force = [&](const Eigen::VectorXd& w) { return Vector3d(w(c.fx), w(c.fy), c.fz < 0 ? 0.0 : w(c.fz)); };
   PressingForce own{force(values), force(rates)};
   if (c.fz < 0 || !mechanism::traits(motion.model.mechanism.joints[j]).turns_about_axis()) return own;

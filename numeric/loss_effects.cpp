@@ -40,6 +40,10 @@ LossEffect effect_of_turn(const Motion& motion, const Instant& at, mechanism::Jo
   const JointColumns& columns = motion.columns[j];
   const Vector3d way = -motion.clearances[j].radial * (after.normalized() - before.normalized());
   Eigen::VectorXd displacements = none(motion);
+  if (columns.fx < 0) {  // a slot
+    displacements(columns.normal) = way.dot(Vector3d(-at.axes[j].y(), at.axes[j].x(), 0));
+    return {way.norm(), jump_by(motion, at, displacements)};
+  }
   displacements(columns.fx) = way.x();
   displacements(columns.fy) = way.y();
   if (columns.fz >= 0) displacements(columns.fz) = way.z();

@@ -267,6 +267,11 @@ void PoseBatch::find_errors_under_load() {
   for (std::size_t j = 0; j < contacts_.size(); ++j)
     if (contacts_[j].clearance.any()) move_by(j, taken_up(j));
   for (const Lane& component : error_) over_lanes([&](std::size_t l) { lost_[l] += finiteness(component[l]); });
+  // Teeth push: where they would have to pull it is another working mode.
+  for (std::size_t j = 0; j < contacts_.size(); ++j)
+    if (contacts_[j].type == mechanism::JointType::gear)
+      for (const std::size_t k : unknowns_of_[j])
+        over_lanes([&, &force = values_.back()[k]](std::size_t l) { lost_[l] += force[l] < 0 ? nan : 0; });
 }
 
 PoseError PoseBatch::error(int lane) const {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/evaluator.hpp"
 #include "numeric/wrench_rows.hpp"
@@ -44,6 +45,39 @@ void add_columns(const mechanism::Joint& joint, JointIndex j, const Vector3d& u,
     for (const Vector3d& v : across) couple(v);
   if (own.couple == mechanism::BorneCouple::cross) couple(couple_axis);
   if (joint.actuated && !own.slides) columns.push_back({j, none, u, true});
+}
+
+/// The force of a gear, which has to push, or the couple of a belt.
+struct Teeth {
+  std::size_t column = 0;
+  std::size_t determinant = 0;
+  double most = 0;  ///< of a belt, N m; 0 of a gear
+};
+
+std::vector<Teeth> teeth_of(const NumericModel& model) {
+  std::vector<Teeth> all;
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    const mechanism::Joint& joint = model.mechanism.joints[static_cast<std::size_t>(model.unknowns[k].joint)];
+    if (!joint.meshing) continue;
+    const bool gear = joint.meshing->flank.has_value();
+    all.push_back({k, model.unknowns.size(),
+                   gear ? 0 : core::to_double(mechanism::value_of(joint.meshing->most, model.mechanism))});
+  }
+  return all;
+}
+
+double least(double value) { return value; }
+/// What it may be: a value that cannot be told from zero is no reason to refuse a pose.
+double least(const Bounded& bounded) { return bounded.value + bounded.error; }
+
+/// Whether the flanks of the working mode bear, and no span is slack. `numerator`: of a column.
+template <class Numerator>
+bool meets(const std::vector<Teeth>& all, const Numerator& numerator) {
+  return std::all_of(all.begin(), all.end(), [&](const Teeth& own) {
+    const auto n = numerator(own.column), d = numerator(own.determinant);
+    if (own.most == 0) return !(least(n * d) < 0);
+    return !(least(d * d * decltype(d)(own.most * own.most) - n * n) < 0);
+  });
 }
 
 /// Of a planar joint with the axis u, k where it turns: N across the guide, along k × u.
@@ -177,6 +211,7 @@ void reaction_field(const NumericModel& model, std::span<const double> poses, st
   field.determinants.resize(field.poses);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+  const std::vector<Teeth> teeth = teeth_of(model);
   Evaluator<double, lanes> evaluator(model, mode, model.reaction_size);
   std::vector<double> numerators((model.unknowns.size() + 1) * lanes);
   const auto numerator = [&](std::size_t k, int lane) {
@@ -192,7 +227,7 @@ void reaction_field(const NumericModel& model, std::span<const double> poses, st
     evaluator.solve(model.elimination, numerators.data());
     for (int l = 0; l < count; ++l) {
       const std::size_t pose = first + static_cast<std::size_t>(l);
-      const bool here = evaluator.reachable(l);
+      const bool here = evaluator.reachable(l) && meets(teeth, [&](std::size_t k) { return numerator(k, l); });
       field.determinants[pose] = here ? numerator(model.unknowns.size(), l) : nan;
       for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
         field.numerators[k * field.poses + pose] = here ? numerator(k, l) : nan;
@@ -226,6 +261,8 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
   result.values.resize(model.unknowns.size() + 1);
   evaluator.solve(model.elimination, result.values.data());
   result.determinant = result.values.back();
+  result.reachable =
+      result.reachable && meets(teeth_of(model), [&](std::size_t k) { return result.values[k]; });
   result.values.pop_back();
   if (model.mechanism.space == mechanism::Space::planar || !result.reachable) return result;
   for (const std::optional<Triple>& axis : model.axes) {
@@ -237,6 +274,7 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
 
 bool reachable(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
   core::ensure(pose.size() == model.box.size(), "a pose has one value for each free coordinate");
+  if (!teeth_of(model).empty()) return bounded_numerators(model, pose, mode).reachable;
   Evaluator<double, 1> evaluator(model, mode, model.posture_size);
   for (std::size_t c = 0; c < pose.size(); ++c) evaluator.input(c, 0) = pose[c];
   evaluator.run_tape();

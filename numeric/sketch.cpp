@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/reactions.hpp"
 
@@ -99,7 +100,9 @@ double bending(const NumericModel& model, const Posture& posture) {
   };
   double least = enough;
   for (const mechanism::Joint& joint : m.joints) {
-    if (joint.from == mechanism::ground || joint.to == mechanism::ground || mechanism::traits(joint).slides) continue;
+    if (joint.from == mechanism::ground || joint.to == mechanism::ground || !mechanism::traits(joint).pinned ||
+        mechanism::traits(joint).slides)
+      continue;
     const Point2 a = arm(joint.from, joint.at), b = arm(joint.to, joint.at);
     const double sizes = std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
     if (sizes > 0) least = std::min(least, std::abs(a[0] * b[1] - a[1] * b[0]) / sizes);
@@ -149,6 +152,39 @@ std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture&
   return longest;
 }
 
+/// The pitch circles of two wheels, and the line of a rack, in pieces as of a rail.
+void draw_pitch_lines(const NumericModel& model, const Posture& posture, const mechanism::Joint& gear,
+                      core::Sketch& sketch) {
+  constexpr int pieces = 48;
+  const double radius = core::to_double(mechanism::value_of(gear.meshing->radius, model.mechanism));
+  const Point2 pitch = point_of(posture, gear.at);
+  const auto round = [&](const Point2& c, const Point2& through) {
+    const double r = distance(c, through), start = std::atan2(through[1] - c[1], through[0] - c[0]);
+    const auto at = [&](int k) {
+      const double angle = start + 2 * std::numbers::pi * k / pieces;
+      return Point2{c[0] + r * std::cos(angle), c[1] + r * std::sin(angle)};
+    };
+    for (int k = 0; k < pieces; ++k) sketch.slides.push_back({at(k), at(k + 1), true, false});
+  };
+  const auto circle = [&](mechanism::PointIndex centre) { round(point_of(posture, centre), pitch); };
+  if (!gear.meshing->flank) {  // a belt: two spans beside the line of the centres
+    const Point2 a = point_of(posture, gear.meshing->first), b = point_of(posture, *gear.meshing->second);
+    const double share = radius / distance(a, b);
+    const Point2 off = {-share * (b[1] - a[1]), share * (b[0] - a[0])};
+    for (const double side : {1.0, -1.0})
+      sketch.slides.push_back(
+          {{a[0] + side * off[0], a[1] + side * off[1]}, {b[0] + side * off[0], b[1] + side * off[1]}, true, false});
+    for (const Point2& centre : {a, b}) round(centre, {centre[0] + off[0], centre[1] + off[1]});
+    return;
+  }
+  circle(gear.meshing->first);
+  if (gear.meshing->second) return circle(*gear.meshing->second);
+  const Point2 c = point_of(posture, gear.meshing->first);
+  const Point2 along = {2 * (pitch[1] - c[1]), -2 * (pitch[0] - c[0])};
+  sketch.slides.push_back(
+      {{pitch[0] - along[0], pitch[1] - along[1]}, {pitch[0] + along[0], pitch[1] + along[1]}, true, false});
+}
+
 /// 1 in the middle of the box, 0 on its rim.
 double centrality(std::span<const double> pose, std::span<const std::array<double, 2>> box) {
   double least = 1;
@@ -191,6 +227,10 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     if (const auto drawn = slide(model, p, j)) result.slides.push_back(*drawn);
   for (const auto& joint : m.joints) {
     // A slider on the ground has its rail.
+    if (joint.meshing) {
+      draw_pitch_lines(model, p, joint, result);
+      continue;
+    }
     const bool on_ground =
         !mechanism::traits(joint).slides && (joint.from == mechanism::ground || joint.to == mechanism::ground);
     result.joints.push_back({joint.name, point_of(p, joint.at), on_ground, joint.actuated});
@@ -200,6 +240,10 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
       result.loads.push_back({in_plane(load.at), in_plane(load.force), load.couple[2]});
   }
   for (const auto& spring : m.springs) {
+    const bool belt = std::any_of(m.joints.begin(), m.joints.end(), [&](const mechanism::Joint& joint) {
+      return joint.meshing && joint.name == spring.name;
+    });
+    if (belt) continue;  // its tension
     if (spring.kind == mechanism::Spring::Kind::torsion)
       result.springs.push_back({point_of(p, m.joints[static_cast<std::size_t>(spring.joint)].at), {}, true});
     else

@@ -17,8 +17,9 @@ std::vector<JointClearance> joint_clearances(const mechanism::Mechanism& mechani
       const auto value = [&](const core::Expression& e) { return core::to_double(mechanism::value_of(e, mechanism)); };
       clearance.radial = value(joint.clearance->radial);
       if (joint.actuated)
-        (mechanism::traits(joint).slides ? clearance.axial : clearance.angular) =
-            value(mechanism::traits(joint).slides ? joint.clearance->axial : joint.clearance->angular);
+        (mechanism::actuator_quantity(joint) == core::Quantity::F ? clearance.axial : clearance.angular) =
+            value(mechanism::actuator_quantity(joint) == core::Quantity::F ? joint.clearance->axial
+                                                                           : joint.clearance->angular);
       clearance.gap = value(joint.clearance->gap);
       clearance.half_length = value(joint.clearance->half_length);
     }
@@ -92,6 +93,7 @@ std::vector<LostContact> lost_contacts(const NumericModel& model, std::span<cons
   for (std::size_t j = 0; j < lost.size() && !singular; ++j) {
     const mechanism::Joint& joint = model.mechanism.joints[j];
     std::array<Bounded, 3> force = {part(j, Quantity::fx), part(j, Quantity::fy), part(j, Quantity::fz)};
+    if (mechanism::is_slot(model.mechanism, joint)) force[0] = part(j, Quantity::N);
     if (mechanism::traits(joint).turns_about_axis()) {
       std::array<Bounded, 3> u;
       for (std::size_t c = 0; c < 3; ++c) u[c] = evaluator.value((*model.axes[j])[c], 0);

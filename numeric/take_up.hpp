@@ -3,8 +3,10 @@
 //     pin, ball, cross, sleeve:     d_J = -ρ f_⊥/|f_⊥|      m; f_⊥: the part of the force across the axis that the
 //     joint
 //                                                          turns about; all of it in the plane and in a ball
+//     pin in a slot along u:        d_J = -ρ sign(N) k × u   m; ρ: half of the slot's gap
 //     actuated, turning about u:    θ_J = -δ sign(M) u      rad
 //     actuated, sliding along u:    d_J = -a sign(F) u      m
+//     gear, u the line of action:   d_J = -a sign(F) u       m; a: half of the backlash, times cos(pressure angle)
 //     block in a guide, planar:     each end of the contact, at ±h along the axis, is pressed to one side by its share
 //                                   (N ± T/h)/2 of the normal force and the couple: d± = -g sign(N ± T/h); normal
 //                                   (d+ + d-)/2 along k × u, tilt (d+ - d-)/(2 h) about k
@@ -43,7 +45,7 @@ bool any_clearance(const std::vector<JointClearance>& clearances);
 /// Columns of a joint's unknowns, in space those of equations.hpp; -1 where it has none.
 struct JointColumns {
   int fx = -1, fy = -1, fz = -1, couple = -1;  ///< `couple`: the actuator's, M or F
-  int normal = -1, tilt = -1;                  ///< N, T of a prismatic joint
+  int normal = -1, tilt = -1;                  ///< N, T of a prismatic joint; N of a slot
 };
 
 std::vector<JointColumns> joint_columns(const NumericModel& model);

@@ -60,8 +60,9 @@ std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskD
   }
   std::vector<Quantity> quantities = {demand.quantity};
   if (demand.quantity == Quantity::f)
-    quantities = mechanism::is_guide(model.mechanism, *joint) ? mechanism::reaction_components(model.mechanism, *joint)
-                                                              : std::vector{Quantity::fx, Quantity::fy, Quantity::fz};
+    quantities = mechanism::is_guide(model.mechanism, *joint)
+                     ? mechanism::reaction_components(model.mechanism, *joint)
+                     : std::vector{Quantity::fx, Quantity::fy, Quantity::fz, Quantity::N};
   std::vector<Bounded> parts;
   for (const Quantity quantity : quantities)
     if (column_of(model, index, quantity) >= 0) parts.push_back(value(quantity));

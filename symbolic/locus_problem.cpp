@@ -14,6 +14,7 @@
 #include "symbolic/angle_range.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/determinants.hpp"
+#include "symbolic/effort_limits.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/family.hpp"
 #include "symbolic/guide_ends.hpp"
@@ -638,17 +639,21 @@ class Derivation {
 
   /// A sheet ends where a limit does, as at a fold: one more root, of what is left to the limit.
   void add_limits() {
-    for (const LimitCondition& limit : bounding_limits(geometry_, elimination_)) {
-      const Poly sheet = elimination_.over_tower(limit.natural);
-      LocusFactor factor;
-      factor.expression = text(limit.natural);
-      factor.cause = std::string(mechanism::limit_cause) + limit.words;
-      add(FactorRole::workspace_boundary, &limit.natural, sheet, true, factor);
-      more_roots_.push_back({core::limit_name, "", core::RootRole::length,
-                             core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()))});
-      more_roots_.back().line = lines_.of(limit.natural);
-      more_roots_.back().bounds = limit.bounds;
-    }
+    for (const LimitCondition& limit : bounding_limits(geometry_, elimination_)) add_limit(limit);
+    for (const LimitCondition& limit : effort_limits(geometry_, reactions_, determinants_.determinant))
+      if (!elimination_.vanishes_everywhere(limit.natural)) add_limit(limit);
+  }
+
+  void add_limit(const LimitCondition& limit) {
+    const Poly sheet = elimination_.over_tower(limit.natural);
+    LocusFactor factor;
+    factor.expression = text(limit.natural);
+    factor.cause = std::string(mechanism::limit_cause) + limit.words;
+    if (!limit.natural.is_constant()) add(FactorRole::workspace_boundary, &limit.natural, sheet, true, factor);
+    more_roots_.push_back({core::limit_name, "", core::RootRole::length,
+                           core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()))});
+    more_roots_.back().line = lines_.of(limit.natural);
+    more_roots_.back().bounds = limit.bounds;
   }
 
   /// Where a dyad on others is stretched and where it is folded, each by itself: the product of both, which the square

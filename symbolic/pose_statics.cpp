@@ -85,8 +85,8 @@ class StaticsBuilder {
   struct JointUnknowns {
     std::vector<int> force, couple;  ///< Cartesian; of the plane fx, fy and the couple about z
     Vector axis{};                   ///< of length one
-    int normal = -1;                 ///< of a planar guide
-    int along = -1;                  ///< of a planar guide: its actuator
+    int normal = -1;                 ///< of a guide or a slot in the plane
+    int along = -1;                  ///< of a planar guide: its actuator; of a gear
     int across = -1;                 ///< of a universal joint
   };
 
@@ -150,8 +150,12 @@ class StaticsBuilder {
     if (planar && traits.slides) {
       const Vector& u = own.axis;
       own.normal = add_unknown(joint, force_at(r, {b_.negate(u[1]), u[0], b_.zero()}));
-      own.couple = {add_unknown(joint, couple(direction(2)))};
+      if (mechanism::is_guide(m_, joint)) own.couple = {add_unknown(joint, couple(direction(2)))};
       if (joint.actuated) own.along = add_unknown(joint, force_at(r, u));
+    } else if (traits.meshes && joint.axes.empty()) {
+      own.couple = {add_unknown(joint, couple(direction(2)))};
+    } else if (traits.meshes) {
+      own.along = add_unknown(joint, force_at(r, own.axis));
     } else if (planar) {
       for (std::size_t c = 0; c < 2; ++c) own.force.push_back(add_unknown(joint, force_at(r, direction(c))));
       if (joint.actuated) own.couple = {add_unknown(joint, couple(direction(2)))};
@@ -290,8 +294,12 @@ class StaticsBuilder {
     if (demand.quantity == Quantity::F) return {planar ? scalar(own.along) : along(own.axis, own.force)};
     if (demand.quantity == Quantity::M) return {planar ? scalar(own.couple.front()) : along(own.axis, own.couple)};
     core::ensure(demand.quantity == Quantity::f, "a task asks for forces, ends of guides and efforts");
-    if (own.normal >= 0) return {scalar(own.normal), scalar(own.couple.front())};
     std::vector<SymbolicRow> rows;
+    if (own.normal >= 0) {
+      rows.push_back(scalar(own.normal));
+      for (const int unknown : own.couple) rows.push_back(scalar(unknown));
+      return rows;
+    }
     if (mechanism::presses_across_axis(m_, *found)) {
       for (std::size_t i = 0; i < 3; ++i)
         if (SymbolicRow row = across(own.axis, own.force, i); !row.entries.empty()) rows.push_back(std::move(row));

@@ -199,6 +199,13 @@ PressingForce pressing_force(const Geometry& geometry, const std::vector<Reactio
     force[next++] = part;
     pressing.parts.push_back(*part);
   }
+  if (mechanism::is_slot(m, joint)) {
+    // The unknown is the force over |u|.
+    const Poly square = squared_axis(geometry, joint);
+    for (FactoredPoly& part : pressing.parts)
+      if (!part.is_zero()) multiply(part, factored(square, determinant.factors));
+    pressing.squared = square;
+  }
   if (!mechanism::presses_across_axis(m, joint)) return pressing;
   const Direction u = direction_of(geometry, joint);
   pressing.parts.clear();

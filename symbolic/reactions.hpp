@@ -41,7 +41,8 @@ std::vector<Reaction> pressing_reactions(const Geometry& geometry, const Factore
 /// the force that lies across the joint's axis where it has one.
 struct PressingForce {
   std::vector<FactoredPoly> parts;
-  std::optional<Poly> squared = {};  ///< |u|^2, of a pin about an axis u whose force is written as u × f; else 1
+  std::optional<Poly> squared =
+      {};  ///< |u|^2, of a pin about an axis u whose force is written as u × f, of a slot; else 1
 };
 
 /// None of a prismatic joint.

@@ -11,6 +11,7 @@
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/algebra_turn.hpp"
 #include "symbolic/determinants.hpp"
+#include "symbolic/effort_limits.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/guide_ends.hpp"
 #include "symbolic/limits.hpp"
@@ -38,16 +39,7 @@ class Conditions {
     result_.loads = loads.size();
     result_.directions = directions.size();
     result_.tower = lines_.tower();
-    for (const LimitCondition& limit : bounding_limits(geometry_, elimination_)) {
-      const Poly sheet = elimination_.over_tower(limit.natural);
-      core::Root root;
-      root.name = core::limit_name;
-      root.role = core::RootRole::length;
-      root.square = sheet.plain(geometry_.tower_variables());
-      root.line = lines_.of(limit.natural);
-      root.bounds = limit.bounds;
-      append(std::move(root));
-    }
+    for (const LimitCondition& limit : bounding_limits(geometry_, elimination_)) add_limit(limit);
     std::vector<const mechanism::Mechanism*> all = loads;
     all.insert(all.end(), directions.begin(), directions.end());
     all.insert(all.end(), forces.begin(), forces.end());
@@ -57,6 +49,9 @@ class Conditions {
       reactions_.push_back(reactions(geometry_, determinants));
       for (const Guide& guide : guides(geometry_, elimination_, reactions_.back())) add_ends(guide, determinants);
       if (load == &mechanism_) determinant_ = determinants.determinant;
+      if (loads.end() != std::find(loads.begin(), loads.end(), load))
+        for (const LimitCondition& limit : effort_limits(geometry_, reactions_.back(), determinants.determinant))
+          if (!vanishes(factored(limit.natural, {}))) add_limit(limit);
     }
     if (vanishes(determinant_))
       throw core::InputError({mechanism_.file}, "the equations are singular in every pose: |A| = 0 on the closure",
@@ -103,6 +98,17 @@ class Conditions {
   core::TaskConditions take() { return std::move(result_); }
 
  private:
+  void add_limit(const LimitCondition& limit) {
+    const Poly sheet = elimination_.over_tower(limit.natural);
+    core::Root root;
+    root.name = core::limit_name;
+    root.role = core::RootRole::length;
+    root.square = sheet.plain(geometry_.tower_variables());
+    root.line = lines_.of(limit.natural);
+    root.bounds = limit.bounds;
+    append(std::move(root));
+  }
+
   using Parts = std::vector<std::vector<FactoredPoly>>;
 
   /// What is demanded of, load by load: w D |u| in components, with |u|^2 where it is not 1.

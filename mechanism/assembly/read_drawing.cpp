@@ -31,6 +31,20 @@ void add_words(const Node& node, std::set<std::string>& words) {
   for (const auto& [key, content] : node.pairs()) add_words(content, words);
 }
 
+/// A drawing has no constructions for them.
+void refuse_slots(const Value& joints) {
+  for (const Entry& entry : entries(joints)) {
+    if (!entry.value.is_map()) continue;
+    if (entry.value.node.has("slot"))
+      throw InputError(entry.where, "joint " + entry.key + " is a slot, which a drawing cannot have",
+                       "write the points as constructions, or a small link: revolute at the pin, prismatic along the slot");
+    for (const char* type : {"gear", "belt"})
+      if (entry.value.node.has(type))
+        throw InputError(entry.where, "joint " + entry.key + " is a " + type + ", which a drawing cannot have",
+                         "write the points as constructions");
+  }
+}
+
 class DrawingReader {
  public:
   DrawingReader(const Value& document, const std::vector<Override>& overrides, PlainSections& plain)
@@ -47,6 +61,7 @@ class DrawingReader {
     read_workspace(m, {plain_.workspace, "'workspace'", plain_.workspace.where(), "workspace"});
     read_points();
     read_links();
+    refuse_slots(required("joints"));
     read_joints(m, required("joints"));
     check_size();
     place_axes();

@@ -157,8 +157,9 @@ TEST_P(Examples, DoNoWorkInAnyDisplacement) {
 INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                          testing::Values("five_bar", "five_bar_antagonistic", "five_bar_coupler", "five_bar_generic",
                                          "five_bar_horizontal", "five_bar_inclined", "five_bar_isolated",
-                                         "five_bar_preloaded", "five_bar_weights", "excavator", "four_bar", "gripper",
-                                         "jansen_leg", "klann_leg", "minitaur_leg", "prrrp", "rprpr", "slider_crank",
+                                         "five_bar_preloaded", "five_bar_weights", "excavator", "four_bar",
+                                         "geared_five_bar", "gripper", "jansen_leg", "klann_leg", "minitaur_leg",
+                                         "planar_delta", "prrrp", "rprpr", "scara_belt", "scissor_lift", "slider_crank",
                                          "squeezer", "stephenson_six_bar", "three_rpr", "three_rrr", "toggle_press",
                                          "watt_six_bar"),
                          [](const auto& own) { return std::string(own.param); });

@@ -130,8 +130,7 @@ TEST(Advice, NamesTheLinksOfACycleOfPoints) {
 }
 
 TEST(Advice, SaysWhatExistsForWhatDoesNot) {
-  EXPECT_TRUE(
-      says(refusal(refused_file("belt.yaml")), "joint Belt: 'belt' is no type of joint; no joint goes through gears"))
+  EXPECT_TRUE(says(refusal(refused_file("belt.yaml")), "unknown key 'at' in belt Belt; the keys are belt, centres"))
       << refusal(refused_file("belt.yaml"));
   for (const auto& [key, word] :
        std::vector<std::pair<std::string, std::string>>{{"hinge", "revolute"},
@@ -140,7 +139,8 @@ TEST(Advice, SaysWhatExistsForWhatDoesNot) {
                                                         {"cam", "prismatic along the slot"},
                                                         {"Ball_Joint", "space: spatial"},
                                                         {"revolut", "'revolute'"},
-                                                        {"nonsense", "revolute or prismatic"}}) {
+                                                        {"chain", "no joint goes through gears"},
+                                                        {"nonsense", "revolute, prismatic, slot, gear or belt"}}) {
     const std::string said = refusal(with(five_bar_text, "revolute: [A1B1, B1P]", key + ": [A1B1, B1P]"));
     EXPECT_TRUE(says(said, "'" + key + "' is no type of joint")) << said;
     EXPECT_TRUE(says(said, word)) << said;

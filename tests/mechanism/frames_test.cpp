@@ -85,6 +85,23 @@ TEST(Frames, InThePlaneTurnByOneAngle) {
   EXPECT_NEAR(placed[3]->at(1), -0.7 + s * 0.2 + c * 0.1, 1e-15);
 }
 
+/// From the frame's own point they are the places in the frame; from another one the way turns with the frame.
+TEST(Frames, OffsetsAreInTheirDirections) {
+  const double degree = std::acos(-1.0) / 180;
+  const std::string places = "{in: plate, place: ['0.2*cos(v{i})', '0.2*sin(v{i})', '-{i}/100']}",
+                    offsets = "{from: P, by: ['0.2*cos(v{i})', '0.2*sin(v{i})', '-{i}/100'], in: plate}";
+  for (const double g : {-0.4, 0.3})
+    expect_places(parse_mechanism(with(six_legs("{at: P, turned: [a, b, g]}"), places, offsets), "m.yaml"),
+                  about(2, g) * about(1, -10 * degree) * about(0, 20 * degree), 0.05, g);
+  const std::string text =
+      with(with(five_bar_text, "  y: [-1.0, 1.0]\n", "  y: [-1.0, 1.0]\nframes:\n  tool: {at: P, turned: [30 deg]}\n"),
+           "  B1: {dyad", "  T: {from: A2, by: [0.2, 0.1], in: tool}\n  B1: {dyad");
+  const auto placed = sample_points(parse_mechanism(text, "m.yaml"), {0.25, -0.7});
+  const double c = std::sqrt(3.0) / 2, s = 0.5;
+  EXPECT_NEAR(placed[3]->at(0), 0.5 + c * 0.2 - s * 0.1, 1e-15);
+  EXPECT_NEAR(placed[3]->at(1), s * 0.2 + c * 0.1, 1e-15);
+}
+
 TEST(Frames, WrongOnesAreRefused) {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
@@ -108,6 +125,10 @@ TEST(Frames, WrongOnesAreRefused) {
   EXPECT_NE(complaint(on_a_dyad).find("which is no point with coordinates"), std::string::npos) << complaint(on_a_dyad);
   EXPECT_NE(complaint(with(on_a_dyad, "  T: {in: tool, place: [0.2, 0.1]}\n", "")).find("which is no point with"),
             std::string::npos);
+  const std::string offset =
+      with(with(on_a_dyad, "at: B1}", "at: P}"), "{in: tool, place: [0.2, 0.1]}", "{from: A1, by: A2 - A1, in: tool}");
+  EXPECT_NE(complaint(offset).find("is made of points, whose directions are those of the ground"), std::string::npos)
+      << complaint(offset);
   EXPECT_NE(complaint(with(with(on_a_dyad, "at: B1}", "at: P}"), "in: tool", "in: tol"))
                 .find("there is no frame 'tol' above it; did you mean 'tool'?"),
             std::string::npos);

@@ -1,0 +1,75 @@
+#include "analysis/flanks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "mechanism/evaluate.hpp"
+#include "numeric/reactions.hpp"
+
+namespace clearloci {
+
+std::vector<std::string> pulled_gears(const mechanism::Mechanism& mechanism, const Pose& pose) {
+  std::vector<std::string> pulled;
+  for (const mechanism::Joint& joint : mechanism.joints) {
+    if (!joint.meshing || !joint.meshing->flank) continue;
+    for (const JointReaction& own : pose.reactions)
+      for (const ReactionComponent& part : own.components)
+        if (own.joint == joint.name && part.quantity == Quantity::F && part.value < 0) pulled.push_back(joint.name);
+  }
+  return pulled;
+}
+
+std::vector<DyadSides> modes_of_flanks(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
+  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
+  std::vector<DyadSides> modes = {sides};
+  for (const mechanism::Joint& joint : mechanism.joints) {
+    if (!joint.meshing || !joint.meshing->flank) continue;
+    const auto place = std::find(points.begin(), points.end(), *joint.meshing->flank) - points.begin();
+    for (std::size_t i = 0, count = modes.size(); i < count; ++i) {
+      DyadSides other = modes[i];
+      other[static_cast<std::size_t>(place)] *= -1;
+      modes.push_back(std::move(other));
+    }
+  }
+  return modes;
+}
+
+DyadSides sides_that_push(const mechanism::Mechanism& mechanism, const DyadSides& sides,
+                          const std::vector<double>& pose) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  for (const DyadSides& own : modes_of_flanks(mechanism, sides))
+    if (numeric::bounded_numerators(model, pose, own).reachable) return own;
+  return sides;
+}
+
+std::string words_of_pulled(const std::vector<std::string>& gears) {
+  std::string names;
+  for (const std::string& name : gears) names += (names.empty() ? "" : ", ") + name;
+  return gears.size() == 1 ? "the load presses the other flank of gear " + names
+                           : "the load presses the other flanks of gears " + names;
+}
+
+std::vector<std::string> slack_belts(const mechanism::Mechanism& mechanism, const Pose& pose) {
+  std::vector<std::string> slack;
+  for (const mechanism::Joint& joint : mechanism.joints) {
+    if (!joint.meshing || joint.meshing->flank) continue;
+    const double most = core::to_double(mechanism::value_of(joint.meshing->most, mechanism));
+    for (const JointReaction& own : pose.reactions)
+      for (const ReactionComponent& part : own.components)
+        if (own.joint == joint.name && part.quantity == Quantity::M && std::abs(part.value) > most)
+          slack.push_back(joint.name);
+  }
+  return slack;
+}
+
+void refuse_gears(const mechanism::Mechanism& mechanism, const std::string& what, const std::string& mend) {
+  for (const mechanism::Joint& joint : mechanism.joints)
+    if (joint.meshing)
+      throw core::InputError({mechanism.file},
+                             what + " for mechanisms without gears and belts alone, and " + joint.name + " is a " +
+                                 mechanism::to_string(joint.type),
+                             mend);
+}
+
+}  // namespace clearloci

@@ -1,0 +1,288 @@
+// Gears: two toothed wheels, or a wheel and a rack, in the plane. Their teeth bear one force F along the line of
+// action, which passes the pitch point W and touches the base circle of the first wheel at K:
+//     |W - centre| = r,   |K - centre| = r cos(pressure angle),   the angle at K is right
+// K lies on either side of the way from the centre to W: that is the flank. A gear is lowered to the points W and K,
+// the latter a foot (DyadPoint::right_angle) whose side is part of the working mode, and a joint with the axis K -> W.
+// Teeth push and never pull: F > 0 where K is on the side of the flank that bears.
+#include <algorithm>
+
+#include "mechanism/actions.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/reader.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+using core::InputError;
+using Kind = Expression::Kind;
+
+Expression product_of(const Expression& a, const Expression& b) { return Expression::apply(Kind::multiply, {a, b}); }
+Expression difference_of(const Expression& a, const Expression& b) {
+  return Expression::apply(Kind::add, {a, Expression::apply(Kind::negate, {b})});
+}
+Expression hypotenuse(const Expression& a, const Expression& b) {
+  return Expression::apply(Kind::sqrt, {Expression::apply(Kind::add, {product_of(a, a), product_of(b, b)})});
+}
+
+Value part_of(Value value, const std::string& what, const std::string& field) {
+  value.what = what;
+  value.field = field;
+  return value;
+}
+
+/// A gear as it is written.
+class WrittenGear {
+ public:
+  WrittenGear(const Mechanism& mechanism, const Entry& entry)
+      : m_(mechanism),
+        name_(entry.key),
+        what_("gear " + entry.key),
+        mapping_(part_of(entry.value, what_, entry.value.field),
+                 {"gear", "centres", "teeth", "pressure_angle", "phase", "flank", "distance", "centre", "radius",
+                  "along", "clearance"}) {
+    if (m_.space == Space::spatial)
+      throw InputError(entry.where, what_ + " is in space, but gears are planar",
+                       "write the mechanism in a plane, or actuate the joint that the gear turns");
+    const bool rack = mapping_.find("along").has_value();
+    for (const char* key : {"centre", "radius", "along"})
+      if (const auto own = mapping_.find(key); own && mapping_.find("teeth")) refuse_both(*own, key);
+    if (!rack) read_teeth();
+  }
+
+  bool is_rack() const { return !mapping_.find("teeth"); }
+  const Mapping& mapping() const { return mapping_; }
+  const Rational& first_teeth() const { return teeth_[0]; }
+  const Rational& second_teeth() const { return teeth_[1]; }
+
+  /// Of the first wheel; of a rack the only one.
+  PointIndex centre(std::size_t wheel) const {
+    if (is_rack()) return read_point_name(m_, mapping_.at("centre"));
+    return read_point_name(m_, elements(mapping_.at("centres"), 2)[wheel]);
+  }
+
+  Expression cosine() const {
+    const auto written = mapping_.find("pressure_angle");
+    if (!written)
+      return Expression::apply(Kind::cos, {product_of(Expression::number(Rational(1, 9)), Expression::pi())});
+    const Number angle = read_number(m_, part_of(*written, "the pressure angle of " + what_, "turned"), Sign::positive);
+    if (angle.value > Rational(4, 5))
+      throw InputError(written->where, "the pressure angle of " + what_ + " is above 45 deg", "write such as 20 deg");
+    return Expression::apply(Kind::cos, {angle.expression});
+  }
+
+  /// From the first centre to the pitch point.
+  VectorExpression way_to_pitch() const {
+    if (is_rack()) {
+      const std::vector<Expression> along = direction();
+      const Expression per = Expression::apply(Kind::divide, {radius(), hypotenuse(along[0], along[1])});
+      return {VectorExpression::Kind::components,
+              {product_of(per, along[1]), product_of(Expression::apply(Kind::negate, {per}), along[0])},
+              0,
+              {}};
+    }
+    const Rational share = teeth_[0] / (teeth_[0] + teeth_[1]);
+    return {VectorExpression::Kind::scale, {Expression::number(share)}, 0, {way(centre(0), centre(1))}};
+  }
+
+  /// Of the first wheel's pitch circle, m.
+  Expression radius() const {
+    if (is_rack())
+      return read_number(m_, part_of(mapping_.at("radius"), "the radius of " + what_, "length"), Sign::positive)
+          .expression;
+    return product_of(Expression::number(abs(Rational(teeth_[0] / (teeth_[0] + teeth_[1])))), distance());
+  }
+
+  Side flank() const {
+    const auto written = mapping_.find("flank");
+    const std::string side = written ? text_of(*written) : "left";
+    if (side != "left" && side != "right")
+      throw InputError(written->where, "the flank of " + what_ + " is '" + side + "'", "write left or right");
+    return side == "left" ? Side::left : Side::right;
+  }
+
+ private:
+  [[noreturn]] void refuse_both(const Value& own, const std::string& key) const {
+    throw InputError(own.where, what_ + " has teeth and a " + key,
+                     "write centres and teeth, or centre, radius and along");
+  }
+
+  void read_teeth() {
+    const Value written = mapping_.at("teeth");
+    std::size_t i = 0;
+    for (const Value& own : elements(written, 2)) {
+      teeth_.at(i) = read_number(m_, part_of(own, "the teeth of " + what_, ""), Sign::any).value;
+      if (teeth_.at(i).get_den() != 1 || teeth_.at(i) == 0)
+        throw InputError(own.where, "the teeth of " + what_ + " are no whole number", "write such as [20, 40]");
+      ++i;
+    }
+    if (teeth_[0] < 0 || (teeth_[1] < 0 && -teeth_[1] <= teeth_[0]))
+      throw InputError(written.where, what_ + " has a ring that is not the second and larger wheel",
+                       "write the pinion first, and more teeth of the ring, negative: teeth: [20, -60]");
+  }
+
+  /// Of a rack: numbers.
+  std::vector<Expression> direction() const {
+    Value written = mapping_.at("along");
+    written.what = "the direction of " + what_;
+    written.field = "slider";
+    const VectorExpression along = read_vector_expression(m_, written);
+    if (along.kind != VectorExpression::Kind::components)
+      throw InputError(written.where, written.what + " is made of points", "write its components, such as [1, 0]");
+    return along.numbers;
+  }
+
+  /// Between the centres, m.
+  Expression distance() const {
+    if (const auto written = mapping_.find("distance"))
+      return read_number(m_, part_of(*written, "the distance of " + what_, "length"), Sign::positive).expression;
+    const auto place = [&](std::size_t wheel) -> const std::vector<Expression>& {
+      const PointIndex point = centre(wheel);
+      const auto* own = std::get_if<ExplicitPoint>(&m_.points[static_cast<std::size_t>(point)].form);
+      if (own == nullptr || !coordinates_of(m_, point).empty())
+        throw InputError(mapping_.at("centres").where, what_ + " has centres that move, on a carrier",
+                         "add distance: and the distance between them");
+      return own->coordinates;
+    };
+    const std::vector<Expression>&a = place(0), &b = place(1);
+    return hypotenuse(difference_of(b[0], a[0]), difference_of(b[1], a[1]));
+  }
+
+  const Mechanism& m_;
+  std::string name_, what_;
+  Mapping mapping_;
+  std::array<Rational, 2> teeth_ = {0, 0};
+};
+
+std::vector<Entry> gears_among(const Value& joints) {
+  std::vector<Entry> all;
+  if (!joints.is_map()) return all;
+  for (const Entry& entry : entries(joints))
+    if (is_gear(entry.value)) all.push_back(entry);
+  return all;
+}
+
+std::string flank_name(const std::string& gear) { return "flank_" + gear; }
+
+PointIndex named(const Mechanism& mechanism, const std::string& name) {
+  const auto found = std::find_if(mechanism.points.begin(), mechanism.points.end(),
+                                  [&](const Point& point) { return point.name == name; });
+  core::ensure(found != mechanism.points.end(), "the points of gears are read before");
+  return static_cast<PointIndex>(found - mechanism.points.begin());
+}
+
+void add_point(Mechanism& mechanism, const Entry& gear, const std::string& name, PointForm form) {
+  for (const Point& point : mechanism.points)
+    if (point.name == name)
+      throw InputError(gear.where, "gear " + gear.key + " has the name of a point, as its own pitch point has",
+                       "rename the gear or the point " + name);
+  mechanism.points.push_back({name, std::move(form), false, gear.where});
+}
+
+const BodyFrame* frame_of(const Mechanism& mechanism, const std::string& link) {
+  for (const BodyFrame& frame : mechanism.body_frames)
+    if (frame.name == link) return &frame;
+  return nullptr;
+}
+
+bool is_known(const Mechanism& mechanism, const Value& point) {
+  return point.is_scalar() && std::any_of(mechanism.points.begin(), mechanism.points.end(),
+                                          [&](const Point& own) { return own.name == point.node.Scalar(); });
+}
+
+/// The frame of the wheel `second`, which turns by `ratio` of the angle of the first.
+BodyFrame turned_with(const BodyFrame& first, const Rational& ratio, const Expression& phase, PointIndex centre,
+                      std::string name) {
+  const Expression angle = Expression::apply(Kind::add, {product_of(Expression::number(ratio), *first.angle), phase});
+  const Expression c = Expression::apply(Kind::cos, {angle}), s = Expression::apply(Kind::sin, {angle});
+  return {std::move(name), centre, {c, Expression::apply(Kind::negate, {s}), s, c}, angle};
+}
+
+}  // namespace
+
+bool is_gear(const Value& value) { return value.is_map() && value.node.has("gear"); }
+
+void read_gear_points(Mechanism& mechanism, const Value& joints) {
+  for (const Entry& entry : gears_among(joints)) {
+    check_label(entry.key, entry.where, "a joint");
+    const WrittenGear gear(mechanism, entry);
+    const PointIndex centre = gear.centre(0);
+    add_point(mechanism, entry, entry.key, ShiftedPoint{centre, gear.way_to_pitch()});
+    const PointIndex pitch = named(mechanism, entry.key);
+    DyadPoint touch{centre, pitch, product_of(gear.radius(), gear.cosine()), Expression(), gear.flank()};
+    touch.right_angle = true;
+    add_point(mechanism, entry, flank_name(entry.key), std::move(touch));
+  }
+}
+
+Joint read_gear(const Mechanism& mechanism, const Entry& entry) {
+  const WrittenGear gear(mechanism, entry);
+  Joint joint;
+  joint.type = JointType::gear;
+  joint.name = entry.key;
+  joint.where = entry.where;
+  const std::vector<Value> names = elements(gear.mapping().at("gear"), 2);
+  joint.from = read_link_name(mechanism, names[0], true);
+  joint.to = read_link_name(mechanism, names[1], true);
+  if (joint.from == joint.to)
+    throw InputError(names[1].where, "gear " + entry.key + " joins a wheel to itself", "name two different links");
+  joint.at = named(mechanism, entry.key);
+  const PointIndex flank = named(mechanism, flank_name(entry.key));
+  joint.axes = {way(flank, joint.at)};
+  joint.actuated = true;
+  joint.meshing = Meshing{gear.centre(0), std::nullopt, flank, {}, gear.radius()};
+  if (!gear.is_rack()) joint.meshing->second = gear.centre(1);
+  if (const auto written = gear.mapping().find("clearance")) {
+    const Mapping clearance(*written, {"backlash"});
+    joint.clearance = Clearance{};
+    if (const auto backlash = clearance.find("backlash")) {
+      const Expression whole =
+          read_number(mechanism, part_of(*backlash, "the backlash of gear " + entry.key, "length"), Sign::not_negative)
+              .expression;
+      // Half of it to either side, seen along the line of action.
+      joint.clearance->axial = product_of(product_of(Expression::number(Rational(1, 2)), whole), gear.cosine());
+    }
+  }
+  return joint;
+}
+
+void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints) {
+  if (!joints || mechanism.space == Space::spatial) return;
+  for (const Entry& entry : gears_among(*joints)) {
+    if (!entry.value.node.has("centres") || !entry.value.node.has("teeth")) continue;
+    std::vector<Value> wheels, centres;
+    for (const Entry& part : entries(entry.value)) {
+      if (part.key == "gear" && part.value.is_sequence()) wheels = elements(part.value);
+      if (part.key == "centres" && part.value.is_sequence()) centres = elements(part.value);
+    }
+    if (wheels.size() != 2 || centres.size() != 2 || !wheels[0].is_scalar() || !wheels[1].is_scalar()) continue;
+    if (!is_known(mechanism, centres[0]) || !is_known(mechanism, centres[1])) continue;
+    const std::array<std::string, 2> names = {wheels[0].node.Scalar(), wheels[1].node.Scalar()};
+    const std::array<const BodyFrame*, 2> frames = {frame_of(mechanism, names[0]), frame_of(mechanism, names[1])};
+    if ((frames[0] == nullptr) == (frames[1] == nullptr)) continue;
+    const std::size_t known = frames[0] != nullptr ? 0 : 1;
+    if (!frames[known]->angle || names[1 - known] == "ground") continue;
+    const WrittenGear gear(mechanism, entry);
+    if (!coordinates_of(mechanism, gear.centre(0)).empty() || !coordinates_of(mechanism, gear.centre(1)).empty())
+      continue;  // relative to a carrier that turns
+    const Rational forward = -gear.first_teeth() / gear.second_teeth();
+    const Rational ratio = known == 0 ? forward : 1 / forward;
+    if (ratio.get_den() != 1)
+      throw InputError(entry.where,
+                       "gear " + entry.key + " turns " + names[1 - known] + " by " + ratio.get_str() +
+                           " of the angle of " + names[known] +
+                           ", whose cos and sin are no polynomials of those of the angle",
+                       "make the angle of the wheel that turns less the coordinate: its frame under frames");
+    Expression phase;
+    if (const auto written = gear.mapping().find("phase"))
+      phase =
+          read_number(mechanism, part_of(*written, "the phase of gear " + entry.key, "turned"), Sign::any).expression;
+    // phase: of the second wheel where the first has not turned.
+    if (known == 1) phase = product_of(Expression::number(-ratio), phase);
+    if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(gear.centre(1 - known))].form))
+      continue;
+    BodyFrame own = turned_with(*frames[known], ratio, phase, gear.centre(1 - known), names[1 - known]);
+    mechanism.body_frames.push_back(std::move(own));
+  }
+}
+
+}  // namespace clearloci::mechanism

@@ -1,0 +1,244 @@
+// Gears and belts: reactions against statics by hand, wheel by wheel; the flank that bears, and where it changes.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "clearloci/loci.hpp"
+#include "clearloci/pose.hpp"
+#include "clearloci/validate.hpp"
+#include "clearloci/verify.hpp"
+#include "tests/source_dir.hpp"
+
+namespace clearloci {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double degree = 0.017453292519943295;
+
+Model shipped(const std::string& name) { return Model::read(source_dir() + "/examples/" + name); }
+
+double part(const Pose& pose, const std::string& joint, Quantity quantity) {
+  for (const JointReaction& own : pose.reactions)
+    for (const ReactionComponent& component : own.components)
+      if (own.joint == joint && component.quantity == quantity) return component.value;
+  throw std::out_of_range(joint);
+}
+
+double moment(const Vector2d& arm, const Vector2d& force) { return arm(0) * force(1) - arm(1) * force(0); }
+
+std::string altered(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::out_of_range(from);
+  return text.replace(at, from.size(), to);
+}
+
+/// The geared five-bar of examples/ by hand.
+struct GearedFiveBar {
+  Vector2d O2{0.06, 0}, T1, T2, P, rod1, rod2;
+  double push1 = 0, push2 = 0;  ///< of the rods on P
+
+  explicit GearedFiveBar(double theta, double phase = 30 * degree) {
+    const double turned = phase - 2 * theta;
+    T1 = 0.025 * Vector2d(std::cos(theta), std::sin(theta));
+    T2 = O2 + 0.015 * Vector2d(std::cos(turned), std::sin(turned));
+    const double d = (T2 - T1).norm(), along = (d * d + 0.09 * 0.09 - 0.08 * 0.08) / (2 * d);
+    const Vector2d u = (T2 - T1) / d;
+    P = T1 + along * u + std::sqrt(0.09 * 0.09 - along * along) * Vector2d(-u(1), u(0));
+    rod1 = (P - T1).normalized();
+    rod2 = (P - T2).normalized();
+    Eigen::Matrix2d rods;
+    rods << rod1, rod2;
+    const Vector2d pushes = rods.inverse() * -Vector2d(20, -40);
+    push1 = pushes(0);
+    push2 = pushes(1);
+  }
+  /// About its centre, of the rod on the second wheel: what its teeth have to hold.
+  double on_second() const { return moment(T2 - O2, -push2 * rod2); }
+  /// Of the teeth of the first wheel on those of the second, N, where the line of action turns the second wheel by
+  /// `sense`, and its direction.
+  Vector2d line(double sense, double alpha) const { return {std::sin(alpha), sense * std::cos(alpha)}; }
+};
+
+TEST(GearedFiveBar, TeethHoldTheSecondCrank) {
+  const Model model = shipped("geared_five_bar.yaml");
+  int left = 0, right = 0;
+  for (int k = 0; k < 24; ++k) {
+    const double theta = (15 * k + 4) * degree, alpha = 20 * degree;
+    const GearedFiveBar by_hand(theta);
+    const Vector2d W(0.04, 0);
+    // The one of the two lines along which teeth that push hold the moment.
+    double force = 0;
+    Vector2d u;
+    for (const double sense : {1.0, -1.0}) {
+      const Vector2d own = by_hand.line(sense, alpha);
+      const double needed = -by_hand.on_second() / moment(W - by_hand.O2, own);
+      if (needed >= 0) {
+        force = needed;
+        u = own;
+        ++(sense > 0 ? right : left);  // K is to the left of O1 -> W where the line goes down
+      }
+    }
+    const Pose pose = solve_pose(model, {theta});
+    EXPECT_NEAR(part(pose, "W", Quantity::F), force, 1e-8) << theta;
+    const Vector2d held = by_hand.push2 * by_hand.rod2 - force * u;
+    EXPECT_NEAR(part(pose, "O2", Quantity::fx), held(0), 1e-8) << theta;
+    EXPECT_NEAR(part(pose, "O2", Quantity::fy), held(1), 1e-8) << theta;
+    EXPECT_NEAR(part(pose, "O1", Quantity::M), moment(by_hand.T1, by_hand.push1 * by_hand.rod1) + force * moment(W, u),
+                1e-9)
+        << theta;
+    for (const auto& [point, side] : pose.working_mode)
+      if (point == "flank_W") {
+        EXPECT_EQ(side, u(1) < 0 ? "left" : "right") << theta;
+      }
+  }
+  EXPECT_GT(left, 3);
+  EXPECT_GT(right, 3);
+}
+
+std::vector<double> zeros_of(const LocusMap& map, const std::string& joint, Quantity quantity) {
+  std::vector<double> all;
+  for (const IsolatedPoint& point : map.isolated_points)
+    for (const Vanishing& own : point.vanishing)
+      if (own.joint == joint && own.quantity == quantity) all.push_back(point.at[0]);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// Where the teeth bear nothing, whatever their pressure angle, and in either flank: by signs of the moment by hand.
+TEST(GearedFiveBar, FlanksChangeWhereTheTeethBearNothing) {
+  const std::string text = shipped("geared_five_bar.yaml").text();
+  std::vector<double> by_hand;
+  constexpr int steps = 7200;
+  for (int k = 0; k < steps; ++k) {
+    double a = 360 * degree * k / steps, b = 360 * degree * (k + 1) / steps;
+    if (GearedFiveBar(a).on_second() * GearedFiveBar(b).on_second() >= 0) continue;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (a + b) / 2;
+      (GearedFiveBar(a).on_second() * GearedFiveBar(middle).on_second() > 0 ? a : b) = middle;
+    }
+    by_hand.push_back(a);
+  }
+  ASSERT_GT(by_hand.size(), 1U);
+  for (const char* angle : {"pressure_angle: 20", "pressure_angle: 25"})
+    for (const char* flank : {"left", "right"}) {
+      const LocusMap map =
+          trace_loci(Model::parse(altered(text, "pressure_angle: 20", std::string(angle) + ", flank: " + flank)));
+      const std::vector<double> found = zeros_of(map, "W", Quantity::F);
+      ASSERT_EQ(found.size(), by_hand.size()) << angle << " " << flank;
+      for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], by_hand[i], 1e-9);
+      // What else vanishes in this mode does so where its flank bears.
+      for (const IsolatedPoint& point : map.isolated_points) {
+        if (point.kind == LocusKind::workspace_boundary) continue;
+        const double needed = -GearedFiveBar(point.at[0]).on_second() / -0.02;  // along the teeth of the left flank
+        EXPECT_GE(needed * (std::string(flank) == "left" ? 1 : -1), -1e-6) << point.at[0];
+      }
+    }
+}
+
+TEST(GearedFiveBar, TasksKeepTheirFlank) {
+  const Model model = shipped("geared_five_bar.yaml");
+  const LocusMap map = trace_loci(model, {.all_working_modes = true});
+  const std::vector<double> changes = zeros_of(map, "W", Quantity::F);
+  ASSERT_GT(changes.size(), 1U);
+  const auto across = [&](double from, double to) {
+    return parse_task("format: 1\nbox: {theta: [" + std::to_string(from) + ", " + std::to_string(to) + "]}\n", model);
+  };
+  const double change = changes.front() / degree;
+  EXPECT_EQ(verify(model, across(change - 2, change + 2)).verdict, Verdict::refuted);
+}
+
+TEST(GearedFiveBar, HalfTheBacklashIsTakenUp) {
+  std::string text = shipped("geared_five_bar.yaml").text();
+  for (const char* other :
+       {", clearance: {radial: 0.01, angular: 0.05}", ", clearance: {radial: 0.01}", ", clearance: {radial: 0.01}",
+        ", clearance: {radial: 0.01}", ", clearance: {radial: 0.01}"})
+    text = altered(text, other, "");
+  // The end effector is a point of the second wheel: it turns by half the backlash over its pitch radius.
+  text = altered(text, "end_effector: {link: rod1, at: P}", "end_effector: {link: wheel2, at: T2}");
+  for (const double theta : {0.3, 2.0, 4.0}) {
+    const Pose pose = solve_pose(Model::parse(text), {theta});
+    ASSERT_TRUE(pose.error);
+    // Against the moment that the rod exerts on the wheel the teeth hold it: it falls back with that moment.
+    const double sense = GearedFiveBar(theta).on_second() > 0 ? 1 : -1;
+    EXPECT_NEAR(pose.error->rotation.at(0), sense * 0.02e-3 / 0.02, 1e-12) << theta;
+  }
+}
+
+std::string told_by(const std::string& text) {
+  try {
+    (void)Model::parse(text);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Gears, RefuseWhatDoesNotMesh) {
+  const std::string text = shipped("geared_five_bar.yaml").text();
+  const auto says = [&](const std::string& from, const std::string& to, const std::string& words) {
+    const std::string told = told_by(altered(text, from, to));
+    EXPECT_NE(told.find(words), std::string::npos) << told;
+    EXPECT_EQ(told.find('\n'), std::string::npos) << told;
+  };
+  says("teeth: [40, 20]", "teeth: [20, 40]", "by -1/2 of the angle of wheel1");
+  says("teeth: [40, 20]", "teeth: [40, 20.5]", "no whole number");
+  says("teeth: [40, 20]", "teeth: [-40, 20]", "pinion first");
+  says("pressure_angle: 20", "pressure_angle: 60", "above 45 deg");
+  says("T2: {in: wheel2, place: [crank2, 0]}", "T2: ['60 + crank2*cos(theta)', 'crank2*sin(theta)']",
+       "do not move alike");
+}
+
+TEST(ScaraBelt, BeltHoldsTheForearm) {
+  const Model model = shipped("scara_belt.yaml");
+  const Vector2d f(10, -25);
+  for (const Vector2d& P : {Vector2d(0.25, 0.1), Vector2d(-0.1, 0.25), Vector2d(0.1, -0.2)}) {
+    const double d = P.norm(), along = (d * d + 0.2 * 0.2 - 0.16 * 0.16) / (2 * d);
+    const Vector2d u = P / d, E = along * u + std::sqrt(0.2 * 0.2 - along * along) * Vector2d(u(1), -u(0));
+    const double belt = -moment(P - E, f);
+    const Pose pose = solve_pose(model, {P(0), P(1)});
+    EXPECT_NEAR(part(pose, "T", Quantity::M), belt, 1e-10);
+    EXPECT_NEAR(part(pose, "M", Quantity::M), belt, 1e-10);
+    EXPECT_NEAR(part(pose, "O", Quantity::M), -moment(P, f) - belt, 1e-10);
+    // The belt draws the elbow to the shoulder with twice its tension.
+    const Vector2d bearing = -f + 160 * E / 0.2;
+    EXPECT_NEAR(part(pose, "E", Quantity::fx), bearing(0), 1e-8);
+    EXPECT_NEAR(part(pose, "E", Quantity::fy), bearing(1), 1e-8);
+  }
+}
+
+/// A span is slack where the belt carries more than 2 T0 r = 4 N m; the backlash is crossed where the forearm is along
+/// the load.
+TEST(ScaraBelt, SpansEndTheWorkspace) {
+  const Model model = shipped("scara_belt.yaml");
+  const LocusMap map = trace_loci(model, {.joints = {"T"}});
+  const Vector2d f(10, -25);
+  const auto couple_at = [&](const Vector2d& P) {
+    const double d = P.norm(), along = (d * d + 0.2 * 0.2 - 0.16 * 0.16) / (2 * d);
+    const Vector2d u = P / d,
+                   E = along * u + std::sqrt(std::max(0.0, 0.2 * 0.2 - along * along)) * Vector2d(u(1), -u(0));
+    return moment(P - E, f);
+  };
+  bool slack = false, crossed = false;
+  for (const LocusCurve& curve : map.curves)
+    for (const Arc& arc : curve.arcs)
+      for (const auto& at : arc.points) {
+        const double couple = std::abs(couple_at({at[0], at[1]}));
+        if (curve.cause.find("span of belt T") != std::string::npos) {
+          EXPECT_NEAR(couple, 4, 0.01);
+          slack = true;
+        }
+        if (curve.kind == LocusKind::backlash) {
+          EXPECT_NEAR(couple, 0, 0.01);
+          crossed = true;
+        }
+      }
+  EXPECT_TRUE(slack);
+  EXPECT_TRUE(crossed);
+  EXPECT_EQ(validate_loci(model, {.nodes = {80, 80}, .loci = {.joints = {"T"}}}).report.disputed, 0U);
+}
+
+}  // namespace
+}  // namespace clearloci
