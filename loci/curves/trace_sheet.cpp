@@ -34,7 +34,7 @@ constexpr std::size_t most_cut_cells = 8192, most_cut_cells_of_a_sketch = 256, m
 // Nearer than this, relative to the region, a point is on the curve to rounding.
 constexpr double at_rounding = 1e-14;
 // Of an open cell that may be out of reach.
-constexpr int most_halvings = 8;
+constexpr int most_halvings_of_open = 8;
 // Vertices are this near to their curve, relative to the region.
 constexpr double vertex_accuracy = 1e-12;
 // An arc shorter than this, relative to the region, is none.
@@ -164,7 +164,8 @@ class Tracer {
     if (!undecided.empty() && !own_.dropped.empty()) {
       const SheetProgram whole(tower_, std::vector<core::Polynomial>{});
       SheetCell look(whole, mode_);
-      std::erase_if(undecided, [&](const PlaneCell& cell) { return is_out_of_reach(look, cell, most_halvings); });
+      std::erase_if(undecided,
+                    [&](const PlaneCell& cell) { return is_out_of_reach(look, cell, most_halvings_of_open); });
     }
     for (const PlaneCell& cell : open_places(undecided, size_))
       trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
