@@ -15,6 +15,7 @@ void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task
   };
   if (!mechanism.groups.empty()) refuse("mechanisms whose points close together");
   if (task.loads || !task.loads_within.empty()) refuse("a task under other loads than the file's");
+  if (mechanism::has_effort_bounds(mechanism)) refuse("mechanisms whose efforts have bounds");
   if (task.pose_error) refuse("a task that bounds the pose error");
   if (!task.preload.empty() || !mechanism::joints_without_preload(mechanism).empty())
     refuse("a task that chooses efforts");

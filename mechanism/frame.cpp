@@ -34,6 +34,10 @@ class Change {
       for (VectorExpression& axis : joint.axes) change(axis);
       // Of a couple, else of a force.
       if (joint.effort) joint.effort = scaled(*joint.effort, traits(joint).slides ? 0 : 1);
+      if (joint.within && !traits(joint).slides) {
+        joint.within->first /= frame_.scale;
+        joint.within->second /= frame_.scale;
+      }
       if (!joint.clearance) continue;
       for (Expression* length :
            {&joint.clearance->radial, &joint.clearance->gap, &joint.clearance->half_length, &joint.clearance->axial})

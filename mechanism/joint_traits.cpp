@@ -6,7 +6,7 @@ namespace clearloci::mechanism {
 
 std::span<const JointTraits> joint_types() {
   using core::Quantity;
-  static const std::array<JointTraits, 5> table = {{
+  static const std::array<JointTraits, 6> table = {{
       {.type = JointType::revolute,
        .name = "revolute",
        .in_plane = true,
@@ -39,6 +39,13 @@ std::span<const JointTraits> joint_types() {
        .couple = BorneCouple::across_axis,
        .actuator = Quantity::F,
        .clearances = {"radial", "axial"}},
+      {.type = JointType::cable,
+       .name = "cable",
+       .in_plane = true,
+       .slides = true,
+       .pinned = false,
+       .actuator = Quantity::F,
+       .bears = false},
   }};
   return table;
 }

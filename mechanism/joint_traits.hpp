@@ -32,6 +32,7 @@ struct JointTraits {
   /// What an actuator of it exerts, M about its axis or F along it; nothing where it may have none.
   std::optional<core::Quantity> actuator = {};
   std::vector<std::string> planar_clearances = {}, clearances = {};  ///< keys of the file
+  bool bears = true;                                                 ///< anything but what its actuator exerts
 
   bool turns_about_axis() const { return couple == BorneCouple::across_axis; }
 };
@@ -42,9 +43,11 @@ std::span<const JointTraits> joint_types();
 const JointTraits& traits(JointType type);
 inline const JointTraits& traits(const Joint& joint) { return traits(joint.type); }
 
+inline bool is_cable(const Joint& joint) { return !traits(joint).bears; }
+
 /// A block in its guide in the plane: it bears a normal force N and a couple T.
 inline bool is_guide(const Mechanism& mechanism, const Joint& joint) {
-  return mechanism.space == Space::planar && traits(joint).slides;
+  return mechanism.space == Space::planar && traits(joint).slides && traits(joint).bears;
 }
 
 /// A pin or a sleeve about an axis in space: what presses its parts together is the part of its force across the axis.

@@ -181,7 +181,7 @@ struct Clearance {
   std::optional<Fit> fit = {};  ///< that `radial` was taken from
 };
 
-enum class JointType { revolute, prismatic, universal, spherical, cylindrical };
+enum class JointType { revolute, prismatic, universal, spherical, cylindrical, cable };
 
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
@@ -196,7 +196,8 @@ struct FreeEffort {
 
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
 /// joint and of a spatial revolute one, two of a universal joint (the one fixed in `from` first), none otherwise. Their
-/// lengths are of no consequence.
+/// lengths are of no consequence. A cable pulls along its axis, from its end on `to` to that on `from`, with what its
+/// actuator exerts, and bears nothing else.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
@@ -208,7 +209,10 @@ struct Joint {
   core::SourcePosition where;
   /// Of an actuator of known effort, N m or N, on `to` along its axis: a load between the two links, and no unknown.
   std::optional<Expression> effort = {};
-  std::optional<FreeEffort> free_effort = {};  ///< with `effort`: the symbol of its parameter
+  std::optional<FreeEffort> free_effort = {};                ///< with `effort`: the symbol of its parameter
+  std::optional<std::pair<Rational, Rational>> within = {};  ///< of an actuator whose effort is determined: N m or N
+  PointIndex other_end = 0;                                  ///< of a cable: its end on `from`; `at` is that on `to`
+  bool holds_turning = false;  ///< of a cable: it bears a couple too, in place of the turning of a link without extent
 };
 
 /// Components are polynomials in the free coordinates (and cos, sin of an angle).
@@ -327,6 +331,9 @@ std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism);
 /// Of a joint whose effort is free: gives it this one, N or N m.
 void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort);
 
+/// Whether the effort of some actuator is determined and has bounds: poses beyond them are not of the workspace.
+bool has_effort_bounds(const Mechanism& mechanism);
+
 /// A mass of a link and where it sits: that of its body and its point masses.
 struct Mass {
   LinkIndex link = 0;
@@ -341,7 +348,7 @@ std::vector<Mass> masses(const Mechanism& mechanism);
 /// order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its couple. A force
 /// or couple that may have any direction has components x, y, z; one across an axis has two, 1 and 2; the couple of a
 /// universal joint, across both of its axes, is T. The actuator of a revolute or prismatic joint fills up its couple or
-/// force.
+/// force. The tensions of cables, F, come last.
 std::vector<Unknown> unknowns(const Mechanism& mechanism);
 
 /// The columns of one joint, without a planar joint's actuator.
