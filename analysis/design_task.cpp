@@ -86,6 +86,9 @@ void require_asked_of_designs(const Mechanism& mechanism, const core::Task& task
   const bool spatial = mechanism.space == mechanism::Space::spatial;
   if (!mechanism::is_plane(mechanism))
     refuse("designs are judged for tasks in the plane of two lengths", "make the other coordinates parameters");
+  if (mechanism::has_effort_bounds(mechanism))
+    refuse("designs are judged without bounds of efforts, and " + mechanism.file + " has some",
+           "leave out the within of its motors");
   if (spatial && task.loads)
     refuse("loads_from turns in space, and designs are judged under loads of the plane", "leave it out");
   if (spatial && !task.loads_within.empty())

@@ -25,6 +25,9 @@ using Sides = std::map<std::string, int>;
 
 std::string name_of(const EffortGap& gap) { return core::to_string(gap.demand.quantity) + "_" + gap.demand.joint; }
 
+/// Bounds of an effort are apart from its sign.
+std::string key_of(const EffortGap& gap) { return name_of(gap) + (gap.demand.bound ? " within" : ""); }
+
 /// The side of a gap on which an effort is; 0 within.
 int side_of(const EffortGap& gap, double effort) {
   const int above = effort >= gap.to ? 1 : effort <= gap.from ? -1 : 0;
@@ -104,7 +107,7 @@ class PatternSearch {
     Sides sides;
     for (const EffortGap& gap : seen_.front().gaps) {
       const int side = side_of(gap, effort);
-      const auto [own, first] = sides.emplace(name_of(gap), side);
+      const auto [own, first] = sides.emplace(key_of(gap), side);
       if (side == 0 || own->second != side) return std::nullopt;
     }
     return sides;
@@ -116,9 +119,9 @@ class PatternSearch {
       EffortCorridor all = free_at(seen);
       EffortCorridor certain = free_at(seen);
       for (const EffortGap& gap : seen.gaps) {
-        const auto own = sides.find(name_of(gap));
+        const auto own = sides.find(key_of(gap));
         const int side = own != sides.end() ? own->second : roomier_side(all, gap);
-        sides.emplace(name_of(gap), side);
+        sides.emplace(key_of(gap), side);
         narrow(all, gap, side);
         if (gap.sign_above != 0) narrow(certain, gap, side);
       }

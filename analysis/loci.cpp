@@ -389,6 +389,8 @@ core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociR
   const std::optional<Framed> own = framed(mechanism);
   core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), means).map
                            : trace_member(mechanism, request, means).map;
+  if (mechanism::has_effort_bounds(mechanism))
+    map.notes.emplace_back("bounds of efforts are no loci: pose, verify and zones keep to them");
   if (means.certificate != nullptr) certify(map, own, *means.certificate);
   return own ? from_frame(std::move(map), mechanism, own->frame) : map;
 }
@@ -426,7 +428,7 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
   for (const mechanism::Joint& joint : joints) {
     const bool wanted = named.empty() ? joint.clearance.has_value() || !any_clearance
                                       : std::find(named.begin(), named.end(), joint.name) != named.end();
-    if (!wanted) continue;
+    if (!wanted || mechanism::is_cable(joint)) continue;
     const bool every = mechanism.space == mechanism::Space::planar || !named.empty();
     for (const core::Quantity quantity :
          every ? mechanism::reaction_components(mechanism, joint) : mechanism::force_unknowns(mechanism, joint))

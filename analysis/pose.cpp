@@ -12,13 +12,16 @@
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose_efforts.hpp"
+#include "analysis/pose_tensions.hpp"
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
 #include "core/shown_units.hpp"
 #include "loci/sheet/sheet.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/evaluate.hpp"
 #include "mechanism/fits.hpp"
+#include "mechanism/free_cables.hpp"
 #include "mechanism/group_closing.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
@@ -109,8 +112,17 @@ std::vector<JointTakeUp> take_up_of(const mechanism::Mechanism& mechanism,
   return list;
 }
 
+/// Of a cable: solved for, or given.
+double tension_of(const mechanism::Mechanism& mechanism, const mechanism::Joint& joint, double solved) {
+  return joint.free_effort ? core::to_double(mechanism::value_of(*joint.effort, mechanism)) : solved;
+}
+
 /// A joint of space: its force and couple in Cartesian components, the actuator's share apart.
-JointReaction reaction_in_space(const mechanism::Joint& joint, const numeric::JointReaction& r) {
+JointReaction reaction_in_space(const mechanism::Mechanism& mechanism, std::size_t j, const numeric::JointReaction& r) {
+  const mechanism::Joint& joint = mechanism.joints[j];
+  if (mechanism::is_cable(joint) && joint.effort && !joint.free_effort) return {joint.name, {}};  // a law
+  if (mechanism::is_cable(joint)) return {joint.name, {{core::Quantity::F, tension_of(mechanism, joint, r.actuator)}}};
+
   constexpr std::array forces = {core::Quantity::fx, core::Quantity::fy, core::Quantity::fz};
   constexpr std::array couples = {core::Quantity::mx, core::Quantity::my, core::Quantity::mz};
   JointReaction own{joint.name, {}};
@@ -123,19 +135,31 @@ JointReaction reaction_in_space(const mechanism::Joint& joint, const numeric::Jo
   return own;
 }
 
+/// The couple that holds a link without extent, which is zero.
+bool is_held_turning(const mechanism::Mechanism& mechanism, const mechanism::Unknown& unknown) {
+  return mechanism::is_cable(mechanism.joints[static_cast<std::size_t>(unknown.joint)]) &&
+         unknown.quantity != core::Quantity::F;
+}
+
 /// In the plane by the unknowns, of which `values` has one each.
 std::vector<JointReaction> reactions_of(const numeric::NumericModel& model, const Eigen::VectorXd& values,
                                         const std::vector<numeric::JointReaction>& of_joints) {
   const std::vector<mechanism::Joint>& joints = model.mechanism.joints;
   std::vector<JointReaction> list;
   if (model.mechanism.space == mechanism::Space::spatial) {
-    for (std::size_t j = 0; j < joints.size(); ++j) list.push_back(reaction_in_space(joints[j], of_joints[j]));
+    for (std::size_t j = 0; j < joints.size(); ++j) list.push_back(reaction_in_space(model.mechanism, j, of_joints[j]));
     return list;
   }
   for (const mechanism::Joint& joint : joints) list.push_back({joint.name, {}});
-  for (std::size_t k = 0; k < model.unknowns.size(); ++k)
-    list[static_cast<std::size_t>(model.unknowns[k].joint)].components.push_back(
-        {model.unknowns[k].quantity, values[static_cast<Eigen::Index>(k)]});
+  for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    const mechanism::Unknown& unknown = model.unknowns[k];
+    if (is_held_turning(model.mechanism, unknown)) continue;
+    list[static_cast<std::size_t>(unknown.joint)].components.push_back(
+        {unknown.quantity, values[static_cast<Eigen::Index>(k)]});
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (mechanism::is_cable(joints[j]) && joints[j].free_effort)
+      list[j].components.push_back({core::Quantity::F, tension_of(model.mechanism, joints[j], 0)});
   return list;
 }
 
@@ -186,6 +210,9 @@ void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides
 
 void require_rates(const mechanism::Mechanism& mechanism, const PoseRequest& request) {
   const bool moves = !request.velocity.empty() || !request.acceleration.empty();
+  if (request.iterate && !mechanism::cables_of(mechanism).empty())
+    throw core::InputError({mechanism.file}, "the pose error of mechanisms with cables is linear",
+                           "ask for it without iteration");
   if (moves && request.iterate)
     throw core::InputError({mechanism.file}, "the pose error is iterated at rest only",
                            "ask for the linear error, or leave velocity and acceleration out");
@@ -258,6 +285,7 @@ Reactions reactions_in_plane(const mechanism::Mechanism& mechanism, std::span<co
   numeric::reaction_field(model, poses, sides, field);
   Reactions all;
   for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
+    if (is_held_turning(mechanism, model.unknowns[k])) continue;
     std::vector<double> values(field.poses);
     for (std::size_t i = 0; i < field.poses; ++i) values[i] = field.reaction(static_cast<int>(k), i);
     add_column(mechanism, model.unknowns[k], std::move(values), all);
@@ -272,7 +300,7 @@ Reactions reactions_in_space(const mechanism::Mechanism& mechanism, std::span<co
   const std::size_t width = mechanism.coordinates.size(), count = poses.size() / width;
   Reactions all;
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    for (const ReactionComponent& component : reaction_in_space(mechanism.joints[j], {}).components)
+    for (const ReactionComponent& component : reaction_in_space(mechanism, j, {}).components)
       add_column(mechanism, {static_cast<mechanism::JointIndex>(j), component.quantity},
                  std::vector<double>(count, nan), all);
   for (std::size_t i = 0; i < count; ++i) {
@@ -297,6 +325,26 @@ void note_outside(const mechanism::Mechanism& mechanism, Pose& pose) {
     const auto told = [&](double value) { return core::told(value, own.angle ? "rad" : "m", mechanism.units); };
     pose.notes.push_back(own.name + " = " + told(pose.at[c]) + " is outside its range, " + told(lower) + " to " +
                          told(upper));
+  }
+}
+
+/// Determined efforts that their actuators do not exert.
+void note_beyond_bounds(const mechanism::Mechanism& mechanism, Pose& pose) {
+  for (std::size_t j = 0; j < pose.reactions.size(); ++j) {
+    const mechanism::Joint& joint = mechanism.joints[j];
+    if (!joint.actuated || !joint.within) continue;
+    const double least = core::to_double(joint.within->first), most = core::to_double(joint.within->second);
+    const double hair = 1e-9 * (most - least);  // of rounding, where a choice is at a bound
+    for (const ReactionComponent& own : pose.reactions[j].components) {
+      if (own.quantity != mechanism::actuator_quantity(joint) ||
+          (least - hair <= own.value && own.value <= most + hair))
+        continue;
+      const auto told = [&](double value) {
+        return core::told(value, core::unit_of(own.quantity), mechanism.units, 4);
+      };
+      pose.notes.push_back(core::to_string(own.quantity) + "_" + joint.name + " = " + told(own.value) +
+                           " is beyond its bounds, " + told(least) + " to " + told(most));
+    }
   }
 }
 
@@ -364,6 +412,7 @@ Pose solve_given(const mechanism::Mechanism& mechanism, const std::vector<core::
   pose.working_mode = named_mode(mechanism, sides);
   if (!mechanism.frame) note_outside(mechanism, pose);  // else in the coordinates of the file, by the caller
   solve_at(numeric::compile(mechanism), values, sides, request, pose);
+  note_beyond_bounds(mechanism, pose);
   return pose;
 }
 
@@ -399,7 +448,8 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
   if (mechanism::preloaded_joints(mechanism).empty()) return solve_on_flanks(mechanism, at, request);
   const std::vector<numeric::Bounded> values = with_rounding(at);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
-  PoseEfforts chosen = pose_efforts(mechanism, values, sides, request);
+  PoseEfforts chosen = only_tensions_are_free(mechanism) ? pose_tensions(mechanism, values, sides)
+                                                         : pose_efforts(mechanism, values, sides, request);
   Pose pose = solve_given(chosen.mechanism, at, request);
   for (std::string& note : chosen.notes) pose.notes.push_back(std::move(note));
   const bool at_rest = request.velocity.empty() && request.acceleration.empty();

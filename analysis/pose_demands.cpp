@@ -16,7 +16,7 @@ std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>&
   std::vector<TaskDemand> loaded;
   std::string names;
   for (std::size_t d = 0; d < demands.size(); ++d) {
-    const bool never = demands[d].least == 0 && all.is_never_loaded(static_cast<int>(d), poses);
+    const bool never = demands[d].least == 0 && !demands[d].bound && all.is_never_loaded(static_cast<int>(d), poses);
     if (!never)
       loaded.push_back(std::move(demands[d]));
     else
@@ -28,7 +28,7 @@ std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>&
 }
 
 core::LocusKind locus_kind_of(const TaskDemand& demand) {
-  if (demand.least > 0) return core::LocusKind::margin;
+  if (demand.least > 0 || demand.bound) return core::LocusKind::margin;
   const bool effort = demand.quantity == Quantity::M || demand.quantity == Quantity::F;
   return effort ? core::LocusKind::backlash : core::LocusKind::contact_loss;
 }

@@ -10,10 +10,12 @@
 #include <utility>
 
 #include "analysis/pose_efforts.hpp"
+#include "analysis/pose_tensions.hpp"
 #include "analysis/preload_judges.hpp"
 #include "analysis/preload_law.hpp"
 #include "analysis/proven_cells.hpp"
 #include "analysis/task_demands.hpp"
+#include "analysis/tension_verification.hpp"
 #include "analysis/wanted_efforts.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
@@ -241,7 +243,9 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
     throw core::InputError({task.file},
                            "the task is to be moved, and the effort of " + named_efforts(wanted) + " is free",
                            "give it by --preload, or leave --fit out");
-  if (task.controlled_preload) return verify_with_law(model, task, request);
+  if (task.controlled_preload)
+    return only_tensions_are_free(mechanism) ? verify_with_tensions(model, task, request)
+                                             : verify_with_law(model, task, request);
   // The search knows efforts that are given: those that are looked for are open in it.
   PreloadSearch search(mechanism, wanted, task, request);
   core::PreloadAnswer answer = search.run();

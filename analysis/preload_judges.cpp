@@ -48,7 +48,7 @@ class DesignPreload : public PreloadJudge {
 };
 
 /// With the efforts as coordinates beside those of the pose. All efforts of a box fail where at two poses of the task
-/// a reaction has opposite signs for each of them.
+/// a reaction has opposite signs for each of them, or at one an effort is beyond its bound.
 class StaticsPreload : public PreloadJudge {
  public:
   StaticsPreload(const Mechanism& mechanism, const std::vector<ParameterRange>& wanted, const Task& task,
@@ -81,7 +81,7 @@ class StaticsPreload : public PreloadJudge {
     const PoseRegion region(task_.shape, metric_, widened_.beside_with(ranges));
     std::string reason;
     const auto all_fail = [&](const PoseSuspect& suspect) {
-      reason = suspect.other && suspect.kind == Doubt::demand ? turned(suspect, ranges) : std::string();
+      reason = suspect.kind == Doubt::demand ? failing(suspect, ranges) : std::string();
       return !reason.empty();
     };
     for (const PoseSuspect& known : turning_)
@@ -128,7 +128,9 @@ class StaticsPreload : public PreloadJudge {
     }
     std::vector<PoseSuspect> unlike;
     for (std::size_t d = 0; d < extremes.size(); ++d)
-      if (!extremes[d][0].at.empty() && !extremes[d][1].at.empty())
+      if (statics_.demands[d].demand.bound) {
+        if (!extremes[d][1].at.empty()) unlike.push_back({Doubt::demand, static_cast<int>(d), extremes[d][1].at});
+      } else if (!extremes[d][0].at.empty() && !extremes[d][1].at.empty())
         unlike.push_back({Doubt::demand, static_cast<int>(d), extremes[d][0].at, extremes[d][1].at});
     return unlike;
   }
@@ -182,13 +184,17 @@ class StaticsPreload : public PreloadJudge {
     return sign;
   }
 
-  /// Which reaction turns between two poses, whatever the efforts; empty where that is not certain.
-  std::string turned(const PoseSuspect& suspect, const Ranges& efforts) {
+  /// Which reaction turns between two poses, or which effort is beyond its bound at one, whatever the free efforts;
+  /// empty where that is not certain.
+  std::string failing(const PoseSuspect& suspect, const Ranges& efforts) {
     const core::TaskDemand& demand = statics_.demands[static_cast<std::size_t>(suspect.demand)].demand;
+    if (!demand.bound && !suspect.other) return {};
     const int here = sign_at(suspect.at, suspect.demand, efforts);
-    if (here == 0 || sign_at(*suspect.other, suspect.demand, efforts) != -here) return {};
+    const bool fails = demand.bound ? here < 0 : here != 0 && sign_at(*suspect.other, suspect.demand, efforts) == -here;
+    if (!fails) return {};
     constexpr std::size_t kept = 32;
     if (turning_.size() < kept) turning_.push_back(suspect);
+    if (demand.bound) return demand.joint + " beyond its bounds";
     const bool effort = demand.quantity == core::Quantity::M || demand.quantity == core::Quantity::F;
     return (effort ? "backlash in " : "contact lost in ") + demand.joint;
   }
@@ -209,7 +215,8 @@ class StaticsPreload : public PreloadJudge {
 std::unique_ptr<PreloadJudge> preload_judge(const Mechanism& mechanism, const std::vector<ParameterRange>& wanted,
                                             const Task& task, const LociRequest& request) {
   const bool spatial = mechanism.space == mechanism::Space::spatial;
-  if (mechanism::is_plane(mechanism) && !(spatial && (task.loads || !task.loads_within.empty())))
+  if (mechanism::is_plane(mechanism) && !mechanism::has_effort_bounds(mechanism) &&
+      !(spatial && (task.loads || !task.loads_within.empty())))
     return std::make_unique<DesignPreload>(mechanism, wanted, task, request);
   return std::make_unique<StaticsPreload>(mechanism, wanted, task, request);
 }

@@ -146,7 +146,7 @@ class LawSearch {
   static bool fails_under_any(const Verification& own) {
     using Kind = core::TaskWitness::Kind;
     return own.witness && own.witness->kind != Kind::vanishing && own.witness->kind != Kind::too_small &&
-           own.witness->kind != Kind::displaced;
+           own.witness->kind != Kind::beyond_bound && own.witness->kind != Kind::displaced;
   }
 
   /// "at (0.1, 0.5) M_A1 asks for more than 12 N m and M_A2 for less than 7 N m".

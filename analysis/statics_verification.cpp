@@ -210,7 +210,8 @@ class Verifier {
     own.at = widened_.pose_of(at);
     own.distance = region_.distance(at);
     own.design = widened_.design(at);
-    if (failure.kind != Kind::vanishing && failure.kind != Kind::too_small) return own;
+    const bool of_reaction = failure.kind == Kind::vanishing || failure.kind == Kind::too_small;
+    if (!of_reaction && failure.kind != Kind::beyond_bound) return own;
     if (models_.size() > 1) own.load = load_between(*task_.loads, failure.load);
     add_loads(at, failure.load, own);
     return own;
@@ -357,6 +358,7 @@ class Verifier {
     const std::vector<double> proven = loci::pose::least_sizes(statics_, region_, met, least_accuracy, effort);
     for (std::size_t d = 0; d < met.size(); ++d) {
       const TaskDemand& demand = statics_.demands[d].demand;
+      if (demand.bound) continue;
       const double least = std::max(proven[d], core::to_double(demand.least));
       result.least.push_back({{demand.joint, demand.quantity, 1}, std::min(least, met[d]), met[d]});
     }

@@ -18,6 +18,7 @@ void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task
   if (!mechanism.groups.empty()) refuse("mechanisms whose points close together");
   if (std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [](const auto& own) { return own.meshing; }))
     refuse("mechanisms with gears or belts");
+  if (mechanism::has_effort_bounds(mechanism)) refuse("mechanisms whose efforts have bounds");
   if (task.pose_error) refuse("a task that bounds the pose error");
   if (!task.preload.empty() || !mechanism::joints_without_preload(mechanism).empty())
     refuse("a task that chooses efforts");

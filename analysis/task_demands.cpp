@@ -37,6 +37,20 @@ LociRequest request_of(const core::Task& task, LociRequest request) {
   return request;
 }
 
+namespace {
+
+/// Of every actuator whose effort is determined and has bounds.
+void add_bounds(const mechanism::Mechanism& mechanism, std::vector<TaskDemand>& demands) {
+  for (const mechanism::Joint& joint : mechanism.joints) {
+    if (!joint.actuated || !joint.within) continue;
+    const Quantity effort = mechanism::actuator_quantity(joint);
+    demands.push_back({joint.name, effort, 0, core::EffortBound{1, joint.within->first}});
+    demands.push_back({joint.name, effort, 0, core::EffortBound{-1, joint.within->second}});
+  }
+}
+
+}  // namespace
+
 std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   std::vector<TaskDemand> demands;
   const auto wanted = [&](Quantity quantity) {
@@ -83,6 +97,7 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
     if (joint.meshing && joint.meshing->flank &&
         std::none_of(demands.begin(), demands.end(), [&](const TaskDemand& own) { return own.joint == joint.name; }))
       demands.push_back({joint.name, Quantity::F, 0});
+  add_bounds(mechanism, demands);
   return demands;
 }
 

@@ -13,7 +13,7 @@ namespace clearloci {
 /// The task's `min_force` and `min_couple` take the place of the request's; one working mode.
 LociRequest request_of(const core::Task& task, LociRequest request);
 
-/// What the loci of a request are zeros of, and what its margins hold.
+/// What the loci of a request are zeros of, what its margins hold, and the bounds of determined efforts.
 std::vector<core::TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const LociRequest& request);
 
 /// (1 - t) first + t second, rounded.

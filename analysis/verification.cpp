@@ -24,9 +24,11 @@ using mechanism::Mechanism;
 
 bool is_spatial(const Mechanism& mechanism) { return mechanism.space == mechanism::Space::spatial; }
 
-/// The tower answers over two lengths, but for loads that vary in space and what it does not move or scale.
+/// The tower answers over two lengths, but for loads that vary in space, bounds of efforts and what it does not move
+/// or scale.
 bool is_asked_of_tower(const Mechanism& mechanism, const Task& task, TaskFit fit) {
-  if (!mechanism::is_plane(mechanism) || !mechanism.groups.empty()) return false;
+  if (!mechanism::is_plane(mechanism) || !mechanism.groups.empty() || mechanism::has_effort_bounds(mechanism))
+    return false;
   if (is_spatial(mechanism) && (task.loads || !task.loads_within.empty() || task.pose_error)) return false;
   return fit != TaskFit::largest && (fit == TaskFit::none || !is_tolerant(task));
 }
@@ -79,6 +81,12 @@ core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::Numeri
       told.size = failure.size;
       told.least = failure.demand.least;
       break;
+    case Kind::beyond_bound:
+      told.kind = Told::beyond_bound;
+      told.beyond_bound = reaction;
+      told.size = failure.size;
+      (failure.demand.bound->side > 0 ? told.least : told.most) = failure.demand.bound->at;
+      break;
   }
   return told;
 }
@@ -111,6 +119,17 @@ VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequ
 
 }  // namespace
 
+void tell_mechanism(const Mechanism& mechanism, const VerifyRequest& request, Verification& result) {
+  result.mechanism = mechanism.name;
+  result.parameters = mechanism::told_parameters(mechanism);
+  result.units = mechanism.units;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
+    result.coordinates.push_back(coordinate.name);
+    result.angles.push_back(coordinate.angle);
+  }
+  result.working_mode = side_names(mechanism, requested_modes(mechanism, request.loci).front());
+}
+
 Verification verify(const Model& model, const Task& task, const VerifyRequest& asked) {
   const Mechanism& mechanism = model.content().mechanism;
   check_request(mechanism, asked.loci);
@@ -124,14 +143,7 @@ Verification verify(const Model& model, const Task& task, const VerifyRequest& a
   if (!mechanism::joints_without_preload(mechanism).empty()) return verify_with_preload(model, task, request);
   Verification result = is_asked_of_tower(mechanism, task, request.fit) ? verify_by_tower(mechanism, task, request)
                                                                         : verify_by_statics(mechanism, task, request);
-  result.mechanism = mechanism.name;
-  result.parameters = mechanism::told_parameters(mechanism);
-  result.units = mechanism.units;
-  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
-    result.coordinates.push_back(coordinate.name);
-    result.angles.push_back(coordinate.angle);
-  }
-  result.working_mode = side_names(mechanism, requested_modes(mechanism, request.loci).front());
+  tell_mechanism(mechanism, request, result);
   return result;
 }
 

@@ -49,6 +49,9 @@ Verification verify_by_tower(const mechanism::Mechanism& mechanism, const core::
 Verification verify_by_statics(const mechanism::Mechanism& mechanism, const core::Task& task,
                                const VerifyRequest& request);
 
+/// Names, units and the working mode.
+void tell_mechanism(const mechanism::Mechanism& mechanism, const VerifyRequest& request, Verification& result);
+
 /// Whether a task speaks of more designs or loads than the file's, or of pose errors.
 bool is_tolerant(const core::Task& task);
 

@@ -31,11 +31,14 @@ void add_certificate_argument(CLI::App& command, std::string& file, const std::s
 bool has_certified_loci(const mechanism::Mechanism& mechanism) {
   const bool lengths =
       mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
-  return mechanism.space == mechanism::Space::planar && lengths;
+  return mechanism.space == mechanism::Space::planar && lengths && !mechanism::has_effort_bounds(mechanism);
 }
 
 void require_certifiable(const mechanism::Mechanism& mechanism) {
   if (has_certified_loci(mechanism)) return;
+  if (mechanism::has_effort_bounds(mechanism))
+    throw core::InputError({.file = "--certificate"}, "there is no certificate of mechanisms whose efforts have bounds",
+                           "leave it out for this mechanism");
   throw core::InputError({.file = "--certificate"},
                          "certificates of loci and zones are of planar mechanisms over two lengths",
                          "leave it out for this mechanism; verify has one of a task over any coordinates");

@@ -11,11 +11,19 @@
 
 namespace clearloci::inline core {
 
-/// A reaction that must not vanish, or must keep a size.
+/// Of an effort w that must stay above (`side` 1) or below (-1) a bound: side (w - at) > 0.
+struct EffortBound {
+  int side = 1;
+  Rational at = 0;  ///< N or N m
+};
+
+/// A reaction that must not vanish, or must keep a size, or an effort that must keep to its bound.
 struct TaskDemand {
   std::string joint;
   Quantity quantity = Quantity::f;  ///< f, an end of a guide, M or F
   Rational least = 0;               ///< N or N m; 0: it must not vanish
+  /// Of M or F: then `least` is 0, and what must not vanish nor be negative is side (w - at).
+  std::optional<EffortBound> bound = {};
 };
 
 /// One demand, of every joint that bears the same: w = 0 for no t, or |w| > least for all. Numbers are those of

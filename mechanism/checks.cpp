@@ -144,8 +144,9 @@ std::string count_unknowns(const Mechanism& mechanism) {
     Joint passive = joint;
     passive.actuated = false;
     const std::size_t unknowns = meshes ? 1 : reaction_components(mechanism, passive).size();
+    if (is_cable(joint) && unknowns == 0) continue;
     const bool alike = mechanism.space == Space::planar && !meshes && !is_slot(mechanism, joint);  // these bear two
-    const std::string name = alike ? "joint" : to_string(joint.type) + " joint";
+    const std::string name = is_cable(joint) ? "point mass" : alike ? "joint" : to_string(joint.type) + " joint";
     const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
     if (known == kinds.end())
       kinds.push_back({unknowns, name, 1});
@@ -291,6 +292,7 @@ void check_cross(const Mechanism& mechanism, const Joint& joint, const std::vect
 void check_axes(const Mechanism& mechanism) {
   constexpr std::size_t poses = 16;
   for (const Joint& joint : mechanism.joints) {
+    if (is_cable(joint)) continue;  // its line turns, and where its ends coincide in every pose is told of it as read
     for (std::size_t i = 0; i < joint.axes.size(); ++i) {
       const std::string name = joint.axes.size() == 1 ? "the axis" : i == 0 ? "the first axis" : "the second axis";
       bool zero = true;

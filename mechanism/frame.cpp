@@ -38,6 +38,10 @@ class Change {
         joint.meshing->most = scaled(joint.meshing->most, 1);
         joint.meshing->radius = scaled(joint.meshing->radius, 1);
       }
+      if (joint.within && !traits(joint).slides) {
+        joint.within->first /= frame_.scale;
+        joint.within->second /= frame_.scale;
+      }
       if (!joint.clearance) continue;
       for (Expression* length :
            {&joint.clearance->radial, &joint.clearance->gap, &joint.clearance->half_length, &joint.clearance->axial})

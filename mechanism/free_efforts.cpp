@@ -49,9 +49,26 @@ std::vector<Entry> written_free_efforts(const Value& joints) {
   return efforts;
 }
 
-std::vector<Entry> free_effort_parameters(const Value& joints, const std::vector<Override>& laws) {
+std::vector<std::string> names_of_efforts(const GivenEfforts& efforts) {
+  std::vector<std::string> names;
+  for (const auto* all : {&efforts.laws, &efforts.values})
+    for (const Override& own : *all) names.push_back(own.first);
+  return names;
+}
+
+std::vector<Entry> free_effort_parameters(const Value& joints, const GivenEfforts& efforts) {
   std::vector<Entry> parameters = written_free_efforts(joints);
-  std::erase_if(parameters, [&](const Entry& own) { return given(laws, own.key) != nullptr; });
+  std::erase_if(parameters, [&](const Entry& own) { return given(efforts.laws, own.key) != nullptr; });
+  if (!joints.is_map()) return parameters;
+  for (const Entry& joint : entries(joints)) {
+    const std::string name = free_effort_parameter(joint.key);
+    if (!joint.value.is_map() || given(efforts.values, name) == nullptr) continue;
+    for (Entry& key : entries(joint.value))
+      if (key.key == to_string(JointType::cable)) {
+        key.value.field = "force";
+        parameters.push_back({name, joint.where, key.value});
+      }
+  }
   for (Entry& own : parameters) own.value.node = Node::scalar(own.value.field == "force" ? "0 N" : "0 N m", own.where);
   return parameters;
 }
@@ -84,6 +101,7 @@ void give_free_efforts(Mechanism& mechanism, const GivenEfforts& efforts) {
       const core::SourcePosition where{.file = "--preload"};
       joint.effort = read_varying(mechanism, {Node::scalar(*law, where), "the effort of joint " + joint.name, where,
                                               traits(joint).actuator == core::Quantity::F ? "force" : "couple"});
+      std::erase_if(mechanism.parameters, [&](const Parameter& each) { return each.name == own.parameter; });
       joint.free_effort.reset();
       continue;
     }

@@ -112,7 +112,9 @@ class Hoist {
     std::vector<Node::Pair> pairs;
     for (const auto& [key, value] : content.pairs()) {
       const auto slot = key.IsScalar() ? slots.find(key.Scalar()) : slots.end();
-      pairs.emplace_back(key, slot == slots.end() ? value : replaced(value, slot->second, owner));
+      // A cable has two ends.
+      const bool ends = content.has("cable") && key.IsScalar() && key.Scalar() == "at";
+      pairs.emplace_back(key, slot == slots.end() ? value : replaced(value, ends ? Slot::list : slot->second, owner));
     }
     return Node::map(std::move(pairs), content.where());
   }

@@ -6,7 +6,7 @@ namespace clearloci::mechanism {
 
 std::span<const JointTraits> joint_types() {
   using core::Quantity;
-  static const std::array<JointTraits, 8> table = {{
+  static const std::array<JointTraits, 9> table = {{
       {.type = JointType::revolute,
        .name = "revolute",
        .in_plane = true,
@@ -63,6 +63,13 @@ std::span<const JointTraits> joint_types() {
        .pinned = false,
        .actuator = Quantity::M,
        .planar_clearances = {"backlash"}},
+      {.type = JointType::cable,
+       .name = "cable",
+       .in_plane = true,
+       .slides = true,
+       .pinned = false,
+       .actuator = Quantity::F,
+       .bears = false},
   }};
   return table;
 }

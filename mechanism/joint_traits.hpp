@@ -28,12 +28,13 @@ struct JointTraits {
   bool in_space = true;                   ///< spatial ones have it
   std::size_t planar_axes = 0, axes = 0;  ///< that are written, in the plane and in space
   bool slides = false;                    ///< along its axis, where it bears no force
-  bool meshes = false;  ///< bears nothing but what an actuator of it would exert: teeth, belts
+  bool meshes = false;                    ///< bears nothing but what an actuator of it would exert: teeth, belts
   bool pinned = true;  ///< by a pin, a ball or a sleeve, which loses its contact where its force vanishes
   BorneCouple couple = BorneCouple::none;
   /// What an actuator of it exerts, M about its axis or F along it; nothing where it may have none.
   std::optional<core::Quantity> actuator = {};
   std::vector<std::string> planar_clearances = {}, clearances = {};  ///< keys of the file
+  bool bears = true;                                                 ///< anything but what its actuator exerts
 
   bool turns_about_axis() const { return couple == BorneCouple::across_axis; }
 };
@@ -44,9 +45,11 @@ std::span<const JointTraits> joint_types();
 const JointTraits& traits(JointType type);
 inline const JointTraits& traits(const Joint& joint) { return traits(joint.type); }
 
+inline bool is_cable(const Joint& joint) { return !traits(joint).bears; }
+
 /// A block in its guide in the plane: it bears a normal force N and a couple T.
 inline bool is_guide(const Mechanism& mechanism, const Joint& joint) {
-  return mechanism.space == Space::planar && traits(joint).slides && !traits(joint).pinned;
+  return mechanism.space == Space::planar && traits(joint).slides && traits(joint).bears && !traits(joint).pinned;
 }
 
 /// A pin in a slot of the plane: it bears a normal force N alone.

@@ -39,6 +39,9 @@ std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Join
   if (is_guide(mechanism, joint)) return {Quantity::N, Quantity::T};
   if (traits(joint).meshes) return {};
   if (is_slot(mechanism, joint)) return {Quantity::N};
+  if (is_cable(joint) && !joint.holds_turning) return {};
+  if (is_cable(joint) && mechanism.space == Space::planar) return {Quantity::T};
+  if (is_cable(joint)) return {Quantity::mx, Quantity::my, Quantity::mz};
   if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
   const JointTraits& own = traits(joint);
   // An actuator takes the place of what the joint does not bear along or about its axis.
@@ -86,9 +89,10 @@ std::vector<Unknown> unknowns(const Mechanism& mechanism) {
   for (JointIndex joint = 0; joint < joints; ++joint)
     for (const Quantity quantity : reaction_components(mechanism, joint_of(mechanism, joint)))
       columns.push_back({joint, quantity});
-  if (mechanism.space == Space::spatial) return columns;
   for (JointIndex joint = 0; joint < joints; ++joint)
-    if (joint_of(mechanism, joint).actuated) columns.push_back({joint, actuator_quantity(joint_of(mechanism, joint))});
+    if (joint_of(mechanism, joint).actuated &&
+        (mechanism.space == Space::planar || is_cable(joint_of(mechanism, joint))))
+      columns.push_back({joint, actuator_quantity(joint_of(mechanism, joint))});
   return columns;
 }
 
@@ -126,6 +130,11 @@ std::vector<JointIndex> preloaded_joints(const Mechanism& mechanism) {
 
 std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism) {
   return joints_where(mechanism, [](const Joint& joint) { return joint.free_effort && !joint.free_effort->given; });
+}
+
+bool has_effort_bounds(const Mechanism& mechanism) {
+  return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
+                     [](const Joint& joint) { return joint.actuated && joint.within; });
 }
 
 void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort) {

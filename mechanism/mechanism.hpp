@@ -182,7 +182,7 @@ struct Clearance {
   std::optional<Fit> fit = {};  ///< that `radial` was taken from
 };
 
-enum class JointType { revolute, prismatic, universal, spherical, cylindrical, slot, gear, belt };
+enum class JointType { revolute, prismatic, universal, spherical, cylindrical, slot, gear, belt, cable };
 
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
@@ -205,8 +205,9 @@ struct Meshing {
 };
 
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
-/// joint, of a slot, of a gear (its line of action) and of a spatial revolute joint, two of a universal joint (the one fixed in `from` first), none
-/// otherwise. Their lengths are of no consequence.
+/// joint, of a slot, of a gear (its line of action) and of a spatial revolute joint, two of a universal joint (the one
+/// fixed in `from` first), none otherwise. Their lengths are of no consequence. A cable pulls along its axis, from its
+/// end on `to` to that on `from`, with what its actuator exerts, and bears nothing else.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
@@ -218,8 +219,11 @@ struct Joint {
   core::SourcePosition where;
   /// Of an actuator of known effort, N m or N, on `to` along its axis: a load between the two links, and no unknown.
   std::optional<Expression> effort = {};
-  std::optional<FreeEffort> free_effort = {};  ///< with `effort`: the symbol of its parameter
-  std::optional<Meshing> meshing = {};         ///< of a gear, which is actuated: its force is an unknown along its axis
+  std::optional<FreeEffort> free_effort = {};                ///< with `effort`: the symbol of its parameter
+  std::optional<std::pair<Rational, Rational>> within = {};  ///< of an actuator whose effort is determined: N m or N
+  PointIndex other_end = 0;                                  ///< of a cable: its end on `from`; `at` is that on `to`
+  bool holds_turning = false;  ///< of a cable: it bears a couple too, in place of the turning of a link without extent
+  std::optional<Meshing> meshing = {};  ///< of a gear, which is actuated: its force is an unknown along its axis
 };
 
 /// Components are polynomials in the free coordinates (and cos, sin of an angle).
@@ -292,8 +296,8 @@ struct Unknown {
 /// A frame of the file, in which points of a platform are placed: p = p_origin + R p', R row after row.
 struct BodyFrame {
   std::string name;
-  PointIndex origin = 0;             ///< an explicit point
-  std::vector<Expression> rotation;  ///< 4 or 9
+  PointIndex origin = 0;                 ///< an explicit point
+  std::vector<Expression> rotation;      ///< 4 or 9
   std::optional<Expression> angle = {};  ///< of its rotation in the plane, rad
 };
 
@@ -339,6 +343,9 @@ std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism);
 /// Of a joint whose effort is free: gives it this one, N or N m.
 void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort);
 
+/// Whether the effort of some actuator is determined and has bounds: poses beyond them are not of the workspace.
+bool has_effort_bounds(const Mechanism& mechanism);
+
 /// A mass of a link and where it sits: that of its body and its point masses.
 struct Mass {
   LinkIndex link = 0;
@@ -353,7 +360,7 @@ std::vector<Mass> masses(const Mechanism& mechanism);
 /// the file's order, then M or F of the actuated ones. Spatial: the components of every joint's force, then of its
 /// couple. A force or couple that may have any direction has components x, y, z; one across an axis has two, 1 and 2;
 /// the couple of a universal joint, across both of its axes, is T. The actuator of a revolute or prismatic joint fills
-/// up its couple or force.
+/// up its couple or force. The tensions of cables, F, come last.
 std::vector<Unknown> unknowns(const Mechanism& mechanism);
 
 /// The columns of one joint, without a planar joint's actuator.

@@ -46,9 +46,9 @@ const std::vector<OtherWords>& table() {
        "",
        "write the prismatic joint that the screw moves, actuated: its axial force is the couple of the screw over its "
        "lead"},
-      {{"cable", "rope", "tendon", "wire", "string", "muscle"},
+      {{"rope", "tendon", "wire", "string", "muscle"},
        "",
-       "a taut cable is a link between two revolute joints; where its force vanishes it goes slack"},
+       "write cable: [from, to], with its two ends at and its tension: [least, most]"},
       {{"damper", "damping", "viscosity", "dashpot"},
        "",
        "dampers are not modelled: reactions are those of equilibrium"},

@@ -8,9 +8,11 @@
 
 #include "core/text.hpp"
 #include "mechanism/assembly/assemble.hpp"
+#include "mechanism/free_cables.hpp"
 #include "mechanism/import/import.hpp"
 #include "mechanism/inline_points.hpp"
 #include "mechanism/reader.hpp"
+#include "mechanism/redundant_rods.hpp"
 #include "mechanism/repeat.hpp"
 #include "mechanism/spring_ends.hpp"
 #include "mechanism/units.hpp"
@@ -52,7 +54,7 @@ namespace {
 /// The document with its repetitions written out and a construction of every point.
 Assembled constructed(const Value& written, const std::vector<Override>& overrides) {
   (void)Mapping(written, top_keys);
-  const Value plain = name_inline_points(expand_repeat(written, repeatable_keys));
+  const Value plain = telescoped_rods(name_inline_points(expand_repeat(written, repeatable_keys)));
   const Mapping root(plain, top_keys);
   check_format(root.at("format"));
   (void)read_space(root.find("space"));
@@ -71,14 +73,13 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   mechanism.name = name_of(root.find("name"), file);
   mechanism.units = read_units(root.find("units"));
   const GivenEfforts efforts = given_efforts(root.at("workspace"), overrides);
-  read_parameters(mechanism, root.find("parameters"), free_effort_parameters(root.at("joints"), efforts.laws),
+  read_parameters(mechanism, root.find("parameters"), free_effort_parameters(root.at("joints"), efforts),
                   efforts.values);
   read_workspace(mechanism, root.at("workspace"));
   read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"), root.find("joints"));
   read_gear_points(mechanism, root.at("joints"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
-  give_free_efforts(mechanism, efforts);
   fill_inertia(mechanism);
   read_end_effector(mechanism, root.at("end_effector"));
   read_loads(mechanism, root.find("loads"));
@@ -86,6 +87,9 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   read_springs(mechanism, root.find("springs"));
   read_limits(mechanism, root.find("limits"));
 
+  hold_point_masses(mechanism);
+  choose_free_cables(mechanism, names_of_efforts(efforts));
+  give_free_efforts(mechanism, efforts);
   hold_idle_freedoms(mechanism);
   check_names(mechanism);
   check_coordinates_used(mechanism, root.at("workspace").where);

@@ -1,6 +1,7 @@
 // Joints, the end effector and the loads.
 #include <algorithm>
 
+#include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/fits.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -184,17 +185,25 @@ std::pair<Rational, Rational> read_within(const Mechanism& mechanism, Value valu
   return {lower, upper};
 }
 
-/// true, false, {effort: 3.5} of an actuator whose effort is known, or {effort: free, within: [-5, 5]}.
+/// true, false, {within: [-5, 5]} of an actuator whose effort is determined, {effort: 3.5} of one whose effort is
+/// known, or {effort: free, within: [-5, 5]}.
 void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint) {
   if (!value.is_map()) {
     joint.actuated = boolean_of(value);
     return;
   }
   const Mapping mapping(value, {"effort", "within"});
-  Value effort = mapping.at("effort");
   auto within = mapping.find("within");
+  const std::string field = traits(joint).actuator == core::Quantity::F ? "force" : "couple";
+  if (within && !mapping.find("effort")) {
+    within->what = "the range of the effort of joint " + joint.name;
+    joint.actuated = true;
+    joint.within = read_within(mechanism, *within, field);
+    return;
+  }
+  Value effort = mapping.at("effort");
   effort.what = "the effort of joint " + joint.name;
-  effort.field = traits(joint).actuator == core::Quantity::F ? "force" : "couple";
+  effort.field = field;
   if (is_free_effort(effort)) {
     joint.free_effort = FreeEffort{free_effort_parameter(joint.name)};
     joint.effort = Expression::symbol(joint.free_effort->parameter);
@@ -213,6 +222,45 @@ void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint)
     refuse_effort(joint, within->where);
 }
 
+void read_joined_links(const Mechanism& mechanism, const Value& links, const std::string& what, Joint& joint) {
+  std::vector<Value> names = elements(links, 2);
+  for (Value& name : names) name.what = what;
+  joint.from = read_link_name(mechanism, names[0], true);
+  joint.to = read_link_name(mechanism, names[1], true);
+  if (joint.from == joint.to)
+    throw InputError(names[1].where,
+                     "joint " + joint.name + " joins " + link_text(mechanism, joint.from) + " to itself",
+                     "name two different links");
+}
+
+/// {cable: [ground, platform], at: [A1, B1], tension: [5, 400]}: an actuator along the line of its two ends, whose
+/// effort is a tension with bounds.
+void read_cable(const Mechanism& mechanism, const Value& described, Joint& joint) {
+  const Mapping mapping(described, {"cable", "at", "tension"});
+  read_joined_links(mechanism, mapping.at("cable"), described.what, joint);
+  const std::vector<Value> ends = elements(mapping.at("at"), 2);
+  joint.other_end = read_point_name(mechanism, ends[0]);
+  joint.at = read_point_name(mechanism, ends[1]);
+  for (const auto& [point, link, end] :
+       {std::tuple(joint.other_end, joint.from, ends[0]), std::tuple(joint.at, joint.to, ends[1])})
+    if (!is_on_link(mechanism, point, link)) {
+      Joint at_end = joint;
+      at_end.at = point;
+      refuse_joint_point(mechanism, at_end, link, end);
+    }
+  if (joint.at == joint.other_end)
+    throw InputError(ends[1].where, "the cable " + joint.name + " begins and ends at " + text_of(ends[1]),
+                     "name a point of either link");
+  joint.axes = {way(joint.at, joint.other_end)};
+  Value tension = mapping.at("tension");
+  tension.what = "the tension of cable " + joint.name;
+  joint.within = read_within(mechanism, tension, "force");
+  if (joint.within->first < 0)
+    throw InputError(tension.where, tension.what + " is negative, and a cable pulls",
+                     "write [least, most], least 0 or more");
+  joint.actuated = true;
+}
+
 Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   Joint joint;
   joint.type = read_type(mechanism, entry);
@@ -220,16 +268,13 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   joint.where = entry.where;
   Value described = entry.value;
   described.what = "joint " + entry.key;
+  if (is_cable(joint)) {
+    read_cable(mechanism, described, joint);
+    return joint;
+  }
   const Mapping mapping(described, joint_keys(mechanism, traits(joint)));
   const Value links = mapping.at(to_string(joint.type));
-  std::vector<Value> names = elements(links, 2);
-  for (Value& name : names) name.what = described.what;
-  joint.from = read_link_name(mechanism, names[0], true);
-  joint.to = read_link_name(mechanism, names[1], true);
-  if (joint.from == joint.to)
-    throw InputError(names[1].where,
-                     "joint " + joint.name + " joins " + link_text(mechanism, joint.from) + " to itself",
-                     "name two different links");
+  read_joined_links(mechanism, links, described.what, joint);
   const Value at = mapping.at("at");
   joint.at = read_point_name(mechanism, at);
   check_place(mechanism, joint, at);

@@ -116,8 +116,10 @@ struct GivenEfforts {
 GivenEfforts given_efforts(const Value& workspace, const std::vector<Override>& overrides);
 /// The others.
 std::vector<Override> without_efforts(std::vector<Override> overrides);
-/// A parameter for each free effort that has no law.
-std::vector<Entry> free_effort_parameters(const Value& joints, const std::vector<Override>& laws);
+/// The parameters that they name.
+std::vector<std::string> names_of_efforts(const GivenEfforts& efforts);
+/// A parameter for each free effort that has no law, and for each cable whose tension is given.
+std::vector<Entry> free_effort_parameters(const Value& joints, const GivenEfforts& efforts);
 /// Those that have a value, which is within what the motor can exert, or a law.
 void give_free_efforts(Mechanism& mechanism, const GivenEfforts& efforts);
 

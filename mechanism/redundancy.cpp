@@ -44,6 +44,13 @@ void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& 
   const auto couple = [&](const Vector& v) {
     columns.push_back({index, false, joint.from, joint.to, joint.at, {}, v});
   };
+  if (is_cable(joint)) {
+    if (joint.holds_turning && m.space == Space::spatial)
+      for (const Vector& v : xyz) couple(v);
+    else if (joint.holds_turning)
+      couple(xyz[2]);
+    return;
+  }
   if (m.space == Space::planar) {
     if (is_guide(m, joint)) {
       force({-axes[0][1], axes[0][0], 0});
@@ -238,7 +245,8 @@ Advice too_many(const Mechanism& m, std::size_t count) {
   }
   if (!found->rods.empty()) {
     problem += (problem.empty() ? "" : " and ") + named("rod", found->rods);
-    mend += (mend.empty() ? number : ", or leave out ") + "these rods with their joints";
+    mend +=
+        (mend.empty() ? number : ", or leave out ") + "these rods with their joints, or mark as many: redundant: true";
   }
   return {": " + problem + " work against each other", "leave out " + mend};
 }

@@ -295,7 +295,7 @@ namespace {
 mechanism::JointIndex guide_of(const mechanism::Mechanism& mechanism, mechanism::LinkIndex link) {
   if (mechanism.links[static_cast<std::size_t>(link)].points.size() > 1) return -1;
   const auto own = std::find_if(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
-    return mechanism::traits(joint).slides && !mechanism::is_slot(mechanism, joint) &&
+    return mechanism::traits(joint).slides && !mechanism::is_slot(mechanism, joint) && !mechanism::is_cable(joint) &&
            (joint.from == link || joint.to == link);
   });
   return own == mechanism.joints.end() ? -1 : static_cast<mechanism::JointIndex>(own - mechanism.joints.begin());
@@ -329,7 +329,8 @@ std::vector<BodyDirection> directions_of(const NumericModel& model, const std::v
     for (std::size_t j = 0; j < m.joints.size(); ++j) {
       const mechanism::Joint& joint = m.joints[j];
       if (mechanism::traits(joint).slides != slides || mechanism::holds_idle_freedom(joint)) continue;
-      if (mechanism::traits(joint).meshes) continue;  // a line of action turns with neither wheel
+      // Lines of action and of cables turn by themselves.
+      if (mechanism::traits(joint).meshes || mechanism::is_cable(joint)) continue;
       // Not fixed in `to`, which turns against it.
       const bool crossed = joint.type == mechanism::JointType::universal || mechanism::is_slot(m, joint);
       if (model.axes[j] && (holds(joint.from) || (holds(joint.to) && !crossed))) all.push_back({0, 0, model.axes[j]});

@@ -31,6 +31,14 @@ std::optional<Ends> gap_of(const Bounded& a, const Bounded& b, const Bounded& le
   return every;
 }
 
+/// Where a + e b, which has to be positive, is not.
+std::optional<Ends> gap_below(const Bounded& a, const Bounded& b) {
+  if (is_zero(b)) return a.value - a.error > 0 ? std::nullopt : std::optional(every);
+  const Bounded zero = -a / b;
+  return b.value > 0 ? Ends{-unbounded, zero.value + zero.error, 2 * zero.error}
+                     : Ends{zero.value - zero.error, unbounded, 2 * zero.error};
+}
+
 /// The same of vectors a and b: where the line passes through the ball.
 std::optional<Ends> gap_of(const std::vector<Bounded>& a, const std::vector<Bounded>& b, const Bounded& least) {
   if (a.size() == 1) return gap_of(a[0], b[0], least);
@@ -74,7 +82,9 @@ std::vector<EffortGap> effort_gaps(const NumericModel& none, const NumericModel&
     std::vector<Bounded> b = demanded_parts(one, demand, with);
     for (std::size_t k = 0; k < b.size(); ++k) b[k] = b[k] - a[k];
     const double least = core::to_double(demand.least);
-    if (const auto ends = gap_of(a, b, size * Bounded(least, unit_roundoff * least)))
+    const auto signed_by_determinant = [&](const Bounded& part) { return positive ? part : -part; };
+    if (const auto ends = demand.bound ? gap_below(signed_by_determinant(a[0]), signed_by_determinant(b[0]))
+                                       : gap_of(a, b, size * Bounded(least, unit_roundoff * least)))
       gaps.push_back({ends->from, ends->to, demand, ends->rounding,
                       b.size() != 1 || is_zero(b[0]) ? 0
                       : (b[0].value > 0) == positive ? 1

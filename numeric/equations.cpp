@@ -65,6 +65,12 @@ void Equations::add_planar_unknowns() {
 void Equations::add_spatial_unknowns(JointIndex j) {
   const mechanism::Joint& joint = m_.joints[static_cast<std::size_t>(j)];
   const mechanism::JointTraits& own = mechanism::traits(joint);
+  if (mechanism::is_cable(joint)) {
+    for (std::size_t c = 0; c < 3 && joint.holds_turning; ++c)
+      add_unknown(j, couples[c], couple(geometry_.direction(c)));
+    if (joint.actuated) add_unknown(j, Quantity::F, force_at(joint.at, *geometry_.axes()[static_cast<std::size_t>(j)]));
+    return;
+  }
   const auto first = static_cast<int>(unknowns_.size());
   for (std::size_t c = 0; c < 3; ++c) add_unknown(j, forces[c], force_at(joint.at, geometry_.direction(c)));
   if (own.slides) add_side_equation(j, first, Quantity::F, joint.actuated);

@@ -34,6 +34,11 @@ void add_columns(const mechanism::Joint& joint, JointIndex j, const Vector3d& u,
   const std::array<Vector3d, 3> unit = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   const std::array<Vector3d, 2> across = {u.unitOrthogonal(), u.cross(u.unitOrthogonal())};
   const mechanism::JointTraits& own = mechanism::traits(joint);
+  if (mechanism::is_cable(joint)) {
+    for (std::size_t c = 0; c < 3 && joint.holds_turning; ++c) couple(unit[c]);
+    if (joint.actuated) columns.push_back({j, u, none, true});
+    return;
+  }
   if (own.slides)
     for (const Vector3d& v : across) force(v);
   else
@@ -130,6 +135,8 @@ std::vector<ReactionColumn> unknown_columns(const NumericModel& model, const std
       columns.push_back({j, none, Vector3d::Unit(component - couple), false});
     else if (quantity == Quantity::T)
       columns.push_back({j, none, couple_axes[static_cast<std::size_t>(j)], false});
+    else if (mechanism::is_cable(model.mechanism.joints[static_cast<std::size_t>(j)]))
+      columns.push_back({j, axes[static_cast<std::size_t>(j)], none, true});
     else
       columns.push_back({j, none, none, true});
   }

@@ -130,7 +130,7 @@ int crossings(const NumericModel& model, const Posture& posture) {
 std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture& posture, std::size_t joint_index) {
   const auto& m = model.mechanism;
   const mechanism::Joint& joint = m.joints[joint_index];
-  if (!mechanism::traits(joint).slides) return std::nullopt;
+  if (!mechanism::traits(joint).slides || mechanism::is_cable(joint)) return std::nullopt;
   const Vector3d& u = posture.axes[joint_index];
   const Point2 at = point_of(posture, joint.at);
   if (joint.from == mechanism::ground || joint.to == mechanism::ground) {
@@ -223,9 +223,16 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
     for (const int index : link.points) drawn.points.push_back(point_of(p, index));
     result.links.push_back(std::move(drawn));
   }
+  for (const auto& joint : m.joints)
+    if (mechanism::is_cable(joint))
+      result.links.push_back({joint.name, {point_of(p, joint.other_end), point_of(p, joint.at)}});
   for (std::size_t j = 0; j < m.joints.size(); ++j)
     if (const auto drawn = slide(model, p, j)) result.slides.push_back(*drawn);
   for (const auto& joint : m.joints) {
+    if (mechanism::is_cable(joint)) {
+      result.joints.push_back({joint.name, point_of(p, joint.other_end), joint.from == mechanism::ground, true});
+      continue;
+    }
     // A slider on the ground has its rail.
     if (joint.meshing) {
       draw_pitch_lines(model, p, joint, result);

@@ -29,6 +29,19 @@ double largest_determinant(const NumericModel& model, std::span<const int> mode,
   return largest;
 }
 
+/// Under the first or the last load, for certain: it is affine between them.
+std::optional<TaskFailure> failure_beyond_bound(const core::TaskDemand& demand,
+                                                const std::vector<std::vector<Bounded>>& parts,
+                                                const std::vector<BoundedNumerators>& loads) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Bounded &part = parts[i].front(), &determinant = loads[i].determinant;
+    if (is_zero(part) || (part.value > 0) == (determinant.value > 0)) continue;
+    const double size = core::to_double(demand.bound->at) + demand.bound->side * part.value / determinant.value;
+    return TaskFailure{TaskFailure::Kind::beyond_bound, demand, static_cast<double>(i), size};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 TaskWitness::TaskWitness(WitnessLoads loads, std::vector<int> mode, std::vector<core::TaskDemand> demands,
@@ -53,6 +66,11 @@ std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskD
   const auto value = [&](Quantity quantity) {
     return numerators.values[static_cast<std::size_t>(column_of(model, index, quantity))];
   };
+  if (demand.bound) {
+    const double at = core::to_double(demand.bound->at);
+    const Bounded over = value(demand.quantity) - Bounded(at, unit_roundoff * std::abs(at)) * numerators.determinant;
+    return {demand.bound->side > 0 ? over : -over};
+  }
   for (const auto& [end, sign] : mechanism::guide_end_signs) {
     if (demand.quantity != end) continue;
     const double h = joint_clearances(model.mechanism)[static_cast<std::size_t>(index)].half_length;
@@ -154,8 +172,15 @@ std::optional<TaskFailure> TaskWitness::judged(int demand, const Solved& solved)
   LoadedParts parts;
   for (const BoundedNumerators& end : solved.ends) parts.ends.push_back(demanded_parts(model, own, end));
   for (const BoundedNumerators& way : solved.directions) parts.directions.push_back(demanded_parts(model, own, way));
-  return failure_under_least_load(own, parts, loads_.balls, solved.ends.front().determinant,
-                                  usual_numerator(solved.ends));
+  if (own.bound)
+    if (auto found = failure_beyond_bound(own, parts.ends, solved.ends)) return found;
+  auto failure =
+      failure_under_least_load(own, parts, loads_.balls, solved.ends.front().determinant, usual_numerator(solved.ends));
+  if (failure && own.bound) {
+    failure->kind = TaskFailure::Kind::beyond_bound;
+    failure->size = core::to_double(own.bound->at);
+  }
+  return failure;
 }
 
 std::vector<TaskFailure> TaskWitness::some_failures(std::span<const Bounded> at, bool closely, std::size_t most) const {

@@ -28,12 +28,13 @@ struct TaskFailure {
     boundary,     ///< it does, but not one within rounding of it
     singular,     ///< |A| is zero, to rounding
     vanishing,    ///< the reaction is zero, to rounding
-    too_small     ///< it is less than it has to be
+    too_small,    ///< it is less than it has to be
+    beyond_bound  ///< the effort is not within its bound
   };
   Kind kind = Kind::unreachable;
   core::TaskDemand demand = {};          ///< of the last two kinds, like what follows
   double load = 0;                       ///< t, from the first load to the last
-  double size = 0;                       ///< of the reaction there, N or N m
+  double size = 0;                       ///< of the reaction there, or the effort, N or N m
   std::vector<LoadChange> changes = {};  ///< where loads may differ within balls
 };
 
@@ -44,7 +45,8 @@ struct WitnessLoads {
   std::vector<core::LoadBall> balls = {};            ///< what may come on top, by the directions
 };
 
-/// The components of what is demanded, times |A|: two of a guide's contact as a whole, one of either end of it.
+/// The components of what is demanded, times |A|: two of a guide's contact as a whole, one of either end of it; of an
+/// effort with a bound side (w - at).
 std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskDemand& demand,
                                     const BoundedNumerators& numerators);
 

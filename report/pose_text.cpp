@@ -243,7 +243,8 @@ std::string pose_text(const core::Pose& pose) {
   text += points_table(pose) + "\n" + reactions_table(pose);
   put(text, "\n|A| = {}, condition number {}\n", engineering(pose.determinant, size_digits),
       std::isfinite(pose.condition) ? engineering(pose.condition, few_digits) : "unbounded");
-  for (const core::FeasibleEfforts& own : pose.efforts) text += "\n" + feasible_efforts_text(own, pose.units);
+  for (const core::FeasibleEfforts& own : pose.efforts)
+    text += (own.cable && &own != &pose.efforts.front() ? "" : "\n") + feasible_efforts_text(own, pose.units);
   if (!pose.take_up.empty()) text += "\n" + take_up_table(pose) + "\n" + error_table(pose);
   for (const std::string& note : pose.notes) put(text, "{}\n", note);
   return text;

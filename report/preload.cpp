@@ -45,7 +45,11 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
   for (std::size_t i = 0; i < preload.joints.size(); ++i)
     looked_for += fmt::format("{}{} from {} to {}", i == 0 ? "" : ", ", preload.joints[i],
                               efforts.told(i, preload.lower[i]), efforts.told(i, preload.upper[i]));
-  if (preload.law) {
+  if (preload.of_poses) {
+    lines.push_back(preload.size[1] <= 1
+                        ? "tensions within their bounds exist at every pose, and some that vary continuously: proven"
+                        : "no tensions are proven for every pose");
+  } else if (preload.law) {
     lines.push_back(fmt::format("{} = {}: verifies", preload.joints.front(), preload.law->expression));
     lines.push_back(fmt::format(
         "{} takes {} to {} over the task; {}the smallest size of a law is at most {:.4g}", preload.joints.front(),
@@ -97,6 +101,22 @@ nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
           {"cells", preload.cells}};
 }
 
+namespace {
+
+/// "tension of K1 = 31.2 N, of 5 N (F_K2) to 88.1 N (F_K3)".
+template <class Told, class End>
+std::string tension_text(const core::FeasibleEfforts& tension, const Told& told, const End& end) {
+  std::string text = fmt::format("tension of {} = {}", tension.joint, told(tension.effort));
+  for (const core::EffortRange& own : tension.ranges)
+    text += fmt::format(", feasible {} {}", end("from", own.from, own.below), end("to", own.to, own.above));
+  if (tension.ranges.empty())
+    text += "; no tensions within their bounds hold this pose" +
+            (tension.never.empty() ? "" : ": those of " + reaction_names(tension.never) + " exclude each other");
+  return text + "\n";
+}
+
+}  // namespace
+
 std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units) {
   const core::ShownUnit unit = core::told_unit(efforts.force ? "N" : "N m", units);
   const auto told = [&](double value) {
@@ -106,6 +126,7 @@ std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const co
     if (!std::isfinite(value)) return std::string();
     return fmt::format("{} {}{}", word, told(value), fails.empty() ? "" : " (" + reaction_names(fails) + ")");
   };
+  if (efforts.cable) return tension_text(efforts, told, end);
   std::string text = fmt::format("effort of {} = {}{}\n", efforts.joint, told(efforts.effort),
                                  efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
   if (!efforts.never.empty()) text += "  " + reaction_names(efforts.never) + ": lost whatever the effort\n";

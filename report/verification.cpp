@@ -98,6 +98,7 @@ Json witness_json(const core::Verification& result) {
               {"vanishing", vanishing_array(witness.vanishing)},
               {"too_small", vanishing_array(witness.too_small)},
               {"size", or_null(witness.size)}};
+  if (!witness.beyond_bound.empty()) own["beyond_bound"] = vanishing_array(witness.beyond_bound);
   if (!witness.limit.empty()) own["limit"] = witness.limit;
   for (const auto& [name, value] : witness.design) own["design"][name] = value;
   for (const core::WitnessLoad& load : witness.loads)
@@ -183,6 +184,20 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
       words = fmt::format("|{}| is {} {}, less than {}", reaction_name(reaction),
                           engineering(*witness.size * unit.per_si, size_digits), unit.name,
                           engineering(core::to_double(*witness.least) * unit.per_si, size_digits));
+      break;
+    }
+    case Kind::beyond_bound: {
+      if (!witness.size) {
+        words = "no tensions are within their bounds: those of " + reaction_names(witness.beyond_bound) +
+                " exclude each other";
+        break;
+      }
+      const core::Vanishing& effort = witness.beyond_bound.front();
+      const ShownUnit unit = shown_unit(core::unit_of(effort.quantity), units);
+      words = fmt::format(
+          "{} is {} {}, {} {}", reaction_name(effort), engineering(*witness.size * unit.per_si, size_digits), unit.name,
+          witness.least ? "less than" : "more than",
+          engineering(core::to_double(witness.least ? *witness.least : *witness.most) * unit.per_si, size_digits));
       break;
     }
     case Kind::displaced:

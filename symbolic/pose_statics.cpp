@@ -86,7 +86,7 @@ class StaticsBuilder {
     std::vector<int> force, couple;  ///< Cartesian; of the plane fx, fy and the couple about z
     Vector axis{};                   ///< of length one
     int normal = -1;                 ///< of a guide or a slot in the plane
-    int along = -1;                  ///< of a planar guide: its actuator; of a gear
+    int along = -1;                  ///< of a planar guide: its actuator; of a gear, of a cable
     int across = -1;                 ///< of a universal joint
   };
 
@@ -147,7 +147,10 @@ class StaticsBuilder {
     JointUnknowns own;
     const bool planar = m_.space == mechanism::Space::planar;
     if (!joint.axes.empty()) own.axis = points_.unit(points_.vector(joint.axes.front()));
-    if (planar && traits.slides) {
+    if (mechanism::is_cable(joint)) {
+      for (std::size_t c = planar ? 2 : 0; c < 3 && joint.holds_turning; ++c) add_unknown(joint, couple(direction(c)));
+      if (joint.actuated) own.along = add_unknown(joint, force_at(r, own.axis));
+    } else if (planar && traits.slides) {
       const Vector& u = own.axis;
       own.normal = add_unknown(joint, force_at(r, {b_.negate(u[1]), u[0], b_.zero()}));
       if (mechanism::is_guide(m_, joint)) own.couple = {add_unknown(joint, couple(direction(2)))};
@@ -277,6 +280,17 @@ class StaticsBuilder {
     return row;
   }
 
+  /// side (w - at) of an effort w that has a bound.
+  SymbolicRow within_bound(const core::TaskDemand& demand, SymbolicRow effort) const {
+    if (!demand.bound) return effort;
+    const int at = b_.constant(demand.bound->at);
+    for (int& free : effort.free) free = b_.subtract(free, at);
+    if (demand.bound->side > 0) return effort;
+    for (int& free : effort.free) free = b_.negate(free);
+    for (auto& [unknown, step] : effort.entries) step = b_.negate(step);
+    return effort;
+  }
+
   std::vector<SymbolicRow> components(const core::TaskDemand& demand) {
     const auto found = std::find_if(m_.joints.begin(), m_.joints.end(),
                                     [&](const mechanism::Joint& joint) { return joint.name == demand.joint; });
@@ -291,8 +305,10 @@ class StaticsBuilder {
         row.entries[own.couple.front()] = b_.constant(Rational(sign) / (2 * h));
         return {row};
       }
-    if (demand.quantity == Quantity::F) return {planar ? scalar(own.along) : along(own.axis, own.force)};
-    if (demand.quantity == Quantity::M) return {planar ? scalar(own.couple.front()) : along(own.axis, own.couple)};
+    if (demand.quantity == Quantity::F)
+      return {within_bound(demand, own.along >= 0 ? scalar(own.along) : along(own.axis, own.force))};
+    if (demand.quantity == Quantity::M)
+      return {within_bound(demand, planar ? scalar(own.couple.front()) : along(own.axis, own.couple))};
     core::ensure(demand.quantity == Quantity::f, "a task asks for forces, ends of guides and efforts");
     std::vector<SymbolicRow> rows;
     if (own.normal >= 0) {

@@ -69,11 +69,12 @@ struct EffortRange {
 struct FeasibleEfforts {
   std::string joint;
   bool force = false;  ///< N, else N m
+  bool cable = false;  ///< a tension: then the others are not held, and the one range is all that it may be
   double effort = 0;   ///< that the pose is of
   bool given = false;  ///< else chosen: the smallest that is feasible
   std::optional<std::array<double, 2>> within = {};
   std::vector<EffortRange> ranges = {};  ///< in order
-  std::vector<Vanishing> never = {};     ///< fail at every effort: then there are no ranges
+  std::vector<Vanishing> never = {};     ///< fail at every effort, or exclude each other: then there are no ranges
 };
 
 /// Of the end effector.

@@ -119,15 +119,17 @@ struct TaskWitness {
     vanishing,    ///< the reactions `vanishing` do
     too_small,    ///< the reactions `too_small` bear less than they have to
     displaced,    ///< the clearances displace the end effector farther than they may
+    beyond_bound  ///< the effort `beyond_bound` is not within its bounds
   };
   Kind kind = Kind::unreachable;
   std::vector<double> at = {};
   std::vector<Vanishing> vanishing = {};
   std::vector<double> load = {};  ///< N; of a range of loads, where it takes one
   std::vector<Vanishing> too_small = {};
+  std::vector<Vanishing> beyond_bound = {};
   std::optional<double> size = {};     ///< of the first of them, N or N m; of the displacement, m
-  std::optional<Rational> least = {};  ///< that is asked of it, N or N m
-  std::optional<Rational> most = {};   ///< that the displacement may be, m
+  std::optional<Rational> least = {};  ///< that is asked of it, N or N m; of an effort its lower bound
+  std::optional<Rational> most = {};   ///< that the displacement may be, m; of an effort its upper bound
   double distance = 0;                 ///< from the task
   std::string limit = {};              ///< of the first two kinds, the one that is broken: "distance A1-P at 0.52 m"
   std::vector<std::pair<std::string, double>> design = {};  ///< parameters that have a tolerance
@@ -188,6 +190,7 @@ struct PreloadAnswer {
   /// Of a task with `controlled_preload`; `value` and `ranges` are empty then. `size` is that of any law, at least and
   /// at most.
   std::optional<PreloadLaw> law = {};
+  bool of_poses = false;  ///< of a task with `controlled_preload`: tensions of cables, chosen for each pose
 };
 
 struct Verification {

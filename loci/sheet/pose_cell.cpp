@@ -248,8 +248,9 @@ bool PoseCellOf<Form>::keeps(int index) {
   const std::vector<double> first = component_values(demand, 0), last = component_values(demand, statics_->loads - 1);
   std::vector<double> n = nearest_to_origin(first, last);
   const double size = length_of(n);
-  // Without a direction of its own any one does.
-  for (std::size_t k = 0; k < n.size(); ++k) n[k] = size > 0 ? n[k] / size : (k == 0 ? 1.0 : 0.0);
+  // Without a direction of its own any one does; what keeps to a bound is positive.
+  for (std::size_t k = 0; k < n.size(); ++k)
+    n[k] = demand.demand.bound ? 1.0 : size > 0 ? n[k] / size : (k == 0 ? 1.0 : 0.0);
   std::vector<Sum> sums(n_);
   std::vector<double> at_middle(n_, 0.0), multipliers(n_, 0.0);
   for (std::size_t k = 0; k < n.size(); ++k)
@@ -304,6 +305,13 @@ bool PoseCellOf<Form>::keeps(int index) {
   return enough;
 }
 
+/// Of a demand that was not kept: whether an effort is beyond its bound in all of the cell.
+template <class Form>
+bool PoseCellOf<Form>::is_beyond_bound(int demand) const {
+  const auto index = static_cast<std::size_t>(demand);
+  return statics_->demands[index].demand.bound && kept_[index].form.upper() < 0;
+}
+
 template <class Form>
 CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox& box) {
   core::ensure(box.size() < Form::noises, "a cell has seven parameters at most");
@@ -324,7 +332,7 @@ CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox
   for (int k = 0; k < count; ++k)
     if (const int own = (first_ + k) % count; !keeps(own)) {
       first_ = own;
-      return State::in_doubt;
+      return is_beyond_bound(own) ? State::outside : State::in_doubt;
     }
   return State::proven;
 }

@@ -64,7 +64,7 @@ class PoseCellOf : public CellAnswers {
   /// `statics` must outlive the cell. One a thread.
   explicit PoseCellOf(const core::PoseStatics& statics);
 
-  /// `outside`: no pose of the cell can be assembled.
+  /// `outside`: no pose of the cell can be assembled, or an effort is beyond its bound in all of them.
   State enter(const PoseChart& chart, const PoseBox& box);
 
   /// Of a cell in doubt.
@@ -99,6 +99,8 @@ class PoseCellOf : public CellAnswers {
   bool is_regular();
   void solve(std::size_t load);
   bool keeps(int demand);
+  bool is_beyond_bound(int demand) const;
+  void drop_parts_beyond_bounds(Known& known) const;
   /// Most entries of A are numbers, which move with no coordinate.
   void add_step(Sum& sum, double factor, int index) const {
     if (forms_.varies(index))
@@ -117,6 +119,7 @@ class PoseCellOf : public CellAnswers {
   };
   void sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
   void know_near_singularity(Known& known);
+  void know_at_demand(Known& known);
   void know_at_boundary(Known& known);
   double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
 
@@ -149,6 +152,10 @@ template <>
 CellAnswers::Known PoseCell::known();
 template <>
 void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
+template <>
+void PoseCell::drop_parts_beyond_bounds(Known& known) const;
+template <>
+void PoseCell::know_at_demand(Known& known);
 template <>
 void PoseCell::know_near_singularity(Known& known);
 template <>

@@ -174,7 +174,14 @@ PoseCell::Known PoseCell::known() {
   known.signs.assign(demands + 1, 0);
   if (doubt_ == Doubt::workspace) know_at_boundary(known);
   if (doubt_ == Doubt::singularity) know_near_singularity(known);
-  if (doubt_ != Doubt::demand) return known;
+  if (doubt_ == Doubt::demand) know_at_demand(known);
+  drop_parts_beyond_bounds(known);
+  return known;
+}
+
+template <>
+void PoseCell::know_at_demand(Known& known) {
+  const std::size_t demands = statics_->demands.size();
   const int own = demand_;
   const std::array<double, Affine::noises> spreads = spreads_;
   known.signs.back() = determinant_;
@@ -193,12 +200,28 @@ PoseCell::Known PoseCell::known() {
   sides_of(open, {}, known);
   // Where A is not far from singular its inverse is known badly, and s g well.
   constexpr double well_known = 0.1;
-  if (contraction_ < well_known) return known;
+  if (contraction_ < well_known) return;
   Known other;
   other.signs.assign(demands + 1, 0);
   know_near_singularity(other);
   const auto share = [](const Known& one) { return one.free ? 1.0 : share_of(one.parts[0]) + share_of(one.parts[1]); };
-  return share(other) > share(known) ? other : known;
+  if (share(other) > share(known)) known = other;
+}
+
+/// Where an effort is beyond its bound there is no state: such a part is none.
+template <>
+void PoseCell::drop_parts_beyond_bounds(Known& known) const {
+  const auto is_beyond = [&](const Signs& signs) {
+    for (std::size_t d = 0; d < statics_->demands.size() && d < signs.size(); ++d)
+      if (statics_->demands[d].demand.bound && signs[d] < 0) return true;
+    return false;
+  };
+  if (is_beyond(known.of_parts[0])) {
+    std::swap(known.parts[0], known.parts[1]);
+    std::swap(known.of_parts[0], known.of_parts[1]);
+    if (is_beyond(known.of_parts[0])) known.parts[0] = {};
+  }
+  if (is_beyond(known.of_parts[1]) && !known.parts[1].empty()) known.beyond = true;
 }
 
 /// The first part is within reach and free of all that may vanish, the second out of reach.

@@ -39,10 +39,11 @@ Node points_of(const FoundConstruction& found, const Drawing& drawing, const cor
   return Node::map(std::move(pairs), where);
 }
 
-Node joints_of(const Node& joints, const std::map<JointIndex, std::vector<std::string>>& axes) {
+Node joints_of(const Node& joints, const std::vector<std::size_t>& written,
+               const std::map<JointIndex, std::vector<std::string>>& axes) {
   std::vector<Node::Pair> pairs = joints.pairs();
   for (const auto& [index, texts] : axes) {
-    Node& joint = pairs[static_cast<std::size_t>(index)].second;
+    Node& joint = pairs[written[static_cast<std::size_t>(index)]].second;
     std::vector<Node::Pair> keys = joint.pairs();
     for (auto& [key, content] : keys) {
       if (key.Scalar() == "axis") content = Node::scalar(texts.front(), content.where());
@@ -91,7 +92,7 @@ Assembled assemble(const Value& document, const std::vector<Override>& overrides
     } else if (name == "links") {
       pairs.emplace_back(key, plain.links);
     } else if (name == "joints") {
-      pairs.emplace_back(key, joints_of(content, found.axes));
+      pairs.emplace_back(key, joints_of(content, drawing.written, found.axes));
     } else if (name == "frames") {
       has_frames = true;
       pairs.emplace_back(key, merged(content, found.frames, content.where()));

@@ -62,6 +62,8 @@ struct Drawing {
   std::vector<DrawnCoordinate> coordinates;
   std::vector<double> pose;             ///< of what is drawn, as far as constructions are over plain coordinates
   std::vector<std::vector<Node>> axes;  ///< as written, one list a joint
+  std::vector<std::size_t> written;     ///< of each joint its place in the file: cables hold nothing, and are left out
+  std::vector<bool> cabled;             ///< of each link whether a cable pulls at it
   Rational unit = 1;                    ///< of the file's lengths, m
   double size = 1;                      ///< of the drawing, m
 

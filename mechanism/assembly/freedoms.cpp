@@ -28,8 +28,8 @@ std::string counted(std::size_t count, const std::string& what, const std::strin
 void check_every_link_joined(const Drawing& d) {
   for (std::size_t l = 0; l < d.mechanism.links.size(); ++l) {
     const auto link = static_cast<LinkIndex>(l);
-    if (std::any_of(d.mechanism.joints.begin(), d.mechanism.joints.end(),
-                    [&](const Joint& joint) { return joint.from == link || joint.to == link; }))
+    if (d.cabled[l] || std::any_of(d.mechanism.joints.begin(), d.mechanism.joints.end(),
+                                   [&](const Joint& joint) { return joint.from == link || joint.to == link; }))
       continue;
     throw InputError(d.link(link).where, "link " + d.link(link).name + " has no joint",
                      "join it to another link, or leave it out");
@@ -271,7 +271,7 @@ void check_braced(const Drawing& d, const Freedoms& freedoms) {
   throw InputError({d.mechanism.file},
                    "rods " + listed(rods) + " hold the links between them more than once: " +
                        std::to_string(rods.size() - more) + " of these " + std::to_string(rods.size()) + " will do",
-                   "leave " + rods.back() + " out with its joints");
+                   "leave " + rods.back() + " out with its joints, or mark it: redundant: true");
 }
 
 }  // namespace

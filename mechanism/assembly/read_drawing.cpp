@@ -7,6 +7,7 @@
 
 #include "mechanism/assembly/drawn_pose.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 #include "mechanism/units.hpp"
@@ -63,6 +64,7 @@ class DrawingReader {
     read_links();
     refuse_slots(required("joints"));
     read_joints(m, required("joints"));
+    leave_cables_out();
     check_size();
     place_axes();
     coordinates_->resolve();
@@ -292,9 +294,28 @@ class DrawingReader {
     return result;
   }
 
+  void leave_cables_out() {
+    Mechanism& m = result_.mechanism;
+    result_.cabled.assign(m.links.size(), false);
+    std::vector<Joint> kept;
+    for (std::size_t j = 0; j < m.joints.size(); ++j) {
+      Joint& joint = m.joints[j];
+      if (!is_cable(joint)) {
+        result_.written.push_back(j);
+        kept.push_back(std::move(joint));
+        continue;
+      }
+      for (const LinkIndex link : {joint.from, joint.to})
+        if (link != ground) result_.cabled[static_cast<std::size_t>(link)] = true;
+    }
+    m.joints = std::move(kept);
+  }
+
   /// Axes as they are written, for the file that is made of the drawing.
   void place_axes() {
-    for (const Entry& entry : entries(required("joints"))) {
+    const std::vector<Entry> joints = entries(required("joints"));
+    for (const std::size_t place : result_.written) {
+      const Entry& entry = joints[place];
       std::vector<Node> own;
       for (const Entry& part : entries(entry.value)) {
         if (part.key == "axis") own.push_back(part.value.node);

@@ -26,6 +26,8 @@ const char* name_of(TaskWitness::Kind kind) {
       return "vanishing";
     case TaskWitness::Kind::displaced:
       return "displaced";
+    case TaskWitness::Kind::beyond_bound:
+      return "beyond bound";
     case TaskWitness::Kind::too_small:
       break;
   }
@@ -45,6 +47,7 @@ py::object witness_of(const Verification& answer) {
   one["kind"] = name_of(witness.kind);
   one["vanishing"] = names_of(witness.vanishing);
   one["too_small"] = names_of(witness.too_small);
+  one["beyond_bound"] = names_of(witness.beyond_bound);
   one["size"] = witness.size;
   one["load"] = witness.load.empty() ? py::object(py::none()) : py::object(place(witness.load));
   one["distance"] = witness.distance;

@@ -167,7 +167,7 @@ TEST(WrongDrawings, NamesARodTooMany) {
     FAIL();
   } catch (const core::InputError& error) {
     EXPECT_EQ(error.problem(), "rods BE and CF hold the links between them more than once: 1 of these 2 will do");
-    EXPECT_EQ(error.mend(), "leave CF out with its joints");
+    EXPECT_EQ(error.mend(), "leave CF out with its joints, or mark it: redundant: true");
   }
 }
 

@@ -1,0 +1,168 @@
+// Bounds of determined efforts, and redundant rods (docs/preload.md).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "clearloci/errors.hpp"
+#include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
+#include "clearloci/verify.hpp"
+#include "clearloci/zones.hpp"
+#include "tests/source_dir.hpp"
+
+namespace clearloci {
+namespace {
+
+std::string example_text(const std::string& name) {
+  std::ifstream file(source_dir() + "/examples/" + name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string changed_text(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// A slider on a rail that carries a force F(x) along it: the effort of its motor is -F(x), and nothing else is
+/// bounded.
+std::string slider_with(const std::string& actuated) {
+  return "format: 1\nname: slider\nspace: planar\nworkspace: {x: [-1, 1], y: [-1, 1]}\n"
+         "points:\n  A: [x, 0]\n  P: [x, y]\n"
+         "links:\n  block: {points: [A]}\n  tool: {points: [P]}\n"
+         "joints:\n  X: {prismatic: [ground, block], at: A, axis: [1, 0], actuated: " +
+         actuated +
+         "}\n  Y: {prismatic: [block, tool], at: P, axis: [0, 1], actuated: true}\n"
+         "end_effector: {link: tool, at: P}\nloads:\n  - {link: tool, at: P, force: [-10*(x + y), -3]}\n";
+}
+
+Verification judge(const Model& model, const std::string& task) {
+  return verify(model, parse_task("format: 1\n" + task, model), {.depth = VerifyDepth::verdict});
+}
+
+TEST(EffortBounds, AreKeptByTasksOfAKnownEffort) {
+  // The effort of X is 10 (x + y) N.
+  const Model model = Model::parse(slider_with("{within: [-4, 6]}"), "m.yaml");
+  EXPECT_EQ(judge(model, "box: {x: [0.1, 0.29], y: [0.1, 0.3]}\n").verdict, Verdict::verified);
+  const Verification over = judge(model, "box: {x: [0.1, 0.31], y: [0.1, 0.3]}\n");
+  EXPECT_EQ(over.verdict, Verdict::refuted);
+  ASSERT_TRUE(over.witness);
+  EXPECT_EQ(over.witness->kind, TaskWitness::Kind::beyond_bound);
+  EXPECT_EQ(over.witness->beyond_bound.front().joint, "X");
+  EXPECT_GE(*over.witness->size, 6);
+  EXPECT_NEAR(*over.witness->size, 10 * (over.witness->at[0] + over.witness->at[1]), 1e-9);
+  const Verification under = judge(model, "box: {x: [-0.25, -0.1], y: [-0.25, -0.1]}\n");
+  EXPECT_EQ(under.verdict, Verdict::refuted);
+  EXPECT_LE(*under.witness->size, -4);
+}
+
+TEST(EffortBounds, AreNotedByPoses) {
+  const Model model = Model::parse(slider_with("{within: [-4, 6]}"), "m.yaml");
+  EXPECT_THAT(solve_pose(model, {0.3, 0.4}).notes,
+              testing::Contains(testing::HasSubstr("F_X = 7 N is beyond its bounds")));
+  EXPECT_THAT(solve_pose(model, {0.1, 0.4}).notes, testing::Not(testing::Contains(testing::HasSubstr("beyond"))));
+}
+
+TEST(EffortBounds, EndTheZones) {
+  const Model model = Model::parse(slider_with("{within: [-4, 6]}"), "m.yaml");
+  const Zones map = find_zones(model, {});
+  ASSERT_FALSE(map.zones.empty());
+  double inside = 0;
+  for (const Zone& zone : map.zones) {
+    const double effort = 10 * (zone.sample[0] + zone.sample[1]);
+    EXPECT_GT(effort, -4);
+    EXPECT_LT(effort, 6);
+    inside += zone.at_least;
+  }
+  // Of the square of 4 m2 the strip -0.4 < x + y < 0.6.
+  const double strip = 4 - 1.6 * 1.6 / 2 - 1.4 * 1.4 / 2;
+  EXPECT_LE(inside, strip);
+  EXPECT_GT(inside, 0.95 * strip);
+}
+
+TEST(EffortBounds, EndTheRangesOfAFreeEffort) {
+  const std::string free = example_text("studies/antagonistic.yaml");
+  const Model plain = Model::parse(free, "m.yaml");
+  const Model bounded =
+      Model::parse(changed_text(free, "at: A1, actuated: true", "at: A1, actuated: {within: [-9, 9]}"), "m.yaml");
+  const std::vector<double> at = {0.05, 0.5};
+  const auto couple = [&](double effort) {
+    const Pose pose = solve_pose(plain.with({{"preload_B2", std::to_string(effort)}}), at);
+    for (const JointReaction& joint : pose.reactions)
+      for (const ReactionComponent& part : joint.components)
+        if (joint.joint == "A1" && part.quantity == Quantity::M) return part.value;
+    return std::nan("");
+  };
+  const FeasibleEfforts own = solve_pose(bounded, at).efforts.at(0);
+  ASSERT_FALSE(own.ranges.empty());
+  EXPECT_NEAR(std::abs(couple(own.ranges.front().from)), 9, 1e-6);
+  EXPECT_NEAR(std::abs(couple(own.ranges.back().to)), 9, 1e-6);
+}
+
+const JointReaction& joint_of(const Pose& pose, const std::string& name) {
+  for (const JointReaction& own : pose.reactions)
+    if (own.joint == name) return own;
+  throw std::out_of_range(name);
+}
+
+TEST(RedundantRods, BearTheForceThatIsGiven) {
+  const Model model = Model::parse(example_text("studies/redundant_rod.yaml"), "m.yaml");
+  for (const double degrees : {40.0, 75.0, 130.0})
+    for (const double pull : {-60.0, 25.0}) {
+      const double theta = degrees * std::numbers::pi / 180, c = std::cos(theta), s = std::sin(theta);
+      const Pose pose = solve_pose(model.with({{"preload_A3B3", std::to_string(pull)}}), {theta});
+      // The rod pulls its two ends towards each other: at B3 the coupler is pulled along -(c, s).
+      const auto force = [&](const std::string& joint) {
+        const auto& parts = joint_of(pose, joint).components;
+        return std::array<double, 2>{parts[0].value, parts[1].value};
+      };
+      EXPECT_NEAR(force("B3")[0], -pull * c, 1e-9);
+      EXPECT_NEAR(force("B3")[1], -pull * s, 1e-9);
+      // Moments of the coupler about B1: of the load at B2 = B1 + (0.4, 0), of rod 2 there along (c, s), of rod 3 at
+      // B1 + (0.8, 0.1).
+      const double moment = 0.4 * -50 + 0.8 * (-pull * s) - 0.1 * (-pull * c), second = -moment / (0.4 * s);
+      EXPECT_NEAR(force("B2")[0], second * c, 1e-7);
+      EXPECT_NEAR(force("B2")[1], second * s, 1e-7);
+    }
+}
+
+TEST(RedundantRods, AreFreeEffortsOfTasks) {
+  const Model model = Model::parse(example_text("studies/redundant_rod.yaml"), "m.yaml");
+  const Verification answer = judge(model, "box: {theta: [50 deg, 120 deg]}\nmin_force: 5\n");
+  EXPECT_EQ(answer.verdict, Verdict::verified);
+  ASSERT_TRUE(answer.preload && answer.preload->value);
+  EXPECT_EQ(answer.preload->joints.front(), "A3B3");
+}
+
+std::string problem_of(const std::string& text) {
+  try {
+    (void)Model::parse(text, "m.yaml");
+  } catch (const InputError& error) {
+    return error.problem() + "; " + error.mend();
+  }
+  return "none";
+}
+
+TEST(RedundantRods, AreNamedWhereTheyAreNotMarked) {
+  const std::string text = example_text("studies/redundant_rod.yaml");
+  const std::string plain = changed_text(text, ", redundant: {within: [-200, 200]}", "");
+  EXPECT_THAT(problem_of(plain),
+              testing::AllOf(testing::HasSubstr("A2B2, A3B3"), testing::HasSubstr("redundant: true")));
+  EXPECT_THAT(problem_of(changed_text(text, "coupler: {points: [B1, B2, B3]}",
+                                      "coupler: {points: [B1, B2, B3], redundant: true}")),
+              testing::HasSubstr("has not two points"));
+  // What is no rod more than the geometry needs leaves too few unknowns.
+  EXPECT_NE(problem_of(changed_text(plain, "A3B3: {points: [A3, B3]}", "A3B3: {points: [A3, B3], redundant: false}")),
+            "none");
+}
+
+}  // namespace
+}  // namespace clearloci
