@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -15,14 +13,10 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
-
-std::string example_text(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Model four_bar() { return Model::read(source_dir() + "/examples/four_bar.yaml"); }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <random>
 #include <set>
@@ -18,25 +17,12 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
 
-std::string text_of(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/" + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-const std::string antagonistic = text_of("studies/antagonistic.yaml");
+const std::string antagonistic = example_text("studies/antagonistic");
 
 Model given(const Model& model, const std::string& effort) { return model.with({{"preload_B2", effort}}); }
 

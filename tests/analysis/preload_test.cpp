@@ -2,33 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-
 #include "clearloci/errors.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/verify.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
 
-std::string text_of(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/" + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos) throw std::logic_error("the text has no " + from);
-  return text.replace(at, from.size(), to);
-}
-
-const std::string with_free_effort = text_of("studies/antagonistic.yaml");
+const std::string with_free_effort = example_text("studies/antagonistic");
 
 Model bounded(const std::string& within) {
   return Model::parse(replaced(with_free_effort, "effort: free", "effort: free, within: " + within), "m.yaml");
@@ -117,7 +101,7 @@ TEST(FreeEffort, SeveralAreChosenTogether) {
 }
 
 TEST(FreeEffort, IsFoundOverThreeCoordinates) {
-  const std::string text = text_of("studies/four_rrr.yaml");
+  const std::string text = example_text("studies/four_rrr");
   const std::string box = "format: 1\nbox: {x: [-0.02, 0.02], y: [-0.02, 0.02], phi: [-2 deg, 2 deg]}\n";
   const Model model = Model::parse(text, "m.yaml");
   const Verification answer = verify(model, parse_task(box, model), {.depth = VerifyDepth::verdict});

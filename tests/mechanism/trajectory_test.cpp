@@ -5,6 +5,7 @@
 
 #include "mechanism/read.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -30,12 +31,6 @@ const Mechanism& five_bar() {
 }
 
 Trajectory parse(const std::string& text) { return parse_trajectory(text, "path.yaml", five_bar()); }
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return text.replace(at, what.size(), by);
-}
 
 TEST(Trajectory, IsReadExactly) {
   const Trajectory t = parse(good);

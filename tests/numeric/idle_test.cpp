@@ -3,29 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "mechanism/frame.hpp"
 #include "mechanism/read.hpp"
 #include "tests/numeric/solved.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci::mechanism {
 namespace {
-
-std::string text_of(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 const numeric::JointReaction& reaction(const Mechanism& m, const test::Solved& posture, const std::string& joint) {
   for (std::size_t j = 0; j < m.joints.size(); ++j)
@@ -35,8 +19,8 @@ const numeric::JointReaction& reaction(const Mechanism& m, const test::Solved& p
 
 /// The two rods of a parallelogram together are the forearm of a 3-RUU.
 TEST(IdleFreedoms, OfADeltaLeaveTheForcesOfA3Ruu) {
-  const Mechanism delta = parse_mechanism(text_of("delta"), "delta.yaml");
-  const Mechanism ruu = parse_mechanism(text_of("three_ruu"), "three_ruu.yaml");
+  const Mechanism delta = parse_mechanism(example_text("delta"), "delta.yaml");
+  const Mechanism ruu = parse_mechanism(example_text("three_ruu"), "three_ruu.yaml");
   for (const std::vector<double>& pose :
        {std::vector<double>{0.05, 0.02, -0.65}, {-0.1, 0.07, -0.7}, {0, 0, -0.6}, {0.12, -0.1, -0.68}}) {
     const test::Solved a = test::solved(delta, pose), b = test::solved(ruu, pose);
@@ -61,7 +45,7 @@ TEST(IdleFreedoms, OfADeltaLeaveTheForcesOfA3Ruu) {
 
 /// A Stewart platform whose struts stand on balls at both ends.
 TEST(IdleFreedoms, OfStrutsOnBallsLeaveTheForcesOfUniversalJoints) {
-  const std::string ups = text_of("gough_stewart");
+  const std::string ups = example_text("gough_stewart");
   std::string sps = ups;
   for (const std::string i : {"1", "2", "3", "4", "5", "6"}) {
     const auto begin = sps.find("U" + i + ": {universal"), end = sps.find('\n', begin);
@@ -78,7 +62,7 @@ TEST(IdleFreedoms, OfStrutsOnBallsLeaveTheForcesOfUniversalJoints) {
 }
 
 TEST(IdleFreedoms, AreRefusedWhereSomethingTurnsThem) {
-  const std::string text = text_of("delta");
+  const std::string text = example_text("delta");
   const auto complaint = [](const std::string& changed) {
     try {
       parse_mechanism(changed, "delta.yaml");

@@ -4,35 +4,20 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <fstream>
 #include <random>
 #include <set>
-#include <sstream>
 
 #include "mechanism/read.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/locus_problem.hpp"
 #include "tests/numeric/solved.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 using core::Quantity;
 using mechanism::Mechanism;
-
-std::string example_text(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/" + name + ".yaml");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from;
-  return text.replace(place, from.size(), to);
-}
 
 Mechanism parsed(const std::string& text) { return mechanism::parse_mechanism(text, "spatial.yaml"); }
 
