@@ -193,10 +193,11 @@ class Carrying {
         if (singular < 0) continue;
         factors.push_back(singular);
       }
-      if (const auto moved = target.sheet->moved(*inside, factors, held, true)) {
-        const Place place = target.sheet->outside(*moved);
-        return Point2{place[0], place[1]};
-      }
+      auto moved = target.sheet->moved(*inside, factors, held);
+      if (!moved) moved = target.sheet->pole_near(*inside);
+      if (!moved) continue;
+      const Place place = target.sheet->outside(*moved);
+      return Point2{place[0], place[1]};
     }
     return std::nullopt;
   }

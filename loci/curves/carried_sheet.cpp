@@ -18,6 +18,8 @@ namespace {
 
 /// What lies beyond a seam of charts or a side of the box by this part of its size lies on it.
 constexpr double on_seam = 1e-9;
+/// In parts of the box: by more a pole does not move while a hand drags.
+constexpr double farthest_pole = 0.03;
 /// Of a chart's t: a place that is so far beyond its seam may come back into it.
 constexpr double farthest_in_chart = 1 + sheet::SheetNewton::farthest;
 
@@ -91,15 +93,14 @@ sheet::SheetNewton& CarriedSheet::newton_for(const std::vector<int>& factors) {
   return *known;
 }
 
-std::optional<Place> CarriedSheet::moved(Place place, const std::vector<int>& factors, std::span<const Held> held,
-                                         bool end) {
+std::optional<Place> CarriedSheet::moved(Place place, const std::vector<int>& factors, std::span<const Held> held) {
   sheet::SheetNewton& newton = newton_for(factors);
   if (!newton.move(place, held)) return std::nullopt;
   for (std::size_t v = 0; v < place.size(); ++v) {
     const double beyond = on_seam * sizes_[v];
     if (!(place[v] >= lower_[v] - beyond && place[v] <= upper_[v] + beyond)) return std::nullopt;
   }
-  if (!newton.is_on_sheet(place, !end)) return std::nullopt;
+  if (!newton.is_on_sheet(place)) return std::nullopt;
   return place;
 }
 
@@ -107,6 +108,35 @@ std::optional<CarriedSheet::Held> CarriedSheet::rim_near(const Place& place, int
   const int root = newton_for({factor}).nearest_root(place).root;
   if (root < 0) return std::nullopt;
   return Held{static_cast<int>(place.size()) + root, 0};
+}
+
+std::optional<Place> CarriedSheet::pole_near(const Place& place) {
+  if (!poles_known_) {
+    poles_known_ = true;
+    const int n = static_cast<int>(lower_.size());
+    core::RootTower plane;
+    plane.coordinates = problem_->tower.coordinates;
+    for (const core::Polynomial& denominator : problem_->tower.denominators) {
+      std::vector<sheet::SheetFunction> slopes;
+      bool fixed = true;
+      for (int v = 0; v < denominator.variables; ++v) fixed = fixed && (v < n || !core::depends_on(denominator, v));
+      for (int v = 0; v < n && fixed; ++v)
+        slopes.push_back({core::with_variables(core::derivative(denominator, v), n)});
+      if (fixed) poles_.push_back(std::make_unique<sheet::SheetNewton>(plane, core::WorkingMode{}, slopes, sizes_));
+    }
+  }
+  std::optional<Place> nearest;
+  double least = farthest_pole * farthest_pole;
+  for (const auto& pole : poles_) {
+    Place at = place;
+    if (!pole->move(at)) continue;
+    double distance = 0;
+    for (std::size_t v = 0; v < at.size(); ++v) distance += std::pow((at[v] - place[v]) / sizes_[v], 2);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = std::move(at);
+  }
+  return nearest;
 }
 
 CarriedSheet::Held CarriedSheet::side_near(const Place& place) const {

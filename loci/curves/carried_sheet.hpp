@@ -41,9 +41,11 @@ class CarriedSheet {
   int factor_of(const LocusName& name, const std::vector<Place>& places);
 
   /// Where the factors vanish together near a place of the chart; nothing where it is not in the box and on the sheet.
-  /// `end`: it may be on the rim.
-  std::optional<Place> moved(Place place, const std::vector<int>& factors, std::span<const Held> held = {},
-                             bool end = false);
+  std::optional<Place> moved(Place place, const std::vector<int>& factors, std::span<const Held> held = {});
+
+  /// The place nearest to one of the chart where a squared distance that the construction divides by is least, which is
+  /// where it vanishes, of those that hold no roots; nothing where none is near. Factors have no gradient there.
+  std::optional<Place> pole_near(const Place& place);
 
   /// What a place of the chart is held to at the rim of the sheet or the side of the box that is nearest to it.
   std::optional<Held> rim_near(const Place& place, int factor);
@@ -58,6 +60,8 @@ class CarriedSheet {
   core::WorkingMode mode_;
   std::vector<double> lower_, upper_, sizes_;
   std::map<std::vector<int>, std::unique_ptr<sheet::SheetNewton>> newtons_;  ///< by factors
+  std::vector<std::unique_ptr<sheet::SheetNewton>> poles_;                   ///< by denominator
+  bool poles_known_ = false;
 };
 
 }  // namespace clearloci::loci

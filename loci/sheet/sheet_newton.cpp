@@ -16,7 +16,7 @@ constexpr double newton_converged = 1e-12;
 constexpr double newton_accepted = 1e-10;
 /// Of an equation that is a sum of others, to rounding.
 constexpr double dependent = 1e-13;
-/// A root of a function's that is smaller, in parts of its size, may be that of the other sheet.
+/// Roots of the other sign that are larger than this, in parts of their size, are those of another sheet.
 constexpr double clear_of_rim = 1e-9;
 
 }  // namespace
@@ -175,14 +175,13 @@ bool SheetNewton::move(std::span<double> place, std::span<const Held> held) {
   return false;
 }
 
-bool SheetNewton::is_on_sheet(std::span<const double> place, bool inside) {
+bool SheetNewton::is_on_sheet(std::span<const double> place) {
   const int n = program_.coordinates();
-  if (inside)
-    for (int j = 0; j < program_.roots(); ++j) {
-      if (!needed_[static_cast<std::size_t>(j)]) continue;
-      const auto own = static_cast<std::size_t>(n + j);
-      if (!(mode_[static_cast<std::size_t>(j)] * point_[own] > clear_of_rim * sizes_[own])) return false;
-    }
+  for (int j = 0; j < program_.roots(); ++j) {
+    if (!needed_[static_cast<std::size_t>(j)]) continue;
+    const auto own = static_cast<std::size_t>(n + j);
+    if (!(mode_[static_cast<std::size_t>(j)] * point_[own] >= -clear_of_rim * sizes_[own])) return false;
+  }
   lift(place);
   registers_.run_values();
   registers_.run_gradients();

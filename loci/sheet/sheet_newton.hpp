@@ -27,9 +27,8 @@ class SheetNewton {
   /// anywhere: no convergence to rounding, or one farther away than `farthest` of the sizes.
   bool move(std::span<double> place, std::span<const Held> held = {});
 
-  /// After a move that succeeded: whether the place is on the sheet of the mode or on its rim. `inside`: and the roots
-  /// of the functions are clear of 0.
-  bool is_on_sheet(std::span<const double> place, bool inside);
+  /// After a move that succeeded: whether the place is on the sheet of the mode or on its rim.
+  bool is_on_sheet(std::span<const double> place);
 
   /// Of the first function from the place, to first order, in parts of the sizes; infinite where it is not known.
   double distance(std::span<const double> place);
