@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/carried.hpp"
 #include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/loci_by_cells.hpp"
@@ -55,18 +56,6 @@ void check_mode_count(std::size_t dyads) {
         {.file = "--working-mode"},
         "all working modes of " + std::to_string(dyads) + " dyads are more than " + std::to_string(1U << most),
         "name one at a time");
-}
-
-/// The coordinates of the mechanism in place of those of the charts.
-void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map) {
-  map.tower.coordinates.clear();
-  map.lower.clear();
-  map.upper.clear();
-  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
-    map.tower.coordinates.push_back(coordinate.name);
-    map.lower.push_back(coordinate.lower);
-    map.upper.push_back(coordinate.upper);
-  }
 }
 
 /// Surfaces of one choice of sheets in every piece of the coordinates' ranges: the sheets of a piece need not be those
@@ -224,20 +213,16 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
   try {
     if (request.progress) request.progress(0, "equations");
     check_deadline();
-    symbolic::Selection selection = selection_of(request);
-    selection.working_modes = sides_to_trace(mechanism, request);
-    std::vector<symbolic::DerivedProblem> derived = means.family != nullptr
-                                                        ? means.family->problems(mechanism, selection)
-                                                        : symbolic::locus_problems(mechanism, selection);
+    std::vector<symbolic::DerivedProblem> derived = derived_problems(mechanism, request, means.family);
     for (symbolic::DerivedProblem& one : derived) {
       symbolic += one.symbolic_seconds;
       elimination += one.elimination_seconds;
-      one.problem.tolerance = one.problem.charts.empty() ? request.tolerance : loci::chart_tolerance(request.tolerance);
     }
+    if (means.derived) means.derived(derived);
 
     start = Clock::now();
     check_deadline();
-    map = trace_pieces(mechanism, request, derived, selection.working_modes, traced.sheets, means, effort);
+    map = trace_pieces(mechanism, request, derived, sides_to_trace(mechanism, request), traced.sheets, means, effort);
     tracing = seconds_since(start);
     if (means.certificate != nullptr) {
       auto& factors = means.certificate->problem.factors;
@@ -285,6 +270,29 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
 }
 
 }  // namespace
+
+void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map) {
+  map.tower.coordinates.clear();
+  map.lower.clear();
+  map.upper.clear();
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
+    map.tower.coordinates.push_back(coordinate.name);
+    map.lower.push_back(coordinate.lower);
+    map.upper.push_back(coordinate.upper);
+  }
+}
+
+std::vector<symbolic::DerivedProblem> derived_problems(const mechanism::Mechanism& mechanism,
+                                                       const LociRequest& request,
+                                                       const symbolic::LocusFamily* family) {
+  symbolic::Selection selection = selection_of(request);
+  selection.working_modes = sides_to_trace(mechanism, request);
+  std::vector<symbolic::DerivedProblem> derived =
+      family != nullptr ? family->problems(mechanism, selection) : symbolic::locus_problems(mechanism, selection);
+  for (symbolic::DerivedProblem& one : derived)
+    one.problem.tolerance = one.problem.charts.empty() ? request.tolerance : loci::chart_tolerance(request.tolerance);
+  return derived;
+}
 
 void check_sides(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   const std::size_t dyads = mechanism::dyad_points(mechanism).size();
@@ -387,8 +395,13 @@ core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociR
   }
   if (!mechanism.groups.empty()) return loci_by_cells(mechanism, request);
   const std::optional<Framed> own = framed(mechanism);
-  core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), means).map
-                           : trace_member(mechanism, request, means).map;
+  TraceMeans used = means;
+  if (request.last && request.carried)
+    used.derived = [&](const std::vector<symbolic::DerivedProblem>& derived) {
+      request.carried(carried_loci(*request.last, mechanism, own, derived));
+    };
+  core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), used).map
+                           : trace_member(mechanism, request, used).map;
   if (mechanism::has_effort_bounds(mechanism))
     map.notes.emplace_back("bounds of efforts are no loci: pose, verify and zones keep to them");
   if (means.certificate != nullptr) certify(map, own, *means.certificate);

@@ -48,11 +48,13 @@ struct TracedProblem {
 /// A sketch is for pictures and names, where something else proves what counts (loci::TraceOptions::sketch).
 enum class TraceEffort { full, sketch };
 /// What else there may be, each null where there is none: a certificate to fill in, what was found for another
-/// tolerance (loci::TraceOptions), the family that the mechanism is a member of.
+/// tolerance (loci::TraceOptions), the family that the mechanism is a member of, who wants to know the problems.
 struct TraceMeans {
   core::Certificate* certificate = nullptr;
   loci::sheet::KnownSearches* known = nullptr;
   const symbolic::LocusFamily* family = nullptr;
+  /// Told of the problems before they are traced; may be empty.
+  std::function<void(const std::vector<symbolic::DerivedProblem>&)> derived = {};
 };
 TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociRequest& request = {},
                             const TraceMeans& means = {}, TraceEffort effort = TraceEffort::full);
@@ -60,6 +62,14 @@ TracedProblem trace_problem(const mechanism::Mechanism& mechanism, const LociReq
 /// The same for a member of a family of designs, whose equations are derived already.
 core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::LocusFamily& family,
                           const LociRequest& request = {});
+
+/// What a request traces, in the coordinates of the mechanism. `family`: may be null.
+std::vector<symbolic::DerivedProblem> derived_problems(const mechanism::Mechanism& mechanism,
+                                                       const LociRequest& request,
+                                                       const symbolic::LocusFamily* family = nullptr);
+
+/// The coordinates of the mechanism in place of those of the charts.
+void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map);
 
 /// Throws core::InputError, saying what has no meaning here, where the number of free coordinates is another.
 void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t least, std::size_t most,

@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -253,11 +254,24 @@ struct LociRequest {
   Engine engine = Engine::adaptive_then_exact;
   std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< then: what is known, complete = false
   std::function<void(double fraction, std::string_view stage)> progress = {};  ///< may be empty
+  /// The loci of another design of the mechanism, and who is told of them as carry_loci carries them over to this one,
+  /// before anything is proven. Nobody where either is empty; trace_loci alone.
+  std::shared_ptr<const LocusMap> last = {};
+  std::function<void(LocusMap carried)> carried = {};
 };
 
 /// The loci, every curve with its implicit polynomial, what vanishes on it and why, and its arcs in the box.
 /// Throws InputError where the mechanism has no loci to speak of: a system that is not square, a determinant that
 /// vanishes in every pose, an unknown joint, a working mode of the wrong length.
 LocusMap trace_loci(const Model& model, const LociRequest& request = {});
+
+/// The loci of another design of the mechanism, moved vertex by vertex to those of this one by Newton's method: a first
+/// answer, quick and without any proof (`certified` and `complete` are false). Loci keep their order and ids; those
+/// that are new are absent, and arcs are cut where they are lost. Over one to three coordinates; of mechanisms with
+/// points that close together no loci. Of the request, what trace_loci was asked for `last`. Throws as trace_loci does.
+///
+///     const clearloci::Model longer = model.with({{"L", "0.51"}});
+///     const clearloci::LocusMap first = clearloci::carry_loci(clearloci::trace_loci(model), longer);
+LocusMap carry_loci(const LocusMap& last, const Model& model, const LociRequest& request = {});
 
 }  // namespace clearloci

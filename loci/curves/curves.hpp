@@ -4,6 +4,7 @@
 #pragma once
 
 #include "loci/curves/adaptive_engine.hpp"
+#include "loci/curves/carried_loci.hpp"
 #include "loci/curves/chart_maps.hpp"
 #include "loci/curves/curve_arrangement.hpp"
 #include "loci/curves/curve_projection.hpp"

@@ -18,6 +18,7 @@
 #include "loci/sheet/rim_cell.hpp"
 #include "loci/sheet/sheet_cell.hpp"
 #include "loci/sheet/sheet_follower.hpp"
+#include "loci/sheet/sheet_newton.hpp"
 #include "loci/sheet/smooth_cell.hpp"
 #include "loci/sheet/star.hpp"
 #include "loci/sheet/subtower.hpp"

@@ -80,6 +80,86 @@ TEST_F(TheServer, ListensOnThisMachineAlone) {
   EXPECT_FALSE(elsewhere.Get("/"));
 }
 
+/// The example with another length.
+Json longer_five_bar(const std::string& length) {
+  Json body = five_bar();
+  std::string text = body["text"];
+  const std::string own = "L: 0.5 ";
+  text.replace(text.find(own), own.size(), "L: " + length + " ");
+  body["text"] = text;
+  body["parts"] = body["quiet"] = true;
+  return body;
+}
+
+TEST_F(TheServer, AnswersFirstWhereTheLociGoAndThenWhatIsProven) {
+  const auto asked = server->ask("loci", longer_five_bar("0.5"));
+  EXPECT_EQ(asked->get_header_value("Content-Type"), "application/json") << "there is nothing to begin with";
+  Json body = longer_five_bar("0.51");
+  body["last"] = Json::parse(asked->body)["name"];
+  const auto answer = server->ask("loci", body);
+  ASSERT_EQ(answer->status, 200);
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "application/x-ndjson");
+  const std::size_t end = answer->body.find('\n');
+  ASSERT_NE(end, std::string::npos);
+  const Json first = Json::parse(answer->body.substr(0, end))["carried"],
+             rest = Json::parse(answer->body.substr(end + 1));
+  EXPECT_FALSE(first["loci"]["complete"]);
+  EXPECT_TRUE(rest["loci"]["complete"]);
+  EXPECT_FALSE(first["curve_groups"].empty());
+  EXPECT_LE(first["seconds"], rest["seconds"]);
+  EXPECT_NE(first["name"], rest["name"]);
+  ASSERT_EQ(first["loci"]["curves"].size(), Json::parse(asked->body)["loci"]["curves"].size());
+  for (const Json& curve : first["loci"]["curves"]) {
+    EXPECT_FALSE(curve["certified"]);
+    EXPECT_FALSE(curve["arcs"].empty()) << curve["id"];
+  }
+  const Json expected = Json::parse(to_json(trace_loci(Model::parse(std::string(body["text"])))));
+  ASSERT_EQ(rest["loci"]["curves"].size(), expected["curves"].size());
+  for (std::size_t k = 0; k < expected["curves"].size(); ++k)
+    EXPECT_EQ(rest["loci"]["curves"][k]["implicit"], expected["curves"][k]["implicit"]);
+}
+
+TEST_F(TheServer, SendsTheFirstPartAheadOfTheRest) {
+  Json body = longer_five_bar("0.5");
+  const Json last = Json::parse(server->ask("loci", body)->body);
+  body = longer_five_bar("0.505");
+  body["last"] = last["name"];
+  std::vector<std::string> received;
+  httplib::Request request;
+  request.method = "POST";
+  request.path = server->path("api/loci");
+  request.set_header("Content-Type", "application/json");
+  request.body = body.dump();
+  request.content_receiver = [&](const char* data, std::size_t length, std::uint64_t, std::uint64_t) {
+    received.emplace_back(data, length);
+    return true;
+  };
+  httplib::Client client = server->client();
+  ASSERT_EQ(client.send(request)->status, 200);
+  ASSERT_GE(received.size(), 2u) << "in chunks";
+  // The connection is as good as new.
+  EXPECT_EQ(client.Post(server->path("api/model"), five_bar().dump(), "application/json")->status, 200);
+}
+
+TEST_F(TheServer, BeginsWithNothingThatItDoesNotKnow) {
+  for (const char* last : {"", "0", "999999", "nonsense"}) {
+    Json body = longer_five_bar("0.49");
+    body["last"] = last;
+    const auto answer = server->ask("loci", body);
+    EXPECT_EQ(answer->get_header_value("Content-Type"), "application/json") << last;
+    EXPECT_TRUE(Json::parse(answer->body)["loci"]["complete"]);
+  }
+  // Another mechanism's loci are carried nowhere.
+  Json body = longer_five_bar("0.5");
+  const Json name = Json::parse(server->ask("loci", body)->body)["name"];
+  body["text"] = example("four_bar.yaml");
+  body["last"] = name;
+  const auto answer = server->ask("loci", body);
+  EXPECT_EQ(answer->status, 200);
+  const Json rest = Json::parse(answer->body.substr(answer->body.find('\n') + 1));
+  EXPECT_EQ(rest["loci"]["coordinates"].size(), 1u);
+}
+
 TEST_F(TheServer, SaysOfLociWhatTheLibrarySays) {
   const auto answer = Json::parse(server->ask("loci", five_bar())->body);
   const Json expected = Json::parse(to_json(trace_loci(Model::parse(example("five_bar.yaml")))));

@@ -12,6 +12,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <list>
+#include <sstream>
 #include <utility>
 
 namespace clearloci::workbench {
@@ -93,7 +94,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void greet();
   void read_body();
   void ask();
+  void send_ahead(const std::string& type, const std::string& part);
   void answer(HttpAnswer given, bool keep);
+  void send_rest();
   void begin_events();
   void send_events();
   void next_events();
@@ -118,6 +121,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::request_parser<http::string_body>> parser_;
   std::optional<std::list<std::weak_ptr<Connection>>::iterator> place_;
   HttpHead head_;
+  enum class Ahead { nothing, being_sent, sent } ahead_ = Ahead::nothing;
+  std::optional<HttpAnswer> rest_;  ///< what follows the part that was sent ahead
   std::function<std::optional<std::string>()> events_;
   std::chrono::steady_clock::time_point told_;
   std::string sending_;
@@ -179,14 +184,62 @@ void Connection::read_body() {
 void Connection::ask() {
   stream_.expires_never();
   asio::post(threads_, [self = shared_from_this()]() mutable {
-    auto given = std::make_shared<HttpAnswer>(self->doorway_.service.ask(self->head_, self->parser_->get().body()));
     const auto thread = self->stream_.get_executor();  // to which this connection, and its end, belong
+    const SendAhead ahead = [&self, &thread](const std::string& type, std::string part) {
+      asio::post(thread, [self, type, part = std::move(part)] { self->send_ahead(type, part); });
+    };
+    auto given =
+        std::make_shared<HttpAnswer>(self->doorway_.service.ask(self->head_, self->parser_->get().body(), ahead));
     asio::post(thread,
                [self = std::move(self), given] { self->answer(std::move(*given), self->parser_->get().keep_alive()); });
   });
 }
 
+std::string chunk(const std::string& part) {
+  if (part.empty()) return {};
+  std::ostringstream size;
+  size << std::hex << part.size();
+  return size.str() + "\r\n" + part + "\r\n";
+}
+
+void Connection::send_ahead(const std::string& type, const std::string& part) {
+  if (ahead_ != Ahead::nothing) return;
+  http::response<http::empty_body> response(http::status::ok, 11);
+  add_common_fields(response);
+  response.set(http::field::content_type, type);
+  response.keep_alive(parser_->get().keep_alive());
+  response.chunked(true);
+  std::ostringstream head;
+  head << response.base();
+  sending_ = head.str() + chunk(part);
+  ahead_ = Ahead::being_sent;
+  stream_.expires_after(doorway_.limits.transfer);
+  asio::async_write(stream_, asio::buffer(sending_), then([](Connection& self, Error error) {
+                      if (error) return self.close();
+                      self.stream_.expires_never();
+                      self.ahead_ = Ahead::sent;
+                      if (self.rest_) self.send_rest();
+                    }));
+}
+
+void Connection::send_rest() {
+  sending_ = chunk(rest_->body) + "0\r\n\r\n";
+  rest_.reset();
+  ahead_ = Ahead::nothing;
+  stream_.expires_after(doorway_.limits.transfer);
+  asio::async_write(stream_, asio::buffer(sending_), then([](Connection& self, Error error) {
+                      if (error) return self.close();
+                      if (self.parser_->get().keep_alive()) return self.read_head();
+                      self.drain();
+                    }));
+}
+
 void Connection::answer(HttpAnswer given, bool keep) {
+  if (ahead_ != Ahead::nothing) {
+    rest_ = std::move(given);
+    if (ahead_ == Ahead::sent) send_rest();
+    return;
+  }
   const bool stream = static_cast<bool>(given.events);
   auto response =
       std::make_shared<http::response<http::string_body>>(http::int_to_status(static_cast<unsigned>(given.status)), 11);

@@ -26,11 +26,15 @@ struct HttpAnswer {
   std::function<std::optional<std::string>()> events;
 };
 
+/// Sends a part of the body ahead of the rest, which then comes in chunks, with status 200 and this type. Once: later
+/// parts are dropped.
+using SendAhead = std::function<void(const std::string& type, std::string part)>;
+
 struct HttpService {
   /// Looks at the head alone. Nothing: the body is to be read and asked. Called on the one thread: may not wait.
   std::function<std::optional<HttpAnswer>(const HttpHead&)> greet;
   /// Answers what was let in. Called on any of several threads; throws nothing.
-  std::function<HttpAnswer(const HttpHead&, const std::string& body)> ask;
+  std::function<HttpAnswer(const HttpHead&, const std::string& body, const SendAhead& ahead)> ask;
   /// In the page's words, of what is no request: 400, 411, 413, 431.
   std::function<HttpAnswer(int status)> refuse;
 };

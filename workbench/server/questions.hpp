@@ -1,5 +1,5 @@
 // What a page may ask, and the answers as JSON: the questions of include/clearloci, each in one request that carries
-// the whole mechanism, so that the server keeps nothing between them.
+// the whole mechanism. Between them the server keeps nothing but the loci of the last answers, to begin the next with.
 #pragma once
 
 #include <chrono>
@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "workbench/server/answered_loci.hpp"
 #include "workbench/server/requests.hpp"
 
 namespace clearloci::workbench {
@@ -16,6 +17,12 @@ struct Watch {
   std::chrono::steady_clock::time_point deadline;
   std::function<bool()> abandoned;
   std::function<void(double fraction, std::string_view stage)> progress;
+  /// Where the page takes answers in parts: sends one ahead of the rest, and keeps loci for the next answer.
+  std::function<void(const Json& part)> ahead = {};
+  AnsweredLoci* answered = nullptr;  ///< null: nothing is kept or sent ahead
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();
+
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(); }
 };
 
 using Question = Json (*)(const Json& body, const Watch& watch);

@@ -56,10 +56,25 @@ Verification verification(const Fields& fields, const Watch& watch) {
 
 }  // namespace
 
+/// `last`: the name of the loci that the page shows. A first part of the answer is where they go.
 Json answer_loci(const Json& body, const Watch& watch) {
   const Fields fields(body);
   const Model model = model_of(fields);
-  return loci_json(trace_loci(model, watched(loci_request(fields, model), watch)));
+  LociRequest request = watched(loci_request(fields, model), watch);
+  const auto kept = [&watch](LocusMap map) {
+    Json picture = loci_json(map);
+    if (watch.answered != nullptr) picture["name"] = watch.answered->keep(std::move(map));
+    return picture;
+  };
+  if (watch.answered != nullptr) {
+    request.last = watch.answered->find(fields.text("last", ""));
+    request.carried = [&](LocusMap map) {
+      Json picture = kept(std::move(map));
+      picture["seconds"] = watch.seconds();
+      watch.ahead({{"carried", std::move(picture)}});
+    };
+  }
+  return kept(trace_loci(model, request));
 }
 
 Json answer_zones(const Json& body, const Watch& watch) {

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <system_error>
 
 #include "clearloci/errors.hpp"
+#include "workbench/server/answered_loci.hpp"
 #include "workbench/server/assets.hpp"
 #include "workbench/server/http.hpp"
 #include "workbench/server/lanes.hpp"
@@ -39,11 +41,10 @@ std::string_view type_of(std::string_view path) {
   return "image/svg+xml";
 }
 
+std::string written(const Json& body) { return body.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 HttpAnswer json_answer(int status, const Json& body) {
-  return {.status = status,
-          .type = "application/json",
-          .body = body.dump(-1, ' ', false, Json::error_handler_t::replace),
-          .events = {}};
+  return {.status = status, .type = "application/json", .body = written(body), .events = {}};
 }
 
 HttpAnswer refusal(int status, const std::string& sentence) { return json_answer(status, {{"error", sentence}}); }
@@ -109,6 +110,7 @@ struct Server::Parts {
   std::atomic<bool> stopping = false;
   Lanes lanes;
   ProgressBoard progress;
+  AnsweredLoci answered;
   std::unique_ptr<HttpServer> http;  // its threads end before what they use
 
   int port() const { return http->port(); }
@@ -117,8 +119,8 @@ struct Server::Parts {
   std::optional<HttpAnswer> greet(const HttpHead& head);
   HttpAnswer page(const std::string& path, const std::string& query);
   HttpAnswer follow_progress(const std::string& client);
-  HttpAnswer ask(const HttpHead& head, const std::string& body);
-  HttpAnswer answer_question(const std::string& name, const Json& body);
+  HttpAnswer ask(const HttpHead& head, const std::string& body, const SendAhead& ahead);
+  HttpAnswer answer_question(const std::string& name, const Json& body, const std::function<void(const Json&)>& ahead);
 };
 
 /// Another origin's page can make the browser send requests here, and a name of its own can lead to 127.0.0.1.
@@ -177,7 +179,8 @@ std::optional<HttpAnswer> Server::Parts::greet(const HttpHead& head) {
   }
 }
 
-HttpAnswer Server::Parts::answer_question(const std::string& name, const Json& body) {
+HttpAnswer Server::Parts::answer_question(const std::string& name, const Json& body,
+                                          const std::function<void(const Json&)>& ahead) {
   const Question question = question_named(name);
   const auto begun = std::chrono::steady_clock::now();
   const Fields fields(body);
@@ -192,20 +195,24 @@ HttpAnswer Server::Parts::answer_question(const std::string& name, const Json& b
                         [&, begun](double fraction, std::string_view stage) {
                           if (std::chrono::steady_clock::now() - begun > quick)
                             progress.tell(client, lane, fraction, stage);
-                        }};
+                        },
+                    .ahead = ahead,
+                    .answered = ahead ? &answered : nullptr,
+                    .begun = begun};
   try {
     Json answer = question(body, watch);
     if (turn->abandoned()) throw Refusal(409, "a newer request has taken the place of this one");
-    answer["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    answer["seconds"] = watch.seconds();
     return json_answer(200, answer);
   } catch (const LimitReached& limit) {
     throw Refusal(turn->abandoned() ? 409 : 422, limit.what());
   }
 }
 
-HttpAnswer Server::Parts::ask(const HttpHead& head, const std::string& body) {
+/// `parts`: the page takes an answer in lines, of which the first may come ahead of the last.
+HttpAnswer Server::Parts::ask(const HttpHead& head, const std::string& body, const SendAhead& ahead) {
   const MemoryGivenBack afterwards;
-  bool quiet = false;
+  bool quiet = false, begun = false;
   const auto refused = [&quiet](int status, Json why) {
     if (!quiet) return json_answer(status, why);
     why["refused"] = status;
@@ -216,7 +223,13 @@ HttpAnswer Server::Parts::ask(const HttpHead& head, const std::string& body) {
     const std::size_t mark = std::min(path.find('?'), path.size());
     const Json question = parse_body(body);
     quiet = Fields(question).flag("quiet");
-    return answer_question(path.substr(questions.size(), mark - questions.size()), question);
+    std::function<void(const Json&)> send;
+    if (Fields(question).flag("parts"))
+      send = [&](const Json& part) {
+        quiet = begun = true;  // the status is 200 from now on
+        ahead("application/x-ndjson", written(part) + "\n");
+      };
+    return answer_question(path.substr(questions.size(), mark - questions.size()), question, send);
   } catch (const Refusal& refusal) {
     return refused(refusal.status(), {{"error", refusal.what()}});
   } catch (const InputError& error) {
@@ -224,7 +237,8 @@ HttpAnswer Server::Parts::ask(const HttpHead& head, const std::string& body) {
   } catch (const std::bad_alloc&) {
     return refused(422, {{"error", "this is more than there is memory for; ask for less"}});
   } catch (const std::exception& error) {
-    return refusal(500, fmt::format("internal error: {}; please report it with the mechanism file", error.what()));
+    const std::string words = fmt::format("internal error: {}; please report it with the mechanism file", error.what());
+    return begun ? refused(500, {{"error", words}}) : refusal(500, words);
   }
 }
 
@@ -235,7 +249,8 @@ Server::Server(ServerOptions options) : parts_(std::make_unique<Parts>()) {
     parts.http = std::make_unique<HttpServer>(
         parts.options.port,
         HttpService{.greet = [&parts](const HttpHead& head) { return parts.greet(head); },
-                    .ask = [&parts](const HttpHead& head, const std::string& body) { return parts.ask(head, body); },
+                    .ask = [&parts](const HttpHead& head, const std::string& body,
+                                    const SendAhead& ahead) { return parts.ask(head, body, ahead); },
                     .refuse = refused_request});
   } catch (const std::system_error&) {
     throw InputError({.file = "--port"}, "the port cannot be listened on", "leave --port out, and a free one is taken");

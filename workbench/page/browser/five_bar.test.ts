@@ -1,6 +1,7 @@
 // The 5R on the page, as a designer uses it.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import { drag, exact, onPage, pose, rest, shot, source, type } from "./program";
 import { difference, session } from "./session";
@@ -94,6 +95,73 @@ describe("the hand", () => {
     expect((after[1] ?? 0) - (before[1] ?? 0)).toBeCloseTo(0.002, 6);
     await page.keyboard.press("+");
     await page.keyboard.press("0");
+  });
+});
+
+interface Seen {
+  loci: string;
+  legend: string;
+  ink: number;
+}
+
+/** What is seen with each answer while a slider moves, with a proof that takes a while: the legend's words, and how much ink there is. */
+async function seenWhile(page: Page, move: () => Promise<void>): Promise<Seen[]> {
+  await page.evaluate(() => {
+    const fetched = window.fetch.bind(window);
+    window.fetch = async (...question) => {
+      const answer = await fetched(...question);
+      if (question[0] !== "api/loci") return answer;
+      const lines = (await answer.text()).split("\n");
+      const slow = new ReadableStream({
+        async start(stream): Promise<void> {
+          for (const [k, line] of lines.entries()) {
+            if (k > 0) await new Promise((then) => setTimeout(then, 300));
+            stream.enqueue(new TextEncoder().encode(line + (k + 1 < lines.length ? "\n" : "")));
+          }
+          stream.close();
+        },
+      });
+      return new Response(slow, { status: answer.status, headers: answer.headers });
+    };
+    const seen: Seen[] = ((window as unknown as { seen: Seen[] }).seen = []);
+    const look = (): void => {
+      const canvas = document.querySelector<HTMLCanvasElement>('canvas[data-layer="loci"]');
+      const pixels = canvas?.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+      let ink = 0;
+      const loci = document.documentElement.dataset["loci"] ?? "";
+      if (seen.at(-1)?.loci === loci) return; // said once more
+      for (let k = 3; k < pixels.length; k += 4) ink += (pixels[k] ?? 0) / 255;
+      seen.push({ loci, legend: document.querySelector(".proof")?.textContent ?? "", ink });
+    };
+    new MutationObserver(look).observe(document.documentElement, { attributeFilter: ["data-loci"] });
+  });
+  await move();
+  await rest(page);
+  return page.evaluate(() => (window as unknown as { seen: Seen[] }).seen);
+}
+
+describe("two answers a move", () => {
+  it("come: loci carried over that look unproven, then the proof", async () => {
+    const page = await start();
+    await page.getByText("What counts").click();
+    await page.getByLabel("zones").uncheck();
+    await rest(page);
+    expect(await page.locator(".proof").textContent()).toBe("Proven");
+    const seen = await seenWhile(page, () => page.getByLabel("L", { exact: true }).fill("0.48"));
+    expect(seen.map((one) => one.loci)).toEqual(["proven", "carried", "proven"]);
+    expect(seen[1]?.legend).toContain("Not yet proven");
+    expect(seen[2]?.legend).toBe("Proven");
+    // The same curves, in short dashes and lighter.
+    expect(seen[1]?.ink).toBeLessThan(0.97 * (seen[2]?.ink ?? 0));
+    expect(await exact(page, "L").inputValue()).toBe("0.48");
+  });
+
+  it("are taken back where the next design does not close", async () => {
+    const page = await start();
+    await type(page, "d", "0.5");
+    await type(page, "L", "0.1");
+    expect(await page.evaluate(() => document.documentElement.dataset["loci"])).toBe("proven");
+    expect(await page.locator(".proof").textContent()).toBe("Proven");
   });
 });
 

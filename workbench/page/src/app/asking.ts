@@ -16,18 +16,20 @@ export class AskingError extends Error {
 
 export const client = Math.random().toString(36).slice(2, 12);
 
-export async function ask<T>(question: string, body: object): Promise<T> {
+/** `onFirst`: what is told of a first part of the answer, which comes ahead of the rest. */
+export async function ask<T>(question: string, body: object, onFirst?: (part: object) => void): Promise<T> {
   let response: Response;
   try {
     response = await fetch(`api/${question}`, {
       method: "POST",
       headers: { "Content-Type": "application/json" },
-      body: JSON.stringify({ ...body, client, quiet: true }),
+      body: JSON.stringify({ ...body, client, quiet: true, ...(onFirst ? { parts: true } : {}) }),
     });
   } catch {
     throw new AskingError({ status: 0, message: "the program has ended: start clearloci view again", line: 0, column: 0 });
   }
-  const answer = (await response.json()) as Record<string, unknown>;
+  const inParts = response.headers.get("Content-Type") === "application/x-ndjson" && onFirst;
+  const answer = (inParts ? await lastPart(response, onFirst) : await response.json()) as Record<string, unknown>;
   // What a hand may write wrongly is no failure of the page: browsers would put each 4xx on the console.
   const refused = typeof answer["refused"] === "number" ? answer["refused"] : undefined;
   if (response.ok && refused === undefined) return answer as T;
@@ -37,6 +39,27 @@ export async function ask<T>(question: string, body: object): Promise<T> {
     line: Number(answer["line"] ?? 0),
     column: Number(answer["column"] ?? 0),
   });
+}
+
+/** Of an answer in lines each that comes ahead goes to `onFirst`; the last is the answer. */
+async function lastPart(response: Response, onFirst: (part: object) => void): Promise<unknown> {
+  const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (let read = await reader?.read(); read && !read.done; read = await reader?.read()) {
+    text += read.value;
+    for (let end = text.indexOf("\n"); end >= 0; end = text.indexOf("\n")) {
+      onFirst(JSON.parse(text.slice(0, end)) as object);
+      text = text.slice(end + 1);
+    }
+  }
+  return JSON.parse(text);
+}
+
+/** Of questions whose answers begin with a first part. */
+export interface FirstPart {
+  /** What the server needs for it, as things are when the question is sent. */
+  from: () => object;
+  onFirst: (part: object, made: number) => void;
 }
 
 const patience = 400; // ms, after which newer work takes the place of older
@@ -53,6 +76,7 @@ export class Following<T> {
     private readonly question: string,
     private readonly onAnswer: (answer: T, made: number) => void,
     private readonly onFault: (fault: Fault) => void,
+    private readonly first?: FirstPart,
   ) {}
 
   /** `made`: when the hand moved. */
@@ -96,7 +120,11 @@ export class Following<T> {
       then();
       if (this.waiting && this.asked === this.answered) this.send();
     };
-    ask<T>(this.question, next.body).then(
+    const { first } = this;
+    const onFirst = first && ((part: object): void => {
+      if (number === this.asked && number > this.answered) first.onFirst(part, next.made);
+    });
+    ask<T>(this.question, { ...next.body, ...first?.from() }, onFirst).then(
       (answer) => finish(() => this.onAnswer(answer, next.made)),
       (error: unknown) =>
         finish(() => {

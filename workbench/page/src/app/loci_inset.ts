@@ -37,7 +37,7 @@ export class LociInset {
     const shown = shownOf(picture, undefined, new Set(bench.state.hidden));
     drawWorkspace(context, view, shown.rings, bench.theme);
     drawBox(context, view, { low: [x[0], y[0]], high: [x[1], y[1]] }, bench.theme);
-    drawCurves(context, view, shown, bench.theme, { strength: 1, highlight: undefined });
+    drawCurves(context, view, shown, bench.theme, { strength: 1, proven: bench.proven });
     drawPoints(context, view, shown, bench.theme);
   }
 }

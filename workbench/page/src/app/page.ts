@@ -82,6 +82,7 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
     const why = unplaced || (bench.fault ? `${nameOfField(bench)} is refused: ${bench.fault.message}` : "");
     const words = drawing ? "" : why ? `${why}${bench.picture ? " — grey: the last design that works" : ""}` : bench.poseFault ?? bench.missing?.words ?? "";
     const busy = bench.progress ? computing(bench.progress) : "";
+    document.documentElement.dataset["loci"] = !bench.picture ? "none" : bench.proven ? "proven" : "carried";
     document.documentElement.dataset["stale"] = String(bench.fault !== undefined);
     const beyond = bench.traceable ? "" : "Loci are drawn over one to three free coordinates. For this mechanism the page shows the pose, the reactions and tasks.";
     notice.textContent = words || busy || beyond;

@@ -1,5 +1,5 @@
 // The side of the page: what the curves mean, values to change, modes to choose, what the pose does.
-import type { Sketch, Zone } from "../data/answers";
+import type { Loci, Sketch, Zone } from "../data/answers";
 import { roundText } from "../data/exact";
 import { areaWords, lengthWords } from "../data/units";
 import type { Adjustable } from "../data/model_text";
@@ -43,6 +43,7 @@ export function readingPanel(bench: Workbench, stage: Stage): Panel {
 export function legendPanel(bench: Workbench): Panel {
   const body = h("div", { class: "legend" });
   const notes = h("div", { class: "quiet" });
+  const proof = h("p", { class: "quiet proof", role: "status" });
   const toggle = (key: string, on: boolean): void => {
     const hidden = bench.state.hidden.filter((one) => one !== key);
     bench.change({ hidden: on ? hidden : [...hidden, key] });
@@ -50,6 +51,8 @@ export function legendPanel(bench: Workbench): Panel {
   let signature = "";
   const show = (): void => {
     const { picture, theme } = bench;
+    proof.textContent = picture ? proofWords(picture.loci, bench.proven) : "";
+    if (picture && !bench.proven) return; // the rows are those of the last design until the next is proven
     if (!picture) {
       signature = "";
       replace(body);
@@ -74,7 +77,7 @@ export function legendPanel(bench: Workbench): Panel {
       bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
     );
   };
-  const element = section("Loci", true, body, notes);
+  const element = section("Loci", true, proof, body, notes);
   const title = element.querySelector("summary");
   const name = (): void => {
     element.hidden = !bench.traceable;
@@ -82,6 +85,13 @@ export function legendPanel(bench: Workbench): Panel {
     if (title) title.textContent = only && more.length === 0 ? `Loci: values of ${only.name}` : more.length === 2 ? "Loci: surfaces" : "Loci: curves";
   };
   return { element, update: (news) => (news.has("model") && name(), ["loci", "zones", "state.hidden", "state.file", "theme"].some((one) => news.has(one)) && show()) };
+}
+
+/** Which of the two answers is shown. */
+export function proofWords(loci: Loci, proven: boolean): string {
+  if (!proven) return "Not yet proven: carried over from the last design, in short dashes";
+  const all = [...loci.curves, ...(loci.surfaces ?? []), ...loci.isolated_points];
+  return loci.complete && all.every((one) => one.certified) ? "Proven" : "";
 }
 
 /** Why not all loci are known. */

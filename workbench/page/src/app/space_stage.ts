@@ -79,7 +79,7 @@ export class SpaceStage implements Panel {
     this.slider.value = String(slice.at);
     const unit = unitOf(bench.units, range?.angle ?? false);
     this.words.textContent = `${range?.name ?? ""} = ${shortNumber(slice.at / unit.size)} ${unit.name}`;
-    if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice, axesIn(bench.units, bench.coordinates));
+    if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice, axesIn(bench.units, bench.coordinates), bench.proven);
     scene?.showPose(bench.state.at, this.bars());
     const shape = bench.state.task?.shape;
     const [low, high] = shape?.kind === "ranges" ? [shape.low, shape.high] : [];

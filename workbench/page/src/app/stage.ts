@@ -169,7 +169,7 @@ export class Stage {
     const [x, y] = bench.picture.loci.box;
     if (x && y) drawBox(context, view, { low: [x[0], y[0]], high: [x[1], y[1]] }, theme);
     if (bench.kept) drawCurves(context, view, shownOf(bench.kept, undefined, new Set(bench.state.hidden)), theme, { strength: 0.28 });
-    drawCurves(context, view, this.shown, theme, { strength: 1, highlight: this.hovered?.curve?.id });
+    drawCurves(context, view, this.shown, theme, { strength: 1, highlight: this.hovered?.curve?.id, proven: bench.proven });
     drawPoints(context, view, this.shown, theme);
     if (!bench.zonesStale) drawZoneNames(context, view, zones, theme);
   }

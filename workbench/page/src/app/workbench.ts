@@ -28,6 +28,10 @@ export class Workbench {
   model: ModelText;
   facts: ModelFacts | undefined;
   picture: Picture | undefined;
+  /** Whether the picture is the server's last word; else its loci are carried over from the last design. */
+  proven = true;
+  /** What stays where the next design is refused. */
+  private lastProven: Picture | undefined;
   zones: Zones | undefined;
   zonesStale = false;
   pose: Pose | undefined;
@@ -55,10 +59,18 @@ export class Workbench {
   private hashTimer: ReturnType<typeof setTimeout> | undefined;
   private quietTimer: ReturnType<typeof setTimeout> | undefined;
   private moves: { name: string; made: number }[] = [];
+  /** What the server said of its own work, for bench/workbench. */
+  private markServer(name: string, picture: Picture): void {
+    const end = performance.now();
+    performance.measure(`clearloci-${name}-server`, { start: Math.max(0, end - 1000 * (picture.seconds ?? 0)), end });
+  }
 
   private readonly lanes = {
     model: new Following<ModelFacts>("model", (facts) => this.onModel(facts), (fault) => this.onFault(fault)),
-    loci: new Following<Picture>("loci", (picture, made) => this.onLoci(picture, made), (fault) => this.onFault(fault)),
+    loci: new Following<Picture>("loci", (picture, made) => this.onLoci(picture, made), (fault) => this.onFault(fault), {
+      from: () => (this.picture?.name !== undefined ? { last: this.picture.name } : {}),
+      onFirst: (part, made) => this.onCarried((part as { carried: Picture }).carried, made),
+    }),
     zones: new Following<Zones>("zones", (zones) => this.onZones(zones), (fault) => this.onNoZones(fault)),
     pose: new Following<Pose>("pose", (pose, made) => this.onPose(pose, made), (fault) => this.onPoseFault(fault)),
     verify: new Following<Verdict>("verify", (verdict) => this.onVerdict(verdict), (fault) => this.onTaskFault(fault)),
@@ -145,8 +157,10 @@ export class Workbench {
       this.frame = 0;
       const news = this.news;
       this.news = new Set();
+      const begun = performance.now();
       this.watchers.forEach((watcher) => watcher(news));
       const moves = this.moves;
+      if (moves.length > 0) performance.measure("clearloci-drawing", { start: begun, end: performance.now() });
       this.moves = [];
       // After this frame's drawing has gone to the screen.
       const channel = new MessageChannel();
@@ -263,7 +277,7 @@ export class Workbench {
   /** Another mechanism: nothing of the one before is shown, nor what is still to be answered of it. */
   private forget(): void {
     for (const lane of Object.values(this.lanes)) lane.forget();
-    this.facts = this.picture = this.zones = this.pose = this.modes = this.verdict = this.sweep = undefined;
+    this.facts = this.picture = this.lastProven = this.zones = this.pose = this.modes = this.verdict = this.sweep = undefined;
     this.fault = this.poseFault = this.taskFault = this.zonesFault = this.progress = undefined;
   }
 
@@ -370,13 +384,25 @@ export class Workbench {
     this.tell("model");
   }
 
+  /** What the eye needs first; everything else waits for the proof. */
+  private onCarried(picture: Picture, made: number): void {
+    if (this.fault) return; // the last good picture stays until there is another one
+    this.picture = picture;
+    this.proven = false;
+    this.moves.push({ name: "carried", made });
+    this.markServer("carried", picture);
+    this.tell("loci");
+  }
+
   private onLoci(picture: Picture, made: number): void {
     this.progress = undefined;
     this.fault = undefined;
     if (this.picture && closesNowhere(picture)) return this.onFault({ status: 0, message: picture.loci.notes.at(-1) ?? "", line: 0, column: 0 });
     if (!this.lanes.loci.busy) this.accepted = this.model;
-    this.picture = picture;
+    this.picture = this.lastProven = picture;
+    this.proven = true;
     this.moves.push({ name: "loci", made });
+    this.markServer("loci", picture);
     if (this.state.zones) this.askZones();
     this.tell("loci");
   }
@@ -428,9 +454,18 @@ export class Workbench {
     this.tell("sweep");
   }
 
+  /** Loci that were carried over to a design which there is not. */
+  private takeBack(): void {
+    if (this.proven) return;
+    this.picture = this.lastProven;
+    this.proven = true;
+    this.tell("loci");
+  }
+
   /** The last good picture stays; the words stand beside the field that was changed, or where the file is wrong. */
   private onFault(fault: Fault): void {
     this.progress = undefined;
+    this.takeBack();
     this.zonesStale = false; // they are those of the picture that stays
     const placed = fault.line > 0 ? this.model.at(fault.line, fault.column, this.model.adjustables)?.id : undefined;
     this.fault = { message: fault.message, field: this.touched ?? placed, path: fault.line > 0 ? pathAt(this.state.text, fault.line, fault.column) : [] };

@@ -102,6 +102,10 @@ export interface Mesh {
 }
 
 export interface Picture {
+  /** By which the server knows these loci again. */
+  name?: string;
+  /** That the server worked for them. */
+  seconds?: number;
   loci: Loci;
   curve_groups: CurveGroup[];
   /** Reasons that several of them share. */

@@ -107,31 +107,36 @@ export interface LociStyle {
   /** 1: as in the pictures; a kept design is fainter. */
   strength: number;
   highlight?: string | undefined;
+  /** Not yet: in short dashes, whatever the kind, and lighter. */
+  proven?: boolean;
 }
+
+const unproven = { dash: [2.5, 3], strength: 0.6 };
 
 /** Thin lines first, what matters most last. */
 export function drawCurves(context: CanvasRenderingContext2D, view: View, shown: Shown, theme: Theme, style: LociStyle): void {
   context.save();
   context.lineJoin = "round";
-  context.globalAlpha = style.strength;
+  const strength = style.strength * (style.proven === false ? unproven.strength : 1);
+  context.globalAlpha = strength;
   for (let k = shown.curves.length - 1; k >= 0; --k) {
     const entry = shown.curves[k];
     if (!entry) continue;
     const { curve, group } = entry;
     const wide = curve.id === style.highlight;
-    context.lineCap = group.round ? "round" : "butt";
+    context.lineCap = group.round && style.proven !== false ? "round" : "butt";
     context.beginPath();
     for (const arc of curve.arcs) trace(context, view, arc.points);
     if (wide) {
       context.setLineDash([]);
       context.lineWidth = group.width + 7;
-      context.globalAlpha = 0.25 * style.strength;
+      context.globalAlpha = 0.25 * strength;
       context.strokeStyle = colourOf(theme, group.colour);
       context.stroke();
-      context.globalAlpha = style.strength;
+      context.globalAlpha = strength;
     }
     // A dot is a dash without length under a round cap.
-    context.setLineDash(group.dash.map((length) => length * 1.15));
+    context.setLineDash(style.proven === false ? unproven.dash : group.dash.map((length) => length * 1.15));
     context.lineWidth = group.width;
     context.strokeStyle = colourOf(theme, group.colour);
     context.stroke();

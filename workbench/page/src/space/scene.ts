@@ -107,7 +107,8 @@ export class Space {
     return new Vector3(along(0), along(1), along(2));
   }
 
-  show(picture: Picture, theme: Theme, hidden: ReadonlySet<string>, slice: Slice | undefined, axes: readonly Axis[] = []): void {
+  /** `proven`: not yet where it is false; surfaces are nets then. */
+  show(picture: Picture, theme: Theme, hidden: ReadonlySet<string>, slice: Slice | undefined, axes: readonly Axis[] = [], proven = true): void {
     if (picture.meshes !== this.picture?.meshes || picture.surface_groups !== this.picture.surface_groups) {
       this.picture = picture;
       this.drawn.forEach((one) => one.object.geometry.dispose());
@@ -136,6 +137,7 @@ export class Space {
       const material = object.material;
       material.color = new Color(colourOf(theme, group.colour));
       material.opacity = group.opacity;
+      material.wireframe = !proven;
       material.transparent = group.opacity < 1;
       material.depthWrite = group.opacity > 0.5;
       material.clippingPlanes = planes;
