@@ -144,24 +144,36 @@ std::vector<double> witness_values(const mechanism::Mechanism& mechanism,
 
 const std::vector<std::array<double, 2>> poses = {{0.3, -0.6}, {0.3, 0.6}, {0.1, -0.55}};
 
-/// A model of `cases()` and how its parameters are written.
-struct Written {
-  std::string name;  ///< of its files and functions
-  mechanism::Mechanism mechanism;
-  bool keeps_symbols = false;
+constexpr std::array<Language, 5> languages = {Language::text, Language::latex, Language::c, Language::python,
+                                               Language::matlab};
 
-  EquationSheet sheet(Language language) const { return equation_sheet(mechanism, {language, keeps_symbols}); }
+/// A model of `cases()` in every language.
+struct Written {
+  std::string name;  ///< of its files
+  std::vector<EquationSheet> sheets;
+  std::vector<double> witness;
+
+  const EquationSheet& sheet(Language language) const {
+    return sheets.at(
+        static_cast<std::size_t>(std::find(languages.begin(), languages.end(), language) - languages.begin()));
+  }
 };
 
-std::vector<Written> all_written() {
-  std::vector<Written> all;
-  for (const Names& names : cases()) {
-    const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model_text(names), "model.yaml");
-    const std::string number = std::to_string(all.size() / 2);
-    all.push_back({"numeric_" + number, mechanism, false});
-    all.push_back({"symbolic_" + number, mechanism, true});
-  }
-  return all;
+/// With parameters as numbers and as symbols.
+const std::vector<Written>& all_written() {
+  static const std::vector<Written> written = [] {
+    std::vector<Written> all;
+    for (const Names& names : cases()) {
+      const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model_text(names), "model.yaml");
+      const std::string number = std::to_string(all.size() / 2);
+      for (const bool keep : {false, true})
+        all.push_back({(keep ? "symbolic_" : "numeric_") + number,
+                       equation_sheets(mechanism, {languages.begin(), languages.end()}, keep),
+                       witness_values(mechanism, poses)});
+    }
+    return all;
+  }();
+  return written;
 }
 
 void expect_values(const std::vector<double>& found, const std::vector<double>& expected) {
@@ -209,12 +221,12 @@ class GeneratedNames : public testing::Test {
       ASSERT_LT(count, written_.size());
       ASSERT_EQ(name, written_[count].name);
       SCOPED_TRACE(name);
-      expect_values({std::istream_iterator<double>(line), {}}, witness_values(written_[count].mechanism, poses));
+      expect_values({std::istream_iterator<double>(line), {}}, written_[count].witness);
     }
     EXPECT_EQ(count, written_.size());
   }
 
-  const std::vector<Written> written_ = all_written();
+  const std::vector<Written>& written_ = all_written();
   std::filesystem::path folder_;
 };
 
@@ -269,7 +281,7 @@ TEST_F(GeneratedNames, C) {
     SCOPED_TRACE(own.name);
     ASSERT_EQ(std::system(in_folder("cc -shared " + own.name + ".o -o " + own.name + ".so -lm").c_str()), 0);
     const Compiled compiled(folder_ / (own.name + ".so"));
-    expect_values(compiled_values(compiled, own.sheet(Language::c).unknowns), witness_values(own.mechanism, poses));
+    expect_values(compiled_values(compiled, own.sheet(Language::c).unknowns), own.witness);
   }
 }
 
@@ -392,7 +404,7 @@ TEST_F(GeneratedNames, Latex) {
 TEST_F(GeneratedNames, TextHasOneMeaningForAName) {
   for (const Written& own : written_) {
     SCOPED_TRACE(own.name);
-    const EquationSheet equations = own.sheet(Language::text);
+    const EquationSheet& equations = own.sheet(Language::text);
     std::vector<std::string> defined = equations.coordinates;
     for (const auto& [name, value] : equations.parameters) defined.push_back(name);
     for (const auto& [name, value] : equations.closure) defined.push_back(name);
