@@ -32,17 +32,15 @@ using mechanism::Mechanism;
 
 class SheetWriter {
  public:
-  SheetWriter(const Mechanism& m, const SheetOptions& options)
+  SheetWriter(const Mechanism& m, bool keep_parameters)
       : groups_(m.groups),
         opened_(m.groups.empty() ? std::nullopt : std::optional(mechanism::with_open_groups(m))),
         mechanism_(opened_ ? *opened_ : m),
-        language_(options.language),
-        geometry_(mechanism_, options.keep_parameters),
+        geometry_(mechanism_, keep_parameters),
         determinants_(factored_determinants(geometry_)),
         elimination_(geometry_),
         causes_(geometry_, &determinants_.equations),
-        names_(options.language) {
-    name_symbols();
+        names_(language_) {
     if (!geometry_.has_dependent_roots()) return;
     for (SheetGeometry& sheet : sheet_geometries(mechanism_, geometry_.charts(), all_modes(mechanism_))) {
       sheets_.push_back(std::make_unique<const Geometry>(std::move(sheet.geometry)));
@@ -50,7 +48,11 @@ class SheetWriter {
     }
   }
 
-  EquationSheet write() {
+  EquationSheet write(Language language) {
+    language_ = language;
+    names_ = CodeNames(language);
+    name_symbols();
+    for (Implicit& own : implicit_) tell(own);
     EquationSheet sheet;
     sheet.mechanism = mechanism_.name;
     sheet.language = language_;
@@ -86,6 +88,7 @@ class SheetWriter {
 
   /// The file's names come first, so that derived ones give way.
   void name_symbols() {
+    symbols_.clear();
     for (const auto& c : mechanism_.coordinates) names_.name(user, c.name);
     for (const auto& p : mechanism_.parameters) names_.name(user, p.name);
     const auto written = [this](const std::string& name) { return names_.in_formula(user, name); };
@@ -180,7 +183,8 @@ class SheetWriter {
 
   struct Implicit {
     Poly natural;
-    std::vector<ImplicitPolynomial> list;
+    std::vector<Poly> curves;
+    std::vector<ImplicitPolynomial> list;  ///< the curves in the language, each once
     bool too_heavy = false;
     bool constant = false;  ///< such as the square of a link's length, by which a couple is divided
   };
@@ -190,33 +194,38 @@ class SheetWriter {
     const auto known = std::find_if(implicit_.begin(), implicit_.end(),
                                     [&](const Implicit& entry) { return entry.natural == natural; });
     if (known != implicit_.end()) return *known;
-    if (is_constant(natural)) return implicit_.emplace_back(Implicit{natural, {}, false, true});
-    // Over unknowns there is nothing to eliminate with.
-    if (opened_) return implicit_.emplace_back(Implicit{natural, {}, false});
-    std::vector<ImplicitPolynomial> list;
-    bool too_heavy = false;
+    Implicit own{natural, {}, {}, false, is_constant(natural)};
     const auto add = [&](const Elimination& elimination, const Poly& in_its_ring) {
       if (elimination.is_too_heavy_over_tower(in_its_ring)) {
-        too_heavy = true;
+        own.too_heavy = true;
         return;
       }
       const Poly& sheet = elimination.over_tower(in_its_ring);
       if (sheet.is_zero()) return;
-      for (const Poly& curve : elimination.implicit_factors(sheet)) {
-        const std::string words = text(curve);
-        if (std::any_of(list.begin(), list.end(), [&](const auto& own) { return own.polynomial == words; })) continue;
-        int degree = 0;
-        for (const core::Term& term : curve.plain().terms) {
-          int own = 0;
-          for (int i = 0; i < geometry_.coordinates(); ++i) own += term.exponents[static_cast<std::size_t>(i)];
-          degree = std::max(degree, own);
-        }
-        list.push_back({words, degree, closed_form(curve, degree)});
-      }
+      for (const Poly& curve : elimination.implicit_factors(sheet)) own.curves.push_back(curve);
     };
-    if (sheets_.empty()) add(elimination_, natural);
-    for (std::size_t i = 0; i < sheets_.size(); ++i) add(*eliminations_[i], in_ring(natural, sheets_[i]->ring()));
-    return implicit_.emplace_back(Implicit{natural, std::move(list), too_heavy});
+    // Over the unknowns of groups there is nothing to eliminate with.
+    if (sheets_.empty() && !own.constant && !opened_) add(elimination_, natural);
+    for (std::size_t i = 0; i < sheets_.size() && !own.constant; ++i)
+      add(*eliminations_[i], in_ring(natural, sheets_[i]->ring()));
+    tell(own);
+    return implicit_.emplace_back(std::move(own));
+  }
+
+  void tell(Implicit& own) const {
+    own.list.clear();
+    for (const Poly& curve : own.curves) {
+      const std::string words = text(curve);
+      if (std::any_of(own.list.begin(), own.list.end(), [&](const auto& told) { return told.polynomial == words; }))
+        continue;
+      int degree = 0;
+      for (const core::Term& term : curve.plain().terms) {
+        int total = 0;
+        for (int i = 0; i < geometry_.coordinates(); ++i) total += term.exponents[static_cast<std::size_t>(i)];
+        degree = std::max(degree, total);
+      }
+      own.list.push_back({words, degree, closed_form(curve, degree)});
+    }
   }
 
   /// Whether it is the same number in every pose.
@@ -461,7 +470,7 @@ class SheetWriter {
   std::vector<mechanism::Group> groups_;
   std::optional<Mechanism> opened_;  ///< with the unknowns of its groups as coordinates
   const Mechanism& mechanism_;
-  Language language_;
+  Language language_ = Language::text;
   Geometry geometry_;
   FactoredDeterminants determinants_;
   Elimination elimination_;
@@ -476,9 +485,17 @@ class SheetWriter {
 
 }  // namespace
 
-EquationSheet equation_sheet(const Mechanism& mechanism, const SheetOptions& options) {
+std::vector<EquationSheet> equation_sheets(const Mechanism& mechanism, const std::vector<Language>& languages,
+                                           bool keep_parameters) {
   const auto turn = algebra_turn();
-  return SheetWriter(mechanism, options).write();
+  SheetWriter writer(mechanism, keep_parameters);
+  std::vector<EquationSheet> sheets;
+  for (const Language language : languages) sheets.push_back(writer.write(language));
+  return sheets;
+}
+
+EquationSheet equation_sheet(const Mechanism& mechanism, const SheetOptions& options) {
+  return equation_sheets(mechanism, {options.language}, options.keep_parameters).front();
 }
 
 }  // namespace clearloci::symbolic

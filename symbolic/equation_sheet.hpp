@@ -58,6 +58,10 @@ struct SheetOptions {
   bool keep_parameters = false;  ///< --symbolic
 };
 
+/// Derived once, and written in each of the languages.
+std::vector<EquationSheet> equation_sheets(const mechanism::Mechanism& mechanism,
+                                           const std::vector<Language>& languages, bool keep_parameters);
+
 EquationSheet equation_sheet(const mechanism::Mechanism& mechanism, const SheetOptions& options);
 
 /// The whole sheet as a text to read (text, latex) or to run (c, python, matlab).

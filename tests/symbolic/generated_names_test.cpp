@@ -1,13 +1,14 @@
 // Generated programs are data-safe: whatever a file calls its mechanism, parameters, coordinates, points and joints,
 // the C compiles without a warning, the programs run, and their values are those of the numeric witness.
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <sstream>
 
@@ -143,13 +144,36 @@ std::vector<double> witness_values(const mechanism::Mechanism& mechanism,
 
 const std::vector<std::array<double, 2>> poses = {{0.3, -0.6}, {0.3, 0.6}, {0.1, -0.55}};
 
-/// The numbers that a command prints; empty where it fails.
-std::vector<double> numbers_of(const std::string& command) {
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::vector<double> values;
-  for (double value = 0; std::fscanf(pipe, "%lf", &value) == 1;) values.push_back(value);
-  return ::pclose(pipe) == 0 ? values : std::vector<double>{};
+constexpr std::array<Language, 5> languages = {Language::text, Language::latex, Language::c, Language::python,
+                                               Language::matlab};
+
+/// A model of `cases()` in every language.
+struct Written {
+  std::string name;  ///< of its files
+  std::vector<EquationSheet> sheets;
+  std::vector<double> witness;
+
+  const EquationSheet& sheet(Language language) const {
+    return sheets.at(
+        static_cast<std::size_t>(std::find(languages.begin(), languages.end(), language) - languages.begin()));
+  }
+};
+
+/// With parameters as numbers and as symbols.
+const std::vector<Written>& all_written() {
+  static const std::vector<Written> written = [] {
+    std::vector<Written> all;
+    for (const Names& names : cases()) {
+      const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model_text(names), "model.yaml");
+      const std::string number = std::to_string(all.size() / 2);
+      for (const bool keep : {false, true})
+        all.push_back({(keep ? "symbolic_" : "numeric_") + number,
+                       equation_sheets(mechanism, {languages.begin(), languages.end()}, keep),
+                       witness_values(mechanism, poses)});
+    }
+    return all;
+  }();
+  return written;
 }
 
 void expect_values(const std::vector<double>& found, const std::vector<double>& expected) {
@@ -158,15 +182,12 @@ void expect_values(const std::vector<double>& found, const std::vector<double>& 
     EXPECT_NEAR(found[i], expected[i], 1e-10 * std::max(1.0, std::abs(expected[i]))) << "value " << i;
 }
 
-class GeneratedNames : public testing::TestWithParam<std::tuple<std::size_t, bool>> {
+/// Every program lies in one folder, so that one command compiles or runs all of them.
+class GeneratedNames : public testing::Test {
  protected:
   void SetUp() override {
-    const auto [index, keep] = GetParam();
-    keep_ = keep;
-    mechanism_ = mechanism::parse_mechanism(model_text(cases()[index]), "model.yaml");
-    folder_ = std::filesystem::temp_directory_path() /
-              ("clearloci_names_" + std::to_string(::getpid()) + "_" + std::to_string(index) + (keep ? "_kept" : "") +
-               "_" + testing::UnitTest::GetInstance()->current_test_info()->name()[0]);
+    folder_ = std::filesystem::temp_directory_path() / ("clearloci_names_" + std::to_string(::getpid()) + "_" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
@@ -175,60 +196,109 @@ class GeneratedNames : public testing::TestWithParam<std::tuple<std::size_t, boo
     std::filesystem::remove_all(folder_);
   }
 
-  EquationSheet sheet(Language language) const { return equation_sheet(mechanism_, {language, keep_}); }
   std::string in_folder(const std::string& command) const { return "cd '" + folder_.string() + "' && " + command; }
 
-  bool keep_ = false;
-  mechanism::Mechanism mechanism_;
+  void write_programs(Language language, const std::string& ending) const {
+    for (const Written& own : written_) std::ofstream(folder_ / (own.name + ending)) << format(own.sheet(language));
+  }
+
+  /// Runs a Python program that prints, for each name, a line with the name and the values.
+  void expect_values_of_python(const std::string& driver) const {
+    std::ofstream file(folder_ / "driver.py");
+    file << "POSES = [";
+    for (const auto& [x, y] : poses) file << "(" << x << ", " << y << "), ";
+    file << "]\nNAMES = [";
+    for (const Written& own : written_) file << "\"" << own.name << "\", ";
+    file << "]\n" << driver;
+    file.close();
+    ASSERT_EQ(std::system(in_folder("python3 -W error driver.py > printed").c_str()), 0);
+    std::ifstream printed(folder_ / "printed");
+    std::size_t count = 0;
+    for (std::string text; std::getline(printed, text); ++count) {
+      std::istringstream line(text);
+      std::string name;
+      line >> name;
+      ASSERT_LT(count, written_.size());
+      ASSERT_EQ(name, written_[count].name);
+      SCOPED_TRACE(name);
+      expect_values({std::istream_iterator<double>(line), {}}, written_[count].witness);
+    }
+    EXPECT_EQ(count, written_.size());
+  }
+
+  const std::vector<Written>& written_ = all_written();
   std::filesystem::path folder_;
 };
 
-TEST_P(GeneratedNames, C) {
-  const EquationSheet equations = sheet(Language::c);
-  std::ofstream(folder_ / "equations.c") << format(equations);
-  const std::string n = std::to_string(equations.unknowns.size());
-  std::ofstream driver(folder_ / "driver.c");
-  driver << "#include <stdio.h>\nvoid newton_euler(double, double, double[" << n << "][" << n << "], double[" << n
-         << "]);\ndouble determinant_A(double, double);\n";
-  for (const std::string& unknown : equations.unknowns)
-    driver << "double determinant_" << unknown << "(double, double);\n";
-  driver << "int main(void) {\n  double A[" << n << "][" << n << "], b[" << n << "];\n";
-  for (const auto& [x, y] : poses) {
-    const std::string at = std::to_string(x) + ", " + std::to_string(y);
-    driver << "  newton_euler(" << at << ", A, b);\n  for (int i = 0; i < " << n << "; ++i)\n    for (int j = 0; j < "
-           << n << "; ++j) printf(\"%.17g\\n\", A[i][j]);\n  for (int i = 0; i < " << n
-           << "; ++i) printf(\"%.17g\\n\", b[i]);\n  printf(\"%.17g\\n\", determinant_A(" << at << "));\n";
-    for (const std::string& unknown : equations.unknowns)
-      driver << "  printf(\"%.17g\\n\", determinant_" << unknown << "(" << at << "));\n";
+/// The functions of a compiled program.
+class Compiled {
+ public:
+  explicit Compiled(const std::string& file) : library_(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    EXPECT_NE(library_, nullptr) << ::dlerror();
   }
-  driver << "  return 0;\n}\n";
-  driver.close();
+  Compiled(const Compiled&) = delete;
+  Compiled& operator=(const Compiled&) = delete;
+  ~Compiled() {
+    if (library_ != nullptr) ::dlclose(library_);
+  }
+
+  template <class Function>
+  Function* function(const std::string& name) const {
+    void* const found = library_ == nullptr ? nullptr : ::dlsym(library_, name.c_str());
+    EXPECT_NE(found, nullptr) << name;
+    return reinterpret_cast<Function*>(found);
+  }
+
+ private:
+  void* library_;
+};
+
+/// As witness_values.
+std::vector<double> compiled_values(const Compiled& compiled, const std::vector<std::string>& unknowns) {
+  auto* const newton_euler = compiled.function<void(double, double, double*, double*)>("newton_euler");
+  std::vector<double (*)(double, double)> determinants = {compiled.function<double(double, double)>("determinant_A")};
+  for (const std::string& unknown : unknowns)
+    determinants.push_back(compiled.function<double(double, double)>("determinant_" + unknown));
+  std::vector<double> values;
+  if (testing::Test::HasFailure()) return values;
+  const std::size_t n = unknowns.size();
+  for (const auto& [x, y] : poses) {
+    std::vector<double> equations(n * n + n);
+    newton_euler(x, y, equations.data(), equations.data() + n * n);
+    values.insert(values.end(), equations.begin(), equations.end());
+    for (const auto determinant : determinants) values.push_back(determinant(x, y));
+  }
+  return values;
+}
+
+TEST_F(GeneratedNames, C) {
+  write_programs(Language::c, ".c");
   const std::string warnings =
       " -Wall -Wextra -Wpedantic -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Werror ";
-  for (const char* standard : {"c99", "gnu17"})
-    ASSERT_EQ(std::system(in_folder("cc -std=" + std::string(standard) + warnings + "-c equations.c").c_str()), 0)
-        << standard;
-  ASSERT_EQ(std::system(in_folder("cc -std=c99 driver.c equations.o -o run -lm").c_str()), 0);
-  expect_values(numbers_of(in_folder("./run")), witness_values(mechanism_, poses));
+  ASSERT_EQ(std::system(in_folder("cc -std=gnu17" + warnings + "-fsyntax-only *.c").c_str()), 0);
+  ASSERT_EQ(std::system(in_folder("cc -std=c99" + warnings + "-fPIC -c *.c").c_str()), 0);
+  for (const Written& own : written_) {
+    SCOPED_TRACE(own.name);
+    ASSERT_EQ(std::system(in_folder("cc -shared " + own.name + ".o -o " + own.name + ".so -lm").c_str()), 0);
+    const Compiled compiled(folder_ / (own.name + ".so"));
+    expect_values(compiled_values(compiled, own.sheet(Language::c).unknowns), own.witness);
+  }
 }
 
-std::string python_poses() {
-  std::ostringstream text;
-  for (const auto& [x, y] : poses) text << "(" << x << ", " << y << "), ";
-  return "[" + text.str() + "]";
-}
+TEST_F(GeneratedNames, Python) {
+  write_programs(Language::python, ".py");
+  expect_values_of_python(R"python(
+import runpy
 
-TEST_P(GeneratedNames, Python) {
-  std::ofstream(folder_ / "equations.py") << format(sheet(Language::python));
-  std::ofstream(folder_ / "driver.py") << "import runpy\ncode = runpy.run_path('equations.py')\nfor at in "
-                                       << python_poses() << R"python(:
-    A, b = code["newton_euler"](*at)
-    for value in sum(A, []) + b + [code["determinant_A"](*at)]:
-        print(repr(float(value)))
-    for unknown in code["UNKNOWNS"]:
-        print(repr(float(code["determinant_" + unknown](*at))))
-)python";
-  expect_values(numbers_of(in_folder("python3 -W error driver.py")), witness_values(mechanism_, poses));
+for name in NAMES:
+    code = runpy.run_path(name + ".py")
+    values = []
+    for at in POSES:
+        A, b = code["newton_euler"](*at)
+        values += sum(A, []) + b + [code["determinant_A"](*at)]
+        values += [code["determinant_" + unknown](*at) for unknown in code["UNKNOWNS"]]
+    print(name, *(repr(float(value)) for value in values))
+)python");
 }
 
 // Assignments, and matrices of parenthesised entries, are all the MATLAB there is: read here line by line, every name
@@ -237,10 +307,6 @@ constexpr const char* matlab_reader = R"python(
 import math, re, sys
 WORDS = set("""break case catch classdef continue else elseif end for function global if otherwise parfor persistent
 return spmd switch try while do until endif endfor endwhile endfunction unwind_protect ans""".split())
-lines = open("newton_euler.m", encoding="utf-8").read().split("\n")
-head = re.fullmatch(r"function \[A, b, determinants\] = newton_euler\((\w+), (\w+)\)", lines[0])
-assert head, lines[0]
-assert lines[-2:] == ["end", ""], lines[-2:]
 
 
 def evaluate(text, known):
@@ -265,7 +331,7 @@ def entries(row, known):
     return result
 
 
-for at in POSES:
+def values_of(lines, head, at):
     known = {"sqrt": math.sqrt, "cos": math.cos, "sin": math.sin, "pi": math.pi}
     known.update(zip(head.groups(), at))
     matrix, values = None, {}
@@ -288,19 +354,26 @@ for at in POSES:
         else:
             assert name not in known and right.endswith(";"), line
             known[name] = evaluate(right[:-1], known)
-    for name in ("A", "b", "determinants"):
-        for value in values[name]:
-            print(repr(value))
+    return values["A"] + values["b"] + values["determinants"]
+
+
+for case in NAMES:
+    with open(case + ".m", encoding="utf-8") as file:
+        lines = file.read().split("\n")
+    head = re.fullmatch(r"function \[A, b, determinants\] = newton_euler\((\w+), (\w+)\)", lines[0])
+    assert head, lines[0]
+    assert lines[-2:] == ["end", ""], lines[-2:]
+    print(case, *(repr(value) for at in POSES for value in values_of(lines, head, at)))
 )python";
 
-TEST_P(GeneratedNames, Matlab) {
-  std::ofstream(folder_ / "newton_euler.m") << format(sheet(Language::matlab));
-  std::ofstream(folder_ / "driver.py") << "POSES = " << python_poses() << matlab_reader;
-  expect_values(numbers_of(in_folder("python3 driver.py")), witness_values(mechanism_, poses));
+TEST_F(GeneratedNames, Matlab) {
+  write_programs(Language::matlab, ".m");
+  expect_values_of_python(matlab_reader);
 }
 
-TEST_P(GeneratedNames, Latex) {
-  std::istringstream lines(format(sheet(Language::latex)));
+void expect_latex(const std::string& text) {
+  const std::regex subscript_upon_a_subscript(R"(_\{[^{}]*\}_)");
+  std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     const bool has_control = std::any_of(line.begin(), line.end(), [](char c) { return c >= 0 && c < 0x20; });
     EXPECT_FALSE(has_control) << line;
@@ -317,28 +390,30 @@ TEST_P(GeneratedNames, Latex) {
       }
     }
     EXPECT_EQ(depth, 0) << line;
-    // No subscript upon a subscript.
-    EXPECT_FALSE(std::regex_search(line, std::regex(R"(_\{[^{}]*\}_)"))) << line;
+    EXPECT_FALSE(std::regex_search(line, subscript_upon_a_subscript)) << line;
   }
 }
 
-TEST_P(GeneratedNames, TextHasOneMeaningForAName) {
-  const EquationSheet equations = sheet(Language::text);
-  std::vector<std::string> defined = equations.coordinates;
-  for (const auto& [name, value] : equations.parameters) defined.push_back(name);
-  for (const auto& [name, value] : equations.closure) defined.push_back(name);
-  std::sort(defined.begin(), defined.end());
-  EXPECT_EQ(std::adjacent_find(defined.begin(), defined.end()), defined.end());
-  const std::string text = format(equations);
-  EXPECT_TRUE(std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < 0x20 && c != '\n'; }));
+TEST_F(GeneratedNames, Latex) {
+  for (const Written& own : written_) {
+    SCOPED_TRACE(own.name);
+    expect_latex(format(own.sheet(Language::latex)));
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, GeneratedNames,
-                         testing::Combine(testing::Range(std::size_t{0}, cases().size()), testing::Bool()),
-                         [](const auto& test) {
-                           return std::to_string(std::get<0>(test.param)) +
-                                  (std::get<1>(test.param) ? "_symbolic" : "_numeric");
-                         });
+TEST_F(GeneratedNames, TextHasOneMeaningForAName) {
+  for (const Written& own : written_) {
+    SCOPED_TRACE(own.name);
+    const EquationSheet& equations = own.sheet(Language::text);
+    std::vector<std::string> defined = equations.coordinates;
+    for (const auto& [name, value] : equations.parameters) defined.push_back(name);
+    for (const auto& [name, value] : equations.closure) defined.push_back(name);
+    std::sort(defined.begin(), defined.end());
+    EXPECT_EQ(std::adjacent_find(defined.begin(), defined.end()), defined.end());
+    const std::string text = format(equations);
+    EXPECT_TRUE(std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < 0x20 && c != '\n'; }));
+  }
+}
 
 TEST(GeneratedNamesOfExamples, CompileAndHaveTheirComments) {
   const std::string source = source_dir() + "/tests/corpus/input/";
