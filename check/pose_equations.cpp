@@ -444,7 +444,8 @@ class Assembly {
       const Jet tilt = half / values_.value(found->clearance->half_length);
       add(0, *own.normal, half);
       add(0, own.couple.front(), demand.quantity == Quantity::end_ahead ? tilt : -tilt);
-    } else if (demand.quantity == Quantity::F && found->actuated && mechanism::actuator_quantity(*found) == Quantity::F) {
+    } else if (demand.quantity == Quantity::F && found->actuated &&
+               mechanism::actuator_quantity(*found) == Quantity::F) {
       if (own.along)
         add(0, *own.along, Values::number(1.0));
       else

@@ -28,7 +28,7 @@ struct JointTraits {
   bool in_space = true;                   ///< spatial ones have it
   std::size_t planar_axes = 0, axes = 0;  ///< that are written, in the plane and in space
   bool slides = false;                    ///< along its axis, where it bears no force
-  bool meshes = false;  ///< bears nothing but what an actuator of it would exert: teeth, belts
+  bool meshes = false;                    ///< bears nothing but what an actuator of it would exert: teeth, belts
   bool pinned = true;  ///< by a pin, a ball or a sleeve, which loses its contact where its force vanishes
   BorneCouple couple = BorneCouple::none;
   /// What an actuator of it exerts, M about its axis or F along it; nothing where it may have none.

@@ -205,8 +205,8 @@ struct Meshing {
 };
 
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical
-/// joint, of a slot, of a gear (its line of action) and of a spatial revolute joint, two of a universal joint (the one fixed in `from` first), none
-/// otherwise. Their lengths are of no consequence.
+/// joint, of a slot, of a gear (its line of action) and of a spatial revolute joint, two of a universal joint (the one
+/// fixed in `from` first), none otherwise. Their lengths are of no consequence.
 struct Joint {
   std::string name;
   JointType type = JointType::revolute;
@@ -292,8 +292,8 @@ struct Unknown {
 /// A frame of the file, in which points of a platform are placed: p = p_origin + R p', R row after row.
 struct BodyFrame {
   std::string name;
-  PointIndex origin = 0;             ///< an explicit point
-  std::vector<Expression> rotation;  ///< 4 or 9
+  PointIndex origin = 0;                 ///< an explicit point
+  std::vector<Expression> rotation;      ///< 4 or 9
   std::optional<Expression> angle = {};  ///< of its rotation in the plane, rad
 };
 
