@@ -39,8 +39,9 @@ SeenSlot seen(const Mechanism& mechanism, const Joint& joint, const Place& axis,
   }
   const double length = std::hypot(axis[0], axis[1]), size = std::hypot(direction[0], direction[1]);
   const Place way = {pin[0] - origin[0], pin[1] - origin[1], 0};
-  return {side_of(direction, axis) / (length * size), (direction[0] * axis[0] + direction[1] * axis[1]) / (length * size),
-          side_of(axis, way) / length, std::hypot(way[0], way[1])};
+  return {side_of(direction, axis) / (length * size),
+          (direction[0] * axis[0] + direction[1] * axis[1]) / (length * size), side_of(axis, way) / length,
+          std::hypot(way[0], way[1])};
 }
 
 void check_slot(const Mechanism& mechanism, const Joint& joint, const std::vector<SampledPosture>& postures) {

@@ -268,8 +268,7 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
   result.values.resize(model.unknowns.size() + 1);
   evaluator.solve(model.elimination, result.values.data());
   result.determinant = result.values.back();
-  result.reachable =
-      result.reachable && meets(teeth_of(model), [&](std::size_t k) { return result.values[k]; });
+  result.reachable = result.reachable && meets(teeth_of(model), [&](std::size_t k) { return result.values[k]; });
   result.values.pop_back();
   if (model.mechanism.space == mechanism::Space::planar || !result.reachable) return result;
   for (const std::optional<Triple>& axis : model.axes) {

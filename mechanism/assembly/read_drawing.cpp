@@ -37,8 +37,9 @@ void refuse_slots(const Value& joints) {
   for (const Entry& entry : entries(joints)) {
     if (!entry.value.is_map()) continue;
     if (entry.value.node.has("slot"))
-      throw InputError(entry.where, "joint " + entry.key + " is a slot, which a drawing cannot have",
-                       "write the points as constructions, or a small link: revolute at the pin, prismatic along the slot");
+      throw InputError(
+          entry.where, "joint " + entry.key + " is a slot, which a drawing cannot have",
+          "write the points as constructions, or a small link: revolute at the pin, prismatic along the slot");
     for (const char* type : {"gear", "belt"})
       if (entry.value.node.has(type))
         throw InputError(entry.where, "joint " + entry.key + " is a " + type + ", which a drawing cannot have",
