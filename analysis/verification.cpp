@@ -122,6 +122,10 @@ VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequ
 void tell_mechanism(const Mechanism& mechanism, const VerifyRequest& request, Verification& result) {
   result.mechanism = mechanism.name;
   result.parameters = mechanism::told_parameters(mechanism);
+  // A free effort without a value is part of the question.
+  for (const mechanism::Joint& joint : mechanism.joints)
+    if (joint.free_effort && !joint.free_effort->given)
+      std::erase_if(result.parameters, [&](const auto& own) { return own.first == joint.free_effort->parameter; });
   result.units = mechanism.units;
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     result.coordinates.push_back(coordinate.name);

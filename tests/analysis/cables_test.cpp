@@ -95,13 +95,13 @@ CableStatics robot_statics(const std::vector<double>& pose) {
   CableStatics own{Eigen::MatrixXd(6, 8), Eigen::VectorXd::Zero(6), 5, 400};
   own.load(2) = -50;
   const std::array<std::array<double, 6>, 8> sizes = {{{-2, -2, 0, 0.2, -0.2, 0.2},
-                                                       {2, -2, 0, 0.2, 0.2, 0.2},
+                                                       {2, -2, 0, -0.2, -0.2, 0.2},
                                                        {2, 2, 0, -0.2, 0.2, 0.2},
-                                                       {-2, 2, 0, -0.2, -0.2, 0.2},
+                                                       {-2, 2, 0, 0.2, 0.2, 0.2},
                                                        {-2, -2, 3, -0.2, 0.2, -0.2},
-                                                       {2, -2, 3, -0.2, -0.2, -0.2},
+                                                       {2, -2, 3, 0.2, 0.2, -0.2},
                                                        {2, 2, 3, 0.2, -0.2, -0.2},
-                                                       {-2, 2, 3, 0.2, 0.2, -0.2}}};
+                                                       {-2, 2, 3, -0.2, -0.2, -0.2}}};
   const Eigen::Matrix3d turn =
       (Eigen::AngleAxisd(pose[5], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pose[4], Eigen::Vector3d::UnitY()) *
        Eigen::AngleAxisd(pose[3], Eigen::Vector3d::UnitX()))
