@@ -81,6 +81,37 @@ TEST(OnceDisputed, ACurveThatRunsIntoTheFoldOfALowerLeg) {
   for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id << " " << curve.factor;
 }
 
+// Three divisors stand on one another, each of which may be 0 in large cells: bounds of slopes overflowed there, and all
+// cells of the curves of A2 were taken for empty. Nothing was open.
+TEST(OnceDisputed, CurvesThroughCellsWhoseBoundsOverflow) {
+  LociRequest request;
+  request.joints = {"A2"};
+  request.quantities = {core::Quantity::fx, core::Quantity::fy, core::Quantity::M};
+  const core::LocusMap map = trace_loci(corpus("loci/coupler_spring_curves_missing"), request);
+  const auto is_told = [&](core::Quantity quantity, const core::Point2& at) {
+    constexpr double near = 2e-3;
+    const auto is_of = [&](const std::vector<core::Vanishing>& list) {
+      return std::any_of(list.begin(), list.end(), [&](const core::Vanishing& own) { return own.quantity == quantity; });
+    };
+    const auto is_near = [&](const core::Arc& arc) {
+      return std::any_of(arc.points.begin(), arc.points.end(), [&](const core::Point2& p) {
+        return std::hypot(p[0] - at[0], p[1] - at[1]) < 10 * near;
+      });
+    };
+    return std::any_of(map.curves.begin(), map.curves.end(),
+                       [&](const core::LocusCurve& curve) {
+                         return is_of(curve.vanishing) && std::any_of(curve.arcs.begin(), curve.arcs.end(), is_near);
+                       }) ||
+           std::any_of(map.open.begin(), map.open.end(), [&](const core::OpenRegion& region) {
+             return is_of(region.vanishing) && region.lower[0] <= at[0] + near && at[0] - near <= region.upper[0] &&
+                    region.lower[1] <= at[1] + near && at[1] - near <= region.upper[1];
+           });
+  };
+  // Signs of reactions solved numerically change there.
+  EXPECT_TRUE(is_told(core::Quantity::fy, {0.2276, -0.4849}));
+  EXPECT_TRUE(is_told(core::Quantity::M, {-0.1640, -0.7301}));
+}
+
 // The crossings of curves of which no polynomial is computed were taken for unproven, and no zone was certified.
 TEST(OnceDisputed, ZonesBetweenCurvesWithoutPolynomials) {
   const core::Zones map = find_zones(corpus("loci/stacked_curves_without_polynomials_cross"), {});

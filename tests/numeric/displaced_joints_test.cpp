@@ -191,6 +191,12 @@ void expect_joints_closed(const NumericModel& model, const Posture& at, const Ac
       case Type::prismatic:
         EXPECT_LT((to - from).norm(), closed) << joint.name;
         break;
+      case Type::slot:
+      case Type::gear:
+      case Type::belt:
+      case Type::cable:
+        FAIL() << joint.name << ": no joint of the designs";
+        break;
       case Type::universal: {
         if (mechanism::holds_idle_freedom(joint)) break;
         // Written out, or across the first one.

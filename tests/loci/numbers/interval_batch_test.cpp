@@ -82,6 +82,35 @@ TEST_P(Lanes, AreWhatIntervalsAreAlone) {
   }
 }
 
+/// Over several divisors that may be 0 bounds overflow: what is computed with them once took no part of a result, and
+/// the product with [0, 1] was an interval without 0.
+TEST_P(Lanes, WhatOverflowsExcludesNothing) {
+  const std::vector<Instruction> code = {{Operation::inverse, 0, 0},  {Operation::square, 3, 3},
+                                         {Operation::square, 4, 4},   {Operation::square, 5, 5},
+                                         {Operation::subtract, 6, 6}, {Operation::multiply, 7, 0},
+                                         {Operation::multiply, 7, 1}, {Operation::multiply, 7, 2},
+                                         {Operation::add, 8, 7},      {Operation::subtract, 10, 8}};
+  std::array<IntervalBatch, 13> values;
+  for (std::size_t l = 0; l < IntervalBatch::size; ++l) {
+    values[0].lanes[l] = {0.0, 1.0};
+    values[1].lanes[l] = 0.0;
+    values[2].lanes[l] = {-1.0, -0.5};
+  }
+  run(code, values.data(), values.data() + 3);
+  for (std::size_t l = 0; l < IntervalBatch::size; ++l) {
+    const Interval part = values[0].lanes[l], zero = values[1].lanes[l], negative = values[2].lanes[l];
+    const Interval large = squared(squared(squared(inverse(part)))), line = large - large;
+    const std::array<Interval, 6> alone = {line,        line * part,        line * zero, line * negative,
+                                           line * part + line, line * negative - line * part};
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      const Interval& own = values[7 + k].lanes[l];
+      EXPECT_TRUE(same(own, alone[k])) << k;
+      EXPECT_TRUE(own.contains_zero()) << k;
+      if (k != 2) EXPECT_TRUE(own.contains(-1e300) && own.contains(1e300)) << k;
+    }
+  }
+}
+
 /// A function's value, its value at the middle and its slopes, as jets carry them, or not bounded.
 TEST_P(Lanes, AreWhatJetsAreAlone) {
   std::mt19937_64 random(5);
