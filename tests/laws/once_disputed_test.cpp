@@ -81,8 +81,8 @@ TEST(OnceDisputed, ACurveThatRunsIntoTheFoldOfALowerLeg) {
   for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id << " " << curve.factor;
 }
 
-// Three divisors stand on one another, each of which may be 0 in large cells: bounds of slopes overflowed there, and all
-// cells of the curves of A2 were taken for empty. Nothing was open.
+// Three divisors stand on one another, each of which may be 0 in large cells: bounds of slopes overflowed there, and
+// all cells of the curves of A2 were taken for empty. Nothing was open.
 TEST(OnceDisputed, CurvesThroughCellsWhoseBoundsOverflow) {
   LociRequest request;
   request.joints = {"A2"};
@@ -91,12 +91,12 @@ TEST(OnceDisputed, CurvesThroughCellsWhoseBoundsOverflow) {
   const auto is_told = [&](core::Quantity quantity, const core::Point2& at) {
     constexpr double near = 2e-3;
     const auto is_of = [&](const std::vector<core::Vanishing>& list) {
-      return std::any_of(list.begin(), list.end(), [&](const core::Vanishing& own) { return own.quantity == quantity; });
+      return std::any_of(list.begin(), list.end(),
+                         [&](const core::Vanishing& own) { return own.quantity == quantity; });
     };
     const auto is_near = [&](const core::Arc& arc) {
-      return std::any_of(arc.points.begin(), arc.points.end(), [&](const core::Point2& p) {
-        return std::hypot(p[0] - at[0], p[1] - at[1]) < 10 * near;
-      });
+      return std::any_of(arc.points.begin(), arc.points.end(),
+                         [&](const core::Point2& p) { return std::hypot(p[0] - at[0], p[1] - at[1]) < 10 * near; });
     };
     return std::any_of(map.curves.begin(), map.curves.end(),
                        [&](const core::LocusCurve& curve) {

@@ -100,8 +100,8 @@ TEST_P(Lanes, WhatOverflowsExcludesNothing) {
   for (std::size_t l = 0; l < IntervalBatch::size; ++l) {
     const Interval part = values[0].lanes[l], zero = values[1].lanes[l], negative = values[2].lanes[l];
     const Interval large = squared(squared(squared(inverse(part)))), line = large - large;
-    const std::array<Interval, 6> alone = {line,        line * part,        line * zero, line * negative,
-                                           line * part + line, line * negative - line * part};
+    const std::array<Interval, 6> alone = {
+        line, line * part, line * zero, line * negative, line * part + line, line * negative - line * part};
     for (std::size_t k = 0; k < alone.size(); ++k) {
       const Interval& own = values[7 + k].lanes[l];
       EXPECT_TRUE(same(own, alone[k])) << k;
