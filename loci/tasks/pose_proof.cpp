@@ -51,6 +51,11 @@ class Signs {
     for (std::size_t d = 0; d < statics_.demands.size(); ++d) {
       const double least = core::to_double(statics_.demands[d].demand.least);
       const auto& own = now->components[d];
+      if (statics_.demands[d].demand.bound) {
+        const auto is_beyond = [](const std::vector<double>& of_load) { return of_load.front() < 0; };
+        if (std::any_of(own.begin(), own.end(), is_beyond)) all.push_back({Doubt::demand, static_cast<int>(d), pose});
+        continue;
+      }
       if (least > 0 && CellAnswers::size_of(own) < least) all.push_back({Doubt::demand, static_cast<int>(d), pose});
       // Between two loads it may point the other way at one of them.
       const bool turned = own.size() > 1 && own.front().size() == 1 && own.front()[0] * own.back()[0] < 0;

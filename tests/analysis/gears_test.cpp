@@ -132,7 +132,7 @@ TEST(GearedFiveBar, FlanksChangeWhereTheTeethBearNothing) {
       // What else vanishes in this mode does so where its flank bears.
       for (const IsolatedPoint& point : map.isolated_points) {
         if (point.kind == LocusKind::workspace_boundary) continue;
-        const double needed = -GearedFiveBar(point.at[0]).on_second() / -0.02;  // along the teeth of the left flank
+        const double needed = -GearedFiveBar(point.at[0]).on_second() / 0.02;  // along the teeth of the left flank
         EXPECT_GE(needed * (std::string(flank) == "left" ? 1 : -1), -1e-6) << point.at[0];
       }
     }
@@ -140,7 +140,7 @@ TEST(GearedFiveBar, FlanksChangeWhereTheTeethBearNothing) {
 
 TEST(GearedFiveBar, TasksKeepTheirFlank) {
   const Model model = shipped("geared_five_bar.yaml");
-  const LocusMap map = trace_loci(model, {.all_working_modes = true});
+  const LocusMap map = trace_loci(model);
   const std::vector<double> changes = zeros_of(map, "W", Quantity::F);
   ASSERT_GT(changes.size(), 1U);
   const auto across = [&](double from, double to) {
