@@ -1,5 +1,6 @@
 #include "analysis/preload_judges.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -167,6 +168,10 @@ class StaticsPreload : public PreloadJudge {
         return demand < known.signs.size() ? known.signs[demand] : 0;
       }
       case PoseCell::State::outside:
+        // The pose can be assembled: some effort is beyond its bound in all of the cell, be it this one or another.
+        if (statics_.demands[demand].demand.bound)
+          if (const auto at = cell_->at(piece.chart.at(loci::pose::middle_of(piece.box))))
+            return std::min(0, sign_of(*at, demand));
         break;
     }
     return 0;
