@@ -116,7 +116,7 @@ std::vector<Rational> widths_of(const std::vector<EffortRow>& rows) {
 /// max d, offset + slope lambda - width d >= 0; its dual program: min offset y, slope^T y = 0, width y = 1, y >= 0.
 std::optional<EffortPolytope::Deepest> EffortPolytope::deepest(const std::vector<Rational>& widths) const {
   EffortPolytope lifted{rows, efforts + 1};
-  for (std::size_t i = 0; i < rows.size(); ++i) lifted.rows[i].slope.push_back(-widths[i]);
+  for (std::size_t i = 0; i < rows.size(); ++i) lifted.rows[i].slope.emplace_back(-widths[i]);
   std::vector<Rational> of(efforts + 1);
   of.back() = -1;
   auto found = lifted.least(of);

@@ -159,8 +159,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                                          "five_bar_horizontal", "five_bar_inclined", "five_bar_isolated",
                                          "five_bar_preloaded", "five_bar_weights", "excavator", "four_bar",
                                          "geared_five_bar", "gripper", "jansen_leg", "klann_leg", "minitaur_leg",
-                                         "planar_delta", "prrrp", "rprpr", "scara_belt", "scissor_lift", "slider_crank",
-                                         "squeezer", "stephenson_six_bar", "three_rpr", "three_rrr", "toggle_press",
+                                         "planar_delta", "prrrp", "rprpr", "scara_belt", "slider_crank", "squeezer",
+                                         "stephenson_six_bar", "three_rpr", "three_rrr", "toggle_press",
                                          "watt_six_bar"),
                          [](const auto& own) { return std::string(own.param); });
 
