@@ -140,7 +140,7 @@ TEST(Advice, SaysWhatExistsForWhatDoesNot) {
                                                         {"Ball_Joint", "space: spatial"},
                                                         {"revolut", "'revolute'"},
                                                         {"chain", "no joint goes through gears"},
-                                                        {"nonsense", "revolute, prismatic, slot, gear or belt"}}) {
+                                                        {"nonsense", "revolute, prismatic, slot, gear, belt or cable"}}) {
     const std::string said = refusal(with(five_bar_text, "revolute: [A1B1, B1P]", key + ": [A1B1, B1P]"));
     EXPECT_TRUE(says(said, "'" + key + "' is no type of joint")) << said;
     EXPECT_TRUE(says(said, word)) << said;

