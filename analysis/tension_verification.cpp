@@ -136,7 +136,7 @@ class TensionChooser : public loci::pose::PoseChooser {
         EffortPolytope::Row& row = polytope.rows.emplace_back();
         row.offset = proposed(value(0));
         for (std::size_t k = 1; k < solved.size(); ++k) row.slope.push_back(proposed(value(k) - value(0)));
-        widths.push_back(joint->within->second - joint->within->first);
+        widths.emplace_back(joint->within->second - joint->within->first);
       }
     }
     for (std::size_t i = 0; i < own.free.size(); ++i) {

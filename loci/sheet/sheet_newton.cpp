@@ -52,7 +52,7 @@ void SheetNewton::lift(std::span<const double> place) {
   for (int j = 0; j < program_.roots(); ++j) {
     registers_.run_square(j);
     const double root = mode_[static_cast<std::size_t>(j)] * std::sqrt(std::abs(registers_.square(j)));
-    point_[static_cast<std::size_t>(n + j)] = root;
+    point_[static_cast<std::size_t>(n) + static_cast<std::size_t>(j)] = root;
     registers_.set(n + j, root);
   }
 }
@@ -69,7 +69,7 @@ void SheetNewton::measure_roots() {
   registers_.run_values();
   registers_.run_gradients();
   for (int j = 0; j < program_.roots(); ++j) {
-    const auto own = static_cast<std::size_t>(program_.coordinates() + j);
+    const auto own = static_cast<std::size_t>(program_.coordinates()) + static_cast<std::size_t>(j);
     const double size = std::max(std::abs(point_[own]), std::sqrt(square_slope(j)));
     sizes_[own] = size > 0 && std::isfinite(size) ? size : 1;
   }
@@ -146,7 +146,7 @@ bool SheetNewton::move(std::span<double> place, std::span<const Held> held) {
               point_[static_cast<std::size_t>(one.variable)] - one.value);
     for (int j = 0; j < program_.roots(); ++j) {
       if (!needed_[static_cast<std::size_t>(j)]) continue;
-      const double root = point_[static_cast<std::size_t>(n + j)];
+      const double root = point_[static_cast<std::size_t>(n) + static_cast<std::size_t>(j)];
       add_row([&](int v) { return (v == n + j ? 2 * root : 0.0) - registers_.square_partial(j, v); },
               root * root - registers_.square(j));
     }
@@ -179,7 +179,7 @@ bool SheetNewton::is_on_sheet(std::span<const double> place) {
   const int n = program_.coordinates();
   for (int j = 0; j < program_.roots(); ++j) {
     if (!needed_[static_cast<std::size_t>(j)]) continue;
-    const auto own = static_cast<std::size_t>(n + j);
+    const auto own = static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
     if (!(mode_[static_cast<std::size_t>(j)] * point_[own] >= -clear_of_rim * sizes_[own])) return false;
   }
   lift(place);
@@ -201,7 +201,7 @@ double SheetNewton::distance(std::span<const double> place) {
   std::vector<double> slopes(point_.size());
   for (std::size_t v = 0; v < slopes.size(); ++v) slopes[v] = registers_.partial(0, static_cast<int>(v));
   for (int j = program_.roots(); j-- > 0;) {
-    const auto own = static_cast<std::size_t>(n + j);
+    const auto own = static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
     if (slopes[own] == 0) continue;
     const double share = slopes[own] / (2 * point_[own]);
     for (int v = 0; v < n + j; ++v) slopes[static_cast<std::size_t>(v)] += share * registers_.square_partial(j, v);
