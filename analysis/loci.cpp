@@ -9,9 +9,11 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/loci_by_cells.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
+#include "analysis/task_demands.hpp"
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
@@ -24,6 +26,7 @@
 #include "mechanism/notes.hpp"
 #include "mechanism/written_unit.hpp"
 #include "numeric/sketch.hpp"
+#include "numeric/validate_preload.hpp"
 
 namespace clearloci {
 namespace {
@@ -435,6 +438,30 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
   return reactions;
 }
 
+namespace {
+
+/// The loci of one free effort over two coordinates against the efforts that are feasible at the nodes.
+core::Validation validate_preload(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                                  const numeric::GridSpec& grid) {
+  const std::vector<mechanism::JointIndex> joints = mechanism::joints_without_preload(mechanism);
+  if (joints.size() > 1 || mechanism.coordinates.size() != 2)
+    throw core::InputError({mechanism.file},
+                           "loci of free efforts are held against a grid over two coordinates, of one effort",
+                           "give the efforts by --preload");
+  core::LocusMap map = trace_loci(mechanism, request);
+  if (map.out_of_time)
+    throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
+  std::array<mechanism::Mechanism, 2> with = {mechanism, mechanism};
+  for (int effort = 0; effort < 2; ++effort)
+    mechanism::give_effort(with[static_cast<std::size_t>(effort)], joints.front(), effort);
+  const mechanism::Joint& joint = mechanism.joints[static_cast<std::size_t>(joints.front())];
+  numeric::ValidationReport report = numeric::validate_preload(
+      with[0], with[1], map, grid, demands_of(mechanism, request), {joint.name, mechanism::actuator_quantity(joint)});
+  return {std::move(map), {grid.nx, grid.ny}, std::move(report)};
+}
+
+}  // namespace
+
 core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                                const numeric::GridSpec& grid) {
   require_coordinates(mechanism, 1, 3, "loci are held against a grid");
@@ -443,6 +470,7 @@ core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociReques
     return {from_frame(std::move(inside.map), mechanism, own->frame), std::move(inside.nodes),
             from_frame(std::move(inside.report), mechanism, own->frame)};
   }
+  if (!mechanism::joints_without_preload(mechanism).empty()) return validate_preload(mechanism, request, grid);
   std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request);
   // Where a pin in space loses its contact no component of its force need vanish.
   for (const mechanism::Joint& joint : mechanism.joints)
@@ -500,7 +528,7 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
 
 std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
   const bool beside = mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism);
-  const numeric::NumericModel model = numeric::compile(mechanism);
+  const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
   std::vector<core::ModeSketch> sketches;
   std::vector<core::WorkingMode> modes;
   const auto add = [&](const core::WorkingMode& mode) {

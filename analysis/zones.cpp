@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
+#include "analysis/zone_preload.hpp"
 #include "analysis/zones_by_cells.hpp"
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
@@ -51,7 +53,8 @@ bool keeps_sign_in_zones(const core::Vanishing& what, const LociRequest& request
 /// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
 void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request,
                const std::vector<core::Vanishing>& always_zero, core::Zones& map) {
-  const numeric::NumericModel model = numeric::compile(mechanism);
+  const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
+  const bool chosen = !mechanism::joints_without_preload(mechanism).empty();
   const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request);
   const std::vector<numeric::JointColumns> columns_of_joints = numeric::joint_columns(model);
   const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
@@ -60,6 +63,7 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
     const numeric::BoundedNumerators at = numeric::bounded_numerators(model, zone.sample, sides);
     if (!at.reachable) continue;
     zone.assembly_mode = sign(at.determinant);
+    if (chosen) continue;  // signs are those of the effort that is chosen
     for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
       const mechanism::Unknown& unknown = model.unknowns[k];
       const std::string& joint = mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;
@@ -102,6 +106,7 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
     loci::drop_own_roots(own.loci);
     for (core::Zone& zone : own.zones) {
       for (core::ZoneBorder& border : zone.borders) {
+        border.beside.clear();
         const auto curve =
             std::find_if(curves.begin(), curves.end(), [&](const auto& c) { return c.id == border.curve; });
         if (curve == curves.end()) continue;
@@ -183,7 +188,9 @@ core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest&
     certify(map.loci, own, *certificate);
     certificate->zones = map.zones;
   }
-  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
+  if (own) map = from_frame(std::move(map), mechanism, own->frame);
+  add_preload(mechanism, request.loci, map);
+  return map;
 }
 
 Zones find_zones(const Model& model, const ZoneRequest& request) {

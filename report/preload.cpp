@@ -97,24 +97,46 @@ nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
           {"cells", preload.cells}};
 }
 
-std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units) {
-  const core::ShownUnit unit = core::told_unit(efforts.force ? "N" : "N m", units);
-  const auto told = [&](double value) {
-    return fmt::format("{} {}", engineering(value * unit.per_si, digits), unit.name);
-  };
+namespace {
+
+/// "from 15 N m (M_A1) to 93.5 N m (M_A2)", "any".
+std::string range_words(const core::EffortRange& range, const core::ShownUnit& unit) {
   const auto end = [&](const char* word, double value, const std::vector<core::Vanishing>& fails) {
     if (!std::isfinite(value)) return std::string();
-    return fmt::format("{} {}{}", word, told(value), fails.empty() ? "" : " (" + reaction_names(fails) + ")");
+    return fmt::format("{} {} {}{}", word, engineering(value * unit.per_si, digits), unit.name,
+                       fails.empty() ? "" : " (" + reaction_names(fails) + ")");
   };
-  std::string text = fmt::format("effort of {} = {}{}\n", efforts.joint, told(efforts.effort),
-                                 efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
+  const std::string from = end("from", range.from, range.below),
+                    to = end(from.empty() ? "up to" : "to", range.to, range.above);
+  return from.empty() && to.empty() ? "any" : from + (from.empty() || to.empty() ? "" : " ") + to;
+}
+
+core::ShownUnit unit_of(const core::FeasibleEfforts& efforts, const core::Units& units) {
+  return core::told_unit(efforts.force ? "N" : "N m", units);
+}
+
+}  // namespace
+
+std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units) {
+  const core::ShownUnit unit = unit_of(efforts, units);
+  std::string text =
+      fmt::format("effort of {} = {} {}{}\n", efforts.joint, engineering(efforts.effort * unit.per_si, digits),
+                  unit.name, efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
   if (!efforts.never.empty()) text += "  " + reaction_names(efforts.never) + ": lost whatever the effort\n";
-  for (const core::EffortRange& own : efforts.ranges) {
-    const std::string from = end("from", own.from, own.below),
-                      to = end(from.empty() ? "up to" : "to", own.to, own.above);
-    text += "  " + (from.empty() && to.empty() ? "any" : from + (from.empty() || to.empty() ? "" : " ") + to) + "\n";
-  }
+  for (const core::EffortRange& own : efforts.ranges) text += "  " + range_words(own, unit) + "\n";
   return text;
+}
+
+std::string zone_preload_text(const std::string& zone, const core::ZonePreload& preload, const core::Units& units) {
+  const core::FeasibleEfforts& efforts = preload.efforts;
+  std::string text;
+  if (efforts.ranges.empty())
+    text = fmt::format("no effort of {} keeps every joint loaded{}\n", efforts.joint,
+                       efforts.never.empty() ? "" : ": " + reaction_names(efforts.never));
+  for (const core::EffortRange& own : efforts.ranges)
+    text += fmt::format("{}{} {}\n", text.empty() ? "" : "       ", efforts.joint,
+                        range_words(own, unit_of(efforts, units)));
+  return fmt::format("{:<6} {}", zone, text);
 }
 
 nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& efforts) {
@@ -130,6 +152,23 @@ nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& effo
           {"within", efforts.within ? Json(*efforts.within) : Json(nullptr)},
           {"ranges", std::move(ranges)},
           {"never", vanishing_array(efforts.never)}};
+}
+
+nlohmann::ordered_json zone_preload_object(const core::ZonePreload& preload) {
+  using Json = nlohmann::ordered_json;
+  Json object = feasible_efforts_object(preload.efforts);
+  for (std::size_t i = 0; i < preload.patterns.size(); ++i) {
+    Json signs = Json::object();
+    for (const auto& [reaction, sign] : preload.patterns[i])
+      signs[reaction.joint][core::to_string(reaction.quantity)] = sign;
+    object["ranges"][i]["signs"] = std::move(signs);
+  }
+  return {{"joint", preload.efforts.joint},
+          {"feasible", !preload.efforts.ranges.empty()},
+          {"smallest", preload.smallest ? Json(*preload.smallest) : Json(nullptr)},
+          {"within", object["within"]},
+          {"ranges", object["ranges"]},
+          {"never", object["never"]}};
 }
 
 }  // namespace clearloci::report

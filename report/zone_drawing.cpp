@@ -11,7 +11,8 @@ namespace {
 constexpr const auto& fills = light_theme.zones;
 constexpr double fill_strength = light_theme.zone_strength;
 constexpr Colour circle_colour = light_theme.circle;
-constexpr double least_numbered = 5;  // pt, radius of the largest circle
+constexpr Colour no_preload_colour = {0.55, 0.55, 0.55};  ///< no effort keeps every joint loaded
+constexpr double least_numbered = 5;                      // pt, radius of the largest circle
 constexpr Font number_font{9.5, true, false};
 
 template <typename Action>
@@ -37,7 +38,8 @@ void draw_zones(const Canvas& canvas, const Subject& subject, const Layout& layo
     add(zone.outer);
     for (const core::Polyline& hole : zone.holes) add(hole);
     canvas.set_fill_rule(FillRule::even_odd);
-    set_colour(canvas, zone_colour(number), fill_strength);
+    const bool none = zone.preload && zone.preload->efforts.ranges.empty();
+    set_colour(canvas, none ? no_preload_colour : zone_colour(number), fill_strength);
     canvas.fill();
     canvas.set_fill_rule(FillRule::winding);
   });

@@ -31,7 +31,18 @@ using Polyline = std::vector<Point2>;
 /// Gravest first; a curve takes the gravest kind of what vanishes on it.
 /// `no_limit`, of points only: the named reactions have no limit there, for it depends on the way along which the pose
 /// is approached.
-enum class LocusKind { contact_loss, backlash, component, margin, direct_singularity, workspace_boundary, no_limit };
+/// `preload`: of free efforts without a value: reactions can only vanish together there, or do not depend on the
+/// effort, so that the efforts that keep contact are others on either side.
+enum class LocusKind {
+  contact_loss,
+  backlash,
+  component,
+  margin,
+  preload,
+  direct_singularity,
+  workspace_boundary,
+  no_limit
+};
 
 /// "contact-loss", "backlash", ... as written in loci.json.
 std::string to_string(LocusKind kind);

@@ -16,6 +16,7 @@ py::list borders_of(const Zones& map, const Zone& zone) {
     one["kind"] = own.kind ? to_string(*own.kind) : "box";
     one["vanishing"] = names_of(own.vanishing);
     if (!map.by_cells) one["length"] = own.length;
+    if (!own.beside.empty()) one["beside"] = own.beside;
     borders.append(one);
   }
   return borders;
@@ -45,15 +46,34 @@ py::list faces_of(const Zone& zone) {
   return faces;
 }
 
+py::dict signs_of(const std::vector<std::pair<Vanishing, int>>& all) {
+  py::dict signs;
+  for (const auto& [reaction, sign] : all) signs[py::str(name_of(reaction))] = sign;
+  return signs;
+}
+
+py::object preload_of(const Zone& zone) {
+  if (!zone.preload) return py::none();
+  const FeasibleEfforts& efforts = zone.preload->efforts;
+  py::list ranges;
+  for (std::size_t i = 0; i < efforts.ranges.size(); ++i) {
+    const EffortRange& own = efforts.ranges[i];
+    ranges.append(py::dict(py::arg("from") = own.from, py::arg("to") = own.to, py::arg("below") = names_of(own.below),
+                           py::arg("above") = names_of(own.above),
+                           py::arg("signs") = signs_of(zone.preload->patterns[i])));
+  }
+  return py::dict(py::arg("joint") = efforts.joint, py::arg("smallest") = zone.preload->smallest,
+                  py::arg("ranges") = ranges, py::arg("never") = names_of(efforts.never));
+}
+
 py::dict zone_dict(const Zones& map, const Zone& zone) {
   py::list holes;
   for (const Polyline& hole : zone.holes) holes.append(array_of(hole));
-  py::dict signs, one;
-  for (const auto& [reaction, sign] : zone.signs) signs[py::str(name_of(reaction))] = sign;
+  py::dict one;
   one["id"] = zone.id;
   one["working_mode"] = mode_of(map.loci.tower, zone.mode);
   one["assembly_mode"] = zone.assembly_mode;
-  one["signs"] = signs;
+  one["signs"] = signs_of(zone.signs);
   one["size"] = zone.size;
   one["at_least"] = zone.at_least;
   one["at_most"] = zone.at_most;
@@ -69,6 +89,7 @@ py::dict zone_dict(const Zones& map, const Zone& zone) {
   one["polygon"] = map.by_cells ? py::object(py::none()) : py::object(array_of(zone.outer));
   one["holes"] = holes;
   one["faces"] = faces_of(zone);
+  one["preload"] = preload_of(zone);
   return one;
 }
 

@@ -28,7 +28,7 @@ class Curve:
     """One curve in one working mode, with all reactions that vanish on it."""
 
     id: str
-    kind: str  #: "contact-loss", "backlash", "component", "margin", "direct-singularity", "workspace-boundary"
+    kind: str  #: "contact-loss", "backlash", "component", "margin", "preload", "direct-singularity", ...
     vanishing: list[str]  #: "f_A1"
     factor: str
     cause: str
@@ -335,6 +335,8 @@ class Zone:
     polygon: np.ndarray | None = field(repr=False)  #: over two lengths (n, 2), counter-clockwise, first point repeated
     holes: list[np.ndarray] = field(repr=False)
     faces: list[np.ndarray] = field(repr=False)  #: by cells convex polygons (corners, 3), over two coordinates segments
+    #: of one free effort without a value, N m or N: the "ranges" that keep every joint loaded at the sample, "smallest"
+    preload: dict[str, Any] | None = field(repr=False)
 
     @property
     def area(self) -> float:
