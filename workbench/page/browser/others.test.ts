@@ -184,11 +184,6 @@ describe("every shipped example", () => {
       const title = /^name: *(.+?)\s*(#.*)?$/m.exec(readFileSync(join(source, "examples", name), "utf8"))?.[1] ?? "";
       expect(await page.locator("h1").textContent(), name).toBe(title);
       const faults = await page.locator(".notice.fault").allTextContents();
-      // Over groups loci are of one coordinate alone (docs/limitations.md).
-      if (name === "three_rpr_legs.yaml") {
-        expect(faults.join()).toContain("ask for its zones");
-        continue;
-      }
       expect(faults, name).toEqual([]);
       const incomplete = await page.getByText("incomplete: stopped at the time limit").count();
       expect((await page.locator(".legend-row").count()) + incomplete, name).toBeGreaterThan(0);
