@@ -46,9 +46,9 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
     looked_for += fmt::format("{}{} from {} to {}", i == 0 ? "" : ", ", preload.joints[i],
                               efforts.told(i, preload.lower[i]), efforts.told(i, preload.upper[i]));
   if (preload.of_poses) {
-    lines.push_back(preload.size[1] <= 1
-                        ? "tensions within their bounds exist at every pose, and some that vary continuously: proven"
-                        : "no tensions are proven for every pose");
+    lines.emplace_back(preload.size[1] <= 1
+                           ? "tensions within their bounds exist at every pose, and some that vary continuously: proven"
+                           : "no tensions are proven for every pose");
   } else if (preload.law) {
     lines.push_back(fmt::format("{} = {}: verifies", preload.joints.front(), preload.law->expression));
     lines.push_back(fmt::format(

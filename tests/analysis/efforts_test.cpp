@@ -99,9 +99,9 @@ TEST(EffortsAtAPose, EndWhereTheNamedReactionChangesItsSign) {
                behind = reactions_at(given(model, std::to_string(end + 1e-3)), at);
     for (const auto& [name, value] : before) {
       if (name[0] != 'M') continue;
-      const bool named =
-          std::any_of(efforts.ranges[i].above.begin(), efforts.ranges[i].above.end(),
-                      [&](const Vanishing& v) { return "M_" + v.joint == name && v.quantity == Quantity::M; });
+      const bool named = std::any_of(
+          efforts.ranges[i].above.begin(), efforts.ranges[i].above.end(),
+          [&, &told = name](const Vanishing& v) { return "M_" + v.joint == told && v.quantity == Quantity::M; });
       EXPECT_EQ(value * behind.at(name) < 0, named) << name << " at " << end;
     }
   }
