@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,23 +12,10 @@
 #include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
-
-std::string example_text(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/" + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::string changed_text(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 /// A slider on a rail that carries a force F(x) along it: the effort of its motor is -F(x), and nothing else is
 /// bounded.
@@ -89,10 +74,10 @@ TEST(EffortBounds, EndTheZones) {
 }
 
 TEST(EffortBounds, EndTheRangesOfAFreeEffort) {
-  const std::string free = example_text("studies/antagonistic.yaml");
+  const std::string free = example_text("studies/antagonistic");
   const Model plain = Model::parse(free, "m.yaml");
   const Model bounded =
-      Model::parse(changed_text(free, "at: A1, actuated: true", "at: A1, actuated: {within: [-9, 9]}"), "m.yaml");
+      Model::parse(replaced(free, "at: A1, actuated: true", "at: A1, actuated: {within: [-9, 9]}"), "m.yaml");
   const std::vector<double> at = {0.05, 0.5};
   const auto couple = [&](double effort) {
     const Pose pose = solve_pose(plain.with({{"preload_B2", std::to_string(effort)}}), at);
@@ -114,7 +99,7 @@ const JointReaction& joint_of(const Pose& pose, const std::string& name) {
 }
 
 TEST(RedundantRods, BearTheForceThatIsGiven) {
-  const Model model = Model::parse(example_text("studies/redundant_rod.yaml"), "m.yaml");
+  const Model model = Model::parse(example_text("studies/redundant_rod"), "m.yaml");
   for (const double degrees : {40.0, 75.0, 130.0})
     for (const double pull : {-60.0, 25.0}) {
       const double theta = degrees * std::numbers::pi / 180, c = std::cos(theta), s = std::sin(theta);
@@ -135,7 +120,7 @@ TEST(RedundantRods, BearTheForceThatIsGiven) {
 }
 
 TEST(RedundantRods, AreFreeEffortsOfTasks) {
-  const Model model = Model::parse(example_text("studies/redundant_rod.yaml"), "m.yaml");
+  const Model model = Model::parse(example_text("studies/redundant_rod"), "m.yaml");
   // Under the load alone the motor's effort vanishes at 90 degrees.
   const Verification answer = judge(model, "box: {theta: [50 deg, 80 deg]}\n");
   EXPECT_EQ(answer.verdict, Verdict::verified);
@@ -153,15 +138,15 @@ std::string problem_of(const std::string& text) {
 }
 
 TEST(RedundantRods, AreNamedWhereTheyAreNotMarked) {
-  const std::string text = example_text("studies/redundant_rod.yaml");
-  const std::string plain = changed_text(text, ", redundant: {within: [-200, 200]}", "");
+  const std::string text = example_text("studies/redundant_rod");
+  const std::string plain = replaced(text, ", redundant: {within: [-200, 200]}", "");
   EXPECT_THAT(problem_of(plain),
               testing::AllOf(testing::HasSubstr("A2B2, A3B3"), testing::HasSubstr("redundant: true")));
-  EXPECT_THAT(problem_of(changed_text(text, "coupler: {points: [B1, B2, B3]}",
-                                      "coupler: {points: [B1, B2, B3], redundant: true}")),
-              testing::HasSubstr("has not two points"));
+  EXPECT_THAT(
+      problem_of(replaced(text, "coupler: {points: [B1, B2, B3]}", "coupler: {points: [B1, B2, B3], redundant: true}")),
+      testing::HasSubstr("has not two points"));
   // What is no rod more than the geometry needs leaves too few unknowns.
-  EXPECT_NE(problem_of(changed_text(plain, "A3B3: {points: [A3, B3]}", "A3B3: {points: [A3, B3], redundant: false}")),
+  EXPECT_NE(problem_of(replaced(plain, "A3B3: {points: [A3, B3]}", "A3B3: {points: [A3, B3], redundant: false}")),
             "none");
 }
 

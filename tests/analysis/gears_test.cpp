@@ -10,6 +10,7 @@
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
@@ -28,12 +29,6 @@ double part(const Pose& pose, const std::string& joint, Quantity quantity) {
 }
 
 double moment(const Vector2d& arm, const Vector2d& force) { return arm(0) * force(1) - arm(1) * force(0); }
-
-std::string altered(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos) throw std::out_of_range(from);
-  return text.replace(at, from.size(), to);
-}
 
 /// The geared five-bar of examples/ by hand.
 struct GearedFiveBar {
@@ -125,7 +120,7 @@ TEST(GearedFiveBar, FlanksChangeWhereTheTeethBearNothing) {
   for (const char* angle : {"pressure_angle: 20", "pressure_angle: 25"})
     for (const char* flank : {"left", "right"}) {
       const LocusMap map =
-          trace_loci(Model::parse(altered(text, "pressure_angle: 20", std::string(angle) + ", flank: " + flank)));
+          trace_loci(Model::parse(replaced(text, "pressure_angle: 20", std::string(angle) + ", flank: " + flank)));
       const std::vector<double> found = zeros_of(map, "W", Quantity::F);
       ASSERT_EQ(found.size(), by_hand.size()) << angle << " " << flank;
       for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], by_hand[i], 1e-9);
@@ -155,9 +150,9 @@ TEST(GearedFiveBar, HalfTheBacklashIsTakenUp) {
   for (const char* other :
        {", clearance: {radial: 0.01, angular: 0.05}", ", clearance: {radial: 0.01}", ", clearance: {radial: 0.01}",
         ", clearance: {radial: 0.01}", ", clearance: {radial: 0.01}"})
-    text = altered(text, other, "");
+    text = replaced(text, other, "");
   // The end effector is a point of the second wheel: it turns by half the backlash over its pitch radius.
-  text = altered(text, "end_effector: {link: rod1, at: P}", "end_effector: {link: wheel2, at: T2}");
+  text = replaced(text, "end_effector: {link: rod1, at: P}", "end_effector: {link: wheel2, at: T2}");
   for (const double theta : {0.3, 2.0, 4.0}) {
     const Pose pose = solve_pose(Model::parse(text), {theta});
     ASSERT_TRUE(pose.error);
@@ -179,7 +174,7 @@ std::string told_by(const std::string& text) {
 TEST(Gears, RefuseWhatDoesNotMesh) {
   const std::string text = shipped("geared_five_bar.yaml").text();
   const auto says = [&](const std::string& from, const std::string& to, const std::string& words) {
-    const std::string told = told_by(altered(text, from, to));
+    const std::string told = told_by(replaced(text, from, to));
     EXPECT_NE(told.find(words), std::string::npos) << told;
     EXPECT_EQ(told.find('\n'), std::string::npos) << told;
   };

@@ -10,6 +10,7 @@
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
@@ -36,13 +37,6 @@ Vector2d elbow(const Vector2d& a, const Vector2d& b, double from_a, double from_
   const double d = (b - a).norm(), along = (d * d + from_a * from_a - from_b * from_b) / (2 * d);
   const Vector2d u = (b - a) / d;
   return a + along * u + side * std::sqrt(from_a * from_a - along * along) * left_of(u);
-}
-
-/// The text with the first `from` replaced.
-std::string altered(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos) throw std::out_of_range(from);
-  return text.replace(at, from.size(), to);
 }
 
 TEST(PlanarDelta, MotorsAndBarsHoldThePlatform) {
@@ -75,11 +69,11 @@ TEST(PlanarDelta, LociAreThoseOfOffsetsThatAreTurnedByHand) {
   const std::string text = shipped("planar_delta.yaml").text();
   std::string turned = text;
   for (const char* point : {"D1: {from: A1", "E1: {from: B1"})
-    turned = altered(turned, std::string(point) + ", by: [w, w], in: platform}",
-                     std::string(point) + ", by: [w*cos(10 deg) - w*sin(10 deg), w*sin(10 deg) + w*cos(10 deg)]}");
+    turned = replaced(turned, std::string(point) + ", by: [w, w], in: platform}",
+                      std::string(point) + ", by: [w*cos(10 deg) - w*sin(10 deg), w*sin(10 deg) + w*cos(10 deg)]}");
   for (const char* point : {"F1: {from: B1", "G1: {from: C1"})
-    turned = altered(turned, std::string(point) + ", by: [2*w, 0], in: platform}",
-                     std::string(point) + ", by: [2*w*cos(10 deg), 2*w*sin(10 deg)]}");
+    turned = replaced(turned, std::string(point) + ", by: [2*w, 0], in: platform}",
+                      std::string(point) + ", by: [2*w*cos(10 deg), 2*w*sin(10 deg)]}");
   const LocusMap offsets = trace_loci(Model::parse(text)), other = trace_loci(Model::parse(turned));
   ASSERT_EQ(offsets.curves.size(), other.curves.size());
   EXPECT_GT(offsets.curves.size(), 5U);
@@ -129,7 +123,7 @@ TEST(ScissorLift, PinsTakeUpHalfTheGap) {
   for (const char* other : {", clearance: {radial: 0.05}", ", clearance: {radial: 0.05}", ", clearance: {radial: 0.05}",
                             ", clearance: {gap: 0.2}", ", clearance: {radial: 0.05}", ", clearance: {axial: 0.1}",
                             ", clearance: {radial: 0.05}"})
-    text = altered(text, other, "");
+    text = replaced(text, other, "");
   const Pose alone = solve_pose(Model::parse(text), {theta, u});
   ASSERT_TRUE(alone.error);
   EXPECT_NEAR(alone.error->rotation.at(0), -half / std::cos(theta), 1e-15);
@@ -172,10 +166,10 @@ TEST(ScissorLift, TasksHoldThePinsToTheirSides) {
 /// A pin in a slot is a block without mass in a guide, pinned to its link.
 TEST(Slots, BearWhatAPinnedBlockBears) {
   const Model model = shipped("scissor_lift.yaml");
-  std::string text = altered(model.text(), "  D: {slot: [table, bar1], at: D, axis: [C, T], clearance: {gap: 0.2}}\n",
-                             "  G: {prismatic: [table, block], at: D, axis: [C, T]}\n"
-                             "  D: {revolute: [block, bar1], at: D}\n");
-  text = altered(text, "  rod: {points: [K]}\n", "  rod: {points: [K]}\n  block: {points: [D]}\n");
+  std::string text = replaced(model.text(), "  D: {slot: [table, bar1], at: D, axis: [C, T], clearance: {gap: 0.2}}\n",
+                              "  G: {prismatic: [table, block], at: D, axis: [C, T]}\n"
+                              "  D: {revolute: [block, bar1], at: D}\n");
+  text = replaced(text, "  rod: {points: [K]}\n", "  rod: {points: [K]}\n  block: {points: [D]}\n");
   const Model blocks = Model::parse(text);
   for (const std::vector<double>& at : {std::vector<double>{0.5, 0.6}, {0.9, -0.1}}) {
     const Pose slots = solve_pose(model, at), other = solve_pose(blocks, at);
@@ -198,7 +192,7 @@ std::string refusal(const std::string& text) {
 TEST(Slots, RefuseWhatIsNoSlot) {
   const std::string text = shipped("scissor_lift.yaml").text();
   const auto says = [&](const std::string& from, const std::string& to, const std::string& words) {
-    const std::string told = refusal(altered(text, from, to));
+    const std::string told = refusal(replaced(text, from, to));
     EXPECT_NE(told.find(words), std::string::npos) << told;
     EXPECT_EQ(told.find('\n'), std::string::npos) << told;
   };
@@ -213,7 +207,7 @@ TEST(Slots, RefuseWhatIsNoSlot) {
 
 TEST(Offsets, RefuseFramesThatAreNotThere) {
   const std::string text = shipped("planar_delta.yaml").text();
-  const auto told = [&](const std::string& to) { return refusal(altered(text, "by: [w, w], in: platform}", to)); };
+  const auto told = [&](const std::string& to) { return refusal(replaced(text, "by: [w, w], in: platform}", to)); };
   EXPECT_NE(told("by: [w, w], in: plate}").find("there is no frame 'plate' above it"), std::string::npos);
   EXPECT_NE(told("by: A2 - A1, in: platform}").find("made of points"), std::string::npos);
 }
