@@ -132,15 +132,15 @@ TEST(Advice, NamesTheLinksOfACycleOfPoints) {
 TEST(Advice, SaysWhatExistsForWhatDoesNot) {
   EXPECT_TRUE(says(refusal(refused_file("belt.yaml")), "unknown key 'at' in belt Belt; the keys are belt, centres"))
       << refusal(refused_file("belt.yaml"));
-  for (const auto& [key, word] :
-       std::vector<std::pair<std::string, std::string>>{{"hinge", "revolute"},
-                                                        {"slider", "prismatic"},
-                                                        {"weld", "in one link"},
-                                                        {"cam", "prismatic along the slot"},
-                                                        {"Ball_Joint", "space: spatial"},
-                                                        {"revolut", "'revolute'"},
-                                                        {"chain", "no joint goes through gears"},
-                                                        {"nonsense", "revolute, prismatic, slot, gear, belt or cable"}}) {
+  for (const auto& [key, word] : std::vector<std::pair<std::string, std::string>>{
+           {"hinge", "revolute"},
+           {"slider", "prismatic"},
+           {"weld", "in one link"},
+           {"cam", "prismatic along the slot"},
+           {"Ball_Joint", "space: spatial"},
+           {"revolut", "'revolute'"},
+           {"chain", "no joint goes through gears"},
+           {"nonsense", "revolute, prismatic, slot, gear, belt or cable"}}) {
     const std::string said = refusal(with(five_bar_text, "revolute: [A1B1, B1P]", key + ": [A1B1, B1P]"));
     EXPECT_TRUE(says(said, "'" + key + "' is no type of joint")) << said;
     EXPECT_TRUE(says(said, word)) << said;
