@@ -122,7 +122,7 @@ struct Point {
   core::SourcePosition where;
 };
 
-/// Points that close together, none before the others (docs/method.md section 14): as many equations as unknowns,
+/// Points that close together, none before the others (method.md section 14): as many equations as unknowns,
 ///     |Q - P|^2 = length^2 of every distance,   (P - Q) x u = 0 of every line
 /// The points are `first` and the `count` - 1 behind it; the equations may name points up to `last`, which are built on
 /// these. Of all assemblies it is the one that holds the posture `near`.
@@ -187,7 +187,7 @@ enum class JointType { revolute, prismatic, universal, spherical, cylindrical, s
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
 
-/// Of an actuator whose effort is chosen and not determined: the preload (docs/preload.md). It is the value of a
+/// Of an actuator whose effort is chosen and not determined: the preload (docs/guide/preload.md). It is the value of a
 /// parameter, and there are no forces where none is given.
 struct FreeEffort {
   std::string parameter;                                     ///< preload_ and the joint's name, N m or N

@@ -1,4 +1,4 @@
-"""Every file and command of docs/tutorial.md works as it is printed there."""
+"""Every file and command of docs/tutorial/tutorial.md works as it is printed there."""
 
 import pathlib
 import re
@@ -7,9 +7,9 @@ import subprocess
 import tempfile
 import unittest
 
-from program import PROGRAM, SOURCE
+from program import PROGRAM, SOURCE, page
 
-TUTORIAL = (SOURCE / "docs" / "tutorial.md").read_text(encoding="utf-8")
+TUTORIAL = page("tutorial.md")
 
 
 def blocks(language):
@@ -19,7 +19,7 @@ def blocks(language):
 class Tutorial(unittest.TestCase):
     def test_local_links_lead_somewhere(self):
         for target in re.findall(r"\]\(([^)]+)\)", TUTORIAL):
-            self.assertTrue((SOURCE / "docs" / target).exists(), target)
+            self.assertTrue((SOURCE / "docs" / "tutorial" / target.partition("#")[0]).exists(), target)
 
     def test_every_command_ends_as_it_says(self):
         printed = {}

@@ -1,8 +1,8 @@
 """Every citation of a page of this repository can be followed: the page is there, and so is the section.
 
 A citation is the name of a page, alone or with `section 4`, `sections 1 to 5`, or the bare number of the section:
-"method.md section 8", "docs/exactness.md", "method.md 6". Usage: citations.py REPOSITORY; exit status 1 and one line a
-citation that leads nowhere.
+"method.md section 8", "docs/background/exactness.md", "method.md 6". Usage: citations.py REPOSITORY; exit status 1 and one
+line a citation that leads nowhere. A bare name is enough, as no two pages of docs/ have the same name.
 """
 
 import pathlib
@@ -18,8 +18,8 @@ ELSEWHERE = {"DEVELOPERS.md"}
 
 
 def page_of(root, citing, name):
-    """Where a cited page is: beside the page that cites it, among the documents, or from the root."""
-    for folder in (root / pathlib.PurePosixPath(citing).parent, root / "docs", root):
+    """Where a cited page is: beside the page that cites it, in a folder of docs/, or from the root."""
+    for folder in (root / pathlib.PurePosixPath(citing).parent, *sorted((root / "docs").glob("*/")), root):
         if (folder / name).is_file():
             return folder / name
     return None
@@ -48,9 +48,17 @@ def dead_citations(root, citing, text):
     return found
 
 
+def equal_names(root):
+    """Pages of docs/ that share a name: a bare name would not tell them apart."""
+    pages = {}
+    for page in sorted((root / "docs").glob("**/*.md")):
+        pages.setdefault(page.name, []).append(str(page.relative_to(root)))
+    return [f"one name: {', '.join(same)}" for same in pages.values() if len(same) > 1]
+
+
 def main(root):
     files = subprocess.run(["git", "-C", root, "ls-files"], capture_output=True, text=True, check=True).stdout.split("\n")
-    found = []
+    found = equal_names(root)
     for name in files:
         if name.endswith(TEXTS) and not name.startswith("tests/laws/citations/") and (root / name).is_file():
             found += dead_citations(root, name, (root / name).read_text(encoding="utf-8", errors="replace"))
