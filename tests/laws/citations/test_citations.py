@@ -4,7 +4,7 @@ import pathlib
 import tempfile
 import unittest
 
-from citations import dead_citations, equal_names
+from citations import dead_citations, dead_links, equal_names
 
 
 class Citations(unittest.TestCase):
@@ -26,6 +26,15 @@ class Citations(unittest.TestCase):
 
     def test_a_page_in_another_folder(self):
         self.assertEqual(self.dead("// docs/method.md"), ["core/a.hpp: there is no docs/method.md"])
+
+    def test_links_of_a_page(self):
+        (self.root / "docs" / "guide").mkdir()
+        links = "[a](../background/method.md#2-statics), [b](method.md), [c](https://x.org/y)\n```\n[d](none.md)\n```\n"
+        self.assertEqual(dead_links(self.root, "docs/guide/b.md", links), ["docs/guide/b.md: a link to method.md, which is not there"])
+
+    def test_sources_that_a_page_names(self):
+        named = "`docs/background/method.txt`, `elsewhere/a.hpp`, `loci.json`"
+        self.assertEqual(dead_links(self.root, "README.md", named), ["README.md: there is no docs/background/method.txt"])
 
     def test_pages_of_one_name(self):
         self.assertEqual(equal_names(self.root), [])
