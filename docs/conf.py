@@ -36,5 +36,22 @@ def offer_files(app, docname, source):
     source[0] = LINK.sub(offered, source[0])
 
 
+TERM = re.compile(r"^\| (\*.+?) \| (.+) \|$", re.MULTILINE)
+
+
+def list_terms(app, docname, source):
+    """The table of the glossary as a list of terms, each of which the search finds by itself."""
+    if docname != "reference/glossary":
+        return
+    entries = []
+    for names, meaning in TERM.findall(source[0].replace("\\|", "\0")):
+        alone = re.fullmatch(r"\*[^*]+\*(?:, \*[^*]+\*)*", names)
+        terms = names.replace("*", "").split(", ") if alone else [names.replace("*", "")]
+        entries.append("\n".join(terms) + "\n  " + meaning)
+    head = source[0].partition("\n| ")[0]
+    source[0] = f"{head}\n```{{glossary}}\n" + "\n\n".join(entries).replace("\0", "|") + "\n```\n"
+
+
 def setup(app):
+    app.connect("source-read", list_terms)
     app.connect("source-read", offer_files)
