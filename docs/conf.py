@@ -10,6 +10,8 @@ exclude_patterns = []
 myst_heading_anchors = 4
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
+default_role = "code"
+smartquotes = False
 highlight_language = "none"
 
 html_theme = "furo"
