@@ -1,4 +1,4 @@
-"""Ten mechanisms from drawings that others published, entered as they are drawn: docs/background/agreement.md has the table."""
+"""Ten mechanisms from drawings that others published, entered as they are drawn: agreement.md has the table."""
 
 import json
 import math
