@@ -195,12 +195,13 @@ struct FreeEffort {
   bool given = false;
 };
 
-/// Two wheels, or a wheel and a rack, whose teeth touch at the pitch point; or two pulleys of one size.
+/// Two wheels, or a wheel and a rack, whose teeth touch at the pitch point; or two pulleys. The joint's axis is the
+/// line of action; a belt over pulleys of one size has none and carries a couple.
 struct Meshing {
   PointIndex first = 0;              ///< centre of `from`
   std::optional<PointIndex> second;  ///< centre of `to`; none of a rack
   std::optional<PointIndex> flank;   ///< of a gear: where the line of action touches the base circle of `from`
-  Expression most = {};              ///< of a belt: the couple beyond which a span is slack, N m
+  Expression most = {};              ///< of a belt: the couple or force beyond which a span is slack, N m or N
   Expression radius = {};            ///< of the pitch circle of `from`, m
 };
 
@@ -345,6 +346,8 @@ void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort)
 
 /// Whether the effort of some actuator is determined and has bounds: poses beyond them are not of the workspace.
 bool has_effort_bounds(const Mechanism& mechanism);
+/// The slack of a belt's spans as bounds of what it carries, for proofs that know no limits by efforts.
+Mechanism with_bounded_belts(Mechanism mechanism);
 
 /// A mass of a link and where it sits: that of its body and its point masses.
 struct Mass {
@@ -366,7 +369,7 @@ std::vector<Unknown> unknowns(const Mechanism& mechanism);
 /// The columns of one joint, without a planar joint's actuator.
 std::vector<core::Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint);
 
-/// What the actuator of a joint exerts: M or F.
+/// What the actuator of a joint, the teeth of a gear or a belt exerts: M or F.
 core::Quantity actuator_quantity(const Joint& joint);
 
 /// Force components that vanish together where contact is lost: in space those across the axis of a pin or a sleeve.
