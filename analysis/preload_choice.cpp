@@ -22,7 +22,9 @@ using numeric::ChoiceOrder;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double too_near = 1e-9;  ///< relative: doubles do not tell which of two bounds comes first
 
-bool are_near(double a, double b) { return std::abs(a - b) <= too_near * (1 + std::abs(a) + std::abs(b)); }
+bool are_near(double a, double b) {
+  return std::isfinite(a) && std::isfinite(b) && std::abs(a - b) <= too_near * (1 + std::abs(a) + std::abs(b));
+}
 
 /// The farthest of the bounds on one effort to one side, and which row it is of.
 struct Bound {

@@ -307,7 +307,9 @@ TEST(TensionZones, AreTheWrenchFeasibleWorkspace) {
     for (const ZoneBorder& border : zone.borders)
       for (const std::string& beside : border.beside)
         for (const Zone& other : zones.zones)
-          if (other.id == beside) EXPECT_NE(other.preload->feasible, zone.preload->feasible) << zone.id << beside;
+          if (other.id == beside) {
+            EXPECT_NE(other.preload->feasible, zone.preload->feasible) << zone.id << beside;
+          }
 }
 
 TEST(TensionLoci, HoldOnAGrid) {
@@ -340,7 +342,9 @@ TEST(BoundLoci, AreWhereADeterminedEffortHasItsBound) {
       const Point2& at = arc.points[arc.points.size() / 2];
       for (const JointReaction& joint : solve_pose(model, {at[0], at[1]}).reactions)
         for (const ReactionComponent& part : joint.components)
-          if (joint.joint == "A1" && part.quantity == Quantity::M) EXPECT_NEAR(part.value, bound, 0.05) << curve.cause;
+          if (joint.joint == "A1" && part.quantity == Quantity::M) {
+            EXPECT_NEAR(part.value, bound, 0.05) << curve.cause;
+          }
     }
   }
   EXPECT_EQ(curves, 2);
