@@ -617,14 +617,33 @@ class Derivation {
                   factors.end());
   }
 
+  /// Bounds of all tensions hold them on either side.
+  bool is_passed_by_tensions(const DeterminantPart& part) const {
+    return part.chosen && std::all_of(preload_.joints.begin(), preload_.joints.end(), [&](mechanism::JointIndex joint) {
+             return mechanism::is_cable(mechanism_.joints[static_cast<std::size_t>(joint)]);
+           });
+  }
+
+  /// Where only one value of the free efforts leaves the others finite, which are then open: what is chosen goes
+  /// through infinity along the line of the unknowns.
+  void name_motors(LocusFactor& factor) const {
+    for (const mechanism::JointIndex joint : preload_.joints) {
+      const mechanism::Joint& own = mechanism_.joints[static_cast<std::size_t>(joint)];
+      factor.vanishing.push_back({own.name, mechanism::actuator_quantity(own), 1});
+    }
+    factor.cause += (factor.cause.empty() ? "" : "; ") + std::string("singular with a constant effort of ") +
+                    preload_.motors(mechanism_);
+  }
+
   void add_direct_singularities() {
     const std::vector<int> variables = geometry_.tower_variables();
     for (const DeterminantPart& part : determinant_parts_) {
-      if (part.chosen) continue;
+      if (is_passed_by_tensions(part)) continue;
       LocusFactor factor;
-      factor.role = FactorRole::direct_singularity;
+      factor.role = part.chosen ? FactorRole::preload : FactorRole::direct_singularity;
       factor.expression = text(part.natural->poly);
       factor.cause = causes_.of_determinant(part.natural->poly);
+      if (part.chosen) name_motors(factor);
       factor.sheet = core::scaled_for_doubles(part.sheet.sheet.plain(variables));
       put_implicit(part.sheet, factor);
       if (part.alone) factor.line = lines_.of(part.natural->poly);
