@@ -11,8 +11,10 @@
 #include "analysis/carried.hpp"
 #include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/loci_by_cells.hpp"
 #include "analysis/model.hpp"
+#include "analysis/preload_choice.hpp"
 #include "analysis/request_limits.hpp"
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
@@ -26,6 +28,7 @@
 #include "mechanism/notes.hpp"
 #include "mechanism/written_unit.hpp"
 #include "numeric/sketch.hpp"
+#include "numeric/validate_preload.hpp"
 
 namespace clearloci {
 namespace {
@@ -381,7 +384,8 @@ symbolic::Selection selection_of(const LociRequest& request) {
   return {.joints = request.joints,
           .quantities = request.quantities,
           .min_force = request.min_force,
-          .min_couple = request.min_couple};
+          .min_couple = request.min_couple,
+          .controlled = request.controlled};
 }
 
 namespace {
@@ -402,8 +406,6 @@ core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociR
     };
   core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), used).map
                            : trace_member(mechanism, request, used).map;
-  if (mechanism::has_effort_bounds(mechanism))
-    map.notes.emplace_back("bounds of efforts are no loci: pose, verify and zones keep to them");
   if (means.certificate != nullptr) certify(map, own, *means.certificate);
   return own ? from_frame(std::move(map), mechanism, own->frame) : map;
 }
@@ -453,9 +455,32 @@ std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechani
   return reactions;
 }
 
+namespace {
+
+/// The loci of free efforts over two coordinates against the choice of efforts at the nodes.
+core::Validation validate_preload(const mechanism::Mechanism& mechanism, const LociRequest& request,
+                                  const numeric::GridSpec& grid) {
+  if (mechanism.coordinates.size() != 2)
+    throw core::InputError({mechanism.file}, "loci of free efforts are validated over two coordinates",
+                           "give the efforts by --preload");
+  const numeric::FindChoice choice = preload_choice(mechanism, request);
+  core::LocusMap map = trace_loci(mechanism, request);
+  if (map.out_of_time)
+    throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
+  const mechanism::Joint& joint =
+      mechanism.joints[static_cast<std::size_t>(mechanism::joints_without_preload(mechanism).front())];
+  numeric::ValidationReport report =
+      numeric::validate_preload(numeric::compile(with_idle_efforts(mechanism)), map, grid, choice,
+                                {joint.name, mechanism::actuator_quantity(joint)});
+  return {std::move(map), {grid.nx, grid.ny}, std::move(report)};
+}
+
+}  // namespace
+
 core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
                                const numeric::GridSpec& grid) {
   require_coordinates(mechanism, 1, 3, "loci are held against a grid");
+  if (!mechanism::joints_without_preload(mechanism).empty()) return validate_preload(mechanism, request, grid);
   if (const std::optional<Framed> own = framed(mechanism)) {
     core::Validation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
     return {from_frame(std::move(inside.map), mechanism, own->frame), std::move(inside.nodes),
@@ -518,7 +543,7 @@ bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
 
 std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
   const bool beside = mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism);
-  const numeric::NumericModel model = numeric::compile(mechanism);
+  const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
   std::vector<core::ModeSketch> sketches;
   std::vector<core::WorkingMode> modes;
   const auto add = [&](const core::WorkingMode& mode) {

@@ -54,6 +54,8 @@ std::vector<Cluster> clusters_of(std::vector<EffortGap> gaps) {
   return clusters;
 }
 
+}  // namespace
+
 void set_ranges(const std::vector<EffortGap>& gaps, FeasibleEfforts& efforts) {
   for (const EffortGap& gap : gaps)
     if (gap.from == -infinity && gap.to == infinity)
@@ -74,6 +76,8 @@ void set_ranges(const std::vector<EffortGap>& gaps, FeasibleEfforts& efforts) {
   }
   if (open.from < open.to) efforts.ranges.push_back(std::move(open));
 }
+
+namespace {
 
 /// Poses of the box, off every symmetry: a reaction that is zero in all of them is one that nothing loads.
 std::vector<std::vector<double>> usual_poses(const Mechanism& mechanism, const std::vector<numeric::Bounded>& at) {

@@ -17,6 +17,9 @@ inline core::Rational nearest_to_none(const core::Rational& lower, const core::R
   return lower > 0 ? lower : upper < 0 ? upper : core::Rational();
 }
 
+/// The ranges between the gaps, within the motor's own, or what fails at every effort. `efforts`: with `within`.
+void set_ranges(const std::vector<numeric::EffortGap>& gaps, FeasibleEfforts& efforts);
+
 /// The efforts of a free actuator at which its own backlash is crossed; none where it has no play.
 std::optional<numeric::EffortGap> own_gap(const mechanism::Mechanism& mechanism, const std::string& joint,
                                           const std::optional<core::Rational>& min_couple);

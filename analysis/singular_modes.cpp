@@ -16,7 +16,10 @@ namespace {
 mechanism::Mechanism bare(mechanism::Mechanism mechanism) {
   mechanism.springs.clear();
   mechanism.limits.clear();
-  for (mechanism::Joint& joint : mechanism.joints) joint.effort.reset();
+  for (mechanism::Joint& joint : mechanism.joints) {
+    joint.effort.reset();
+    joint.free_effort.reset();
+  }
   return mechanism;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/idle_efforts.hpp"
 #include "analysis/loci.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
@@ -17,7 +18,7 @@ namespace {
 /// The reachable pose of a grid, off the box's symmetries, that is nearest to its middle.
 std::optional<std::vector<double>> middle_pose_in_space(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
   constexpr int steps = 9;
-  const numeric::NumericModel model = numeric::compile(mechanism);
+  const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
   const std::size_t n = mechanism.coordinates.size();
   std::optional<std::vector<double>> best;
   double nearest = std::numeric_limits<double>::infinity();
@@ -54,7 +55,7 @@ Sketch sketch_pose(const Model& model, const std::vector<double>& at, const Dyad
                            "draw the points of its pose");
   const DyadSides sides = sides_of(mechanism, working_mode);
   require_values(mechanism, at.size());
-  const numeric::NumericModel compiled = numeric::compile(mechanism);
+  const numeric::NumericModel compiled = numeric::compile(with_idle_efforts(mechanism));
   if (const auto point = numeric::posture(compiled, at, sides).unreachable)
     throw core::InputError(
         {mechanism.file},
@@ -67,7 +68,7 @@ std::optional<std::vector<double>> sample_pose(const Model& model, const DyadSid
   const mechanism::Mechanism& mechanism = model.content().mechanism;
   const DyadSides sides = sides_of(mechanism, working_mode);
   if (mechanism.space == mechanism::Space::spatial) return middle_pose_in_space(mechanism, sides);
-  const numeric::NumericModel compiled = numeric::compile(mechanism);
+  const numeric::NumericModel compiled = numeric::compile(with_idle_efforts(mechanism));
   return numeric::sample_pose(compiled, sides, compiled.box);
 }
 

@@ -5,8 +5,10 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
+#include "analysis/zone_preload.hpp"
 #include "analysis/zones_by_cells.hpp"
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
@@ -52,7 +54,8 @@ bool keeps_sign_in_zones(const core::Vanishing& what, const LociRequest& request
 /// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
 void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request,
                const std::vector<core::Vanishing>& always_zero, core::Zones& map) {
-  const numeric::NumericModel model = numeric::compile(mechanism);
+  const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
+  const bool free = !mechanism::joints_without_preload(mechanism).empty();
   const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request);
   const std::vector<numeric::JointColumns> columns_of_joints = numeric::joint_columns(model);
   const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
@@ -61,6 +64,7 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
     const numeric::BoundedNumerators at = numeric::bounded_numerators(model, zone.sample, sides);
     if (!at.reachable) continue;
     zone.assembly_mode = sign(at.determinant);
+    if (free) continue;  // signs are those of the effort that is chosen
     for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
       const mechanism::Unknown& unknown = model.unknowns[k];
       const std::string& joint = mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;
@@ -94,18 +98,19 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
 
 /// Where the loci are those of several sheets, zones lie on one sheet each; a curve's name is that of the joined map.
 /// `may_leave`: as of loci::zones, of a mechanism without folds.
-loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
-  if (traced.sheets.empty()) return loci::zones(traced.problem, std::move(traced.map), false, may_leave);
+loci::CutZones zones_of(TracedProblem traced, bool may_leave, const loci::ZoneLabel& label) {
+  if (traced.sheets.empty()) return loci::zones(traced.problem, std::move(traced.map), false, may_leave, label);
   loci::CutZones all;
   core::Zones& joined = all.map;
   for (TracedSheet& sheet : traced.sheets) {
-    loci::CutZones cut = loci::zones(sheet.problem, std::move(sheet.map));
+    loci::CutZones cut = loci::zones(sheet.problem, std::move(sheet.map), false, false, label);
     core::Zones& own = cut.map;
     all.finer_may_tell = all.finer_may_tell && cut.finer_may_tell;
     const std::vector<core::LocusCurve> curves = own.loci.curves;
     loci::drop_own_roots(own.loci);
     for (core::Zone& zone : own.zones) {
       for (core::ZoneBorder& border : zone.borders) {
+        border.beside.clear();
         const auto curve =
             std::find_if(curves.begin(), curves.end(), [&](const auto& c) { return c.id == border.curve; });
         if (curve == curves.end()) continue;
@@ -149,8 +154,9 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave) {
   return all;
 }
 
+/// `label`: may be empty.
 core::Zones cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& request, core::Certificate* certificate,
-                      const symbolic::LocusFamily* family) {
+                      const symbolic::LocusFamily* family, const PreloadLabel& label) {
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
   loci::sheet::KnownSearches known;
@@ -160,7 +166,12 @@ core::Zones cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& 
       throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
     const std::vector<core::Vanishing> always_zero = traced.problem.always_zero;
-    loci::CutZones cut = zones_of(std::move(traced), attempt < attempts);
+    loci::ZoneLabel in_tower;
+    if (label)
+      in_tower = [&label, tower = traced.map.tower](const core::WorkingMode& mode, const std::vector<double>& sample) {
+        return label(tower, mode, sample);
+      };
+    loci::CutZones cut = zones_of(std::move(traced), attempt < attempts, in_tower);
     core::Zones& map = cut.map;
     const bool certified = std::all_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return z.certified; });
     if (cut.left || (!certified && cut.finer_may_tell && attempt < attempts)) {
@@ -178,17 +189,21 @@ core::Zones cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& 
 
 core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest& request,
                        core::Certificate* certificate, const symbolic::LocusFamily* family) {
+  const bool chosen = !mechanism::joints_without_preload(mechanism).empty();
   if (request.by_cells || !mechanism::is_plane(mechanism) || !mechanism.groups.empty() ||
-      mechanism::has_effort_bounds(mechanism))
+      (mechanism::has_effort_bounds(mechanism) && !chosen))
     return zones_by_cells(mechanism::with_bounded_belts(mechanism), request);
   const std::optional<Framed> own = framed(mechanism);
-  core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, family)
-                        : cut_zones(mechanism, request.loci, certificate, family);
+  const PreloadLabel label = label_of_preload(mechanism, own ? own->frame : mechanism::Frame{});
+  core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, family, label)
+                        : cut_zones(mechanism, request.loci, certificate, family, label);
   if (certificate != nullptr) {
     certify(map.loci, own, *certificate);
     certificate->zones = map.zones;
   }
-  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
+  if (own) map = from_frame(std::move(map), mechanism, own->frame);
+  add_preload(mechanism, request.loci, map);
+  return map;
 }
 
 Zones find_zones(const Model& model, const ZoneRequest& request) {

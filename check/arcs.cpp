@@ -31,6 +31,7 @@ bool kind_fits(core::LocusKind kind, FactorRole role) {
   using core::LocusKind;
   return role == FactorRole::reaction             ? kind <= LocusKind::component
          : role == FactorRole::margin             ? kind == LocusKind::margin
+         : role == FactorRole::preload            ? kind == LocusKind::preload
          : role == FactorRole::direct_singularity ? kind == LocusKind::direct_singularity
                                                   : kind == LocusKind::workspace_boundary;
 }

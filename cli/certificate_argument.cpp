@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/errors.hpp"
+#include "mechanism/actions.hpp"
 #include "report/files.hpp"
 
 namespace clearloci::cli {
@@ -35,6 +36,7 @@ bool has_certified_loci(const mechanism::Mechanism& mechanism) {
 }
 
 void require_certifiable(const mechanism::Mechanism& mechanism) {
+  mechanism::require_preload(mechanism);
   if (has_certified_loci(mechanism)) return;
   if (mechanism::has_effort_bounds(mechanism))
     throw core::InputError({.file = "--certificate"}, "there is no certificate of mechanisms whose efforts have bounds",

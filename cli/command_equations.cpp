@@ -80,19 +80,30 @@ Json sheet_json(const symbolic::EquationSheet& sheet) {
   Json numerators = Json::object();
   for (const symbolic::Determinant& numerator : sheet.numerators)
     numerators[numerator.name] = {{"expression", numerator.expression}, {"factors", factors_json(numerator)}};
-  return {{"format", 1},
-          {"mechanism", report::printable(sheet.mechanism)},
-          {"parameters", dictionary_json(sheet.parameters)},
-          {"coordinates", sheet.coordinates},
-          {"closure", dictionary_json(sheet.closure)},
-          {"closing", sheet.closing},
-          {"rows", sheet.rows},
-          {"unknowns", sheet.unknowns},
-          {"matrix", sheet.matrix},
-          {"loads", sheet.loads},
-          {"determinant", sheet.determinant.expression},
-          {"determinant_factors", factors_json(sheet.determinant)},
-          {"numerators", std::move(numerators)}};
+  Json all = {{"format", 1},
+              {"mechanism", report::printable(sheet.mechanism)},
+              {"parameters", dictionary_json(sheet.parameters)},
+              {"coordinates", sheet.coordinates},
+              {"closure", dictionary_json(sheet.closure)},
+              {"closing", sheet.closing},
+              {"rows", sheet.rows},
+              {"unknowns", sheet.unknowns},
+              {"matrix", sheet.matrix},
+              {"loads", sheet.loads},
+              {"determinant", sheet.determinant.expression},
+              {"determinant_factors", factors_json(sheet.determinant)},
+              {"numerators", std::move(numerators)}};
+  if (sheet.efforts.empty() && sheet.preload.empty()) return all;
+  Json preload = Json::array();
+  for (const symbolic::PreloadEquation& own : sheet.preload)
+    preload.push_back({{"reactions", own.reactions},
+                       {"words", own.words},
+                       {"expression", own.determinant.expression},
+                       {"factors", factors_json(own.determinant)}});
+  all["efforts"] = Json::object();
+  for (const auto& [joint, column] : sheet.efforts) all["efforts"][joint] = column;
+  all["preload"] = std::move(preload);
+  return all;
 }
 
 int run(const EquationsCommand& arguments, TimeLimit& limit) {

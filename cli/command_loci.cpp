@@ -101,6 +101,7 @@ Command add_loci_command(CLI::App& program) {
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
+  add_controlled_argument(*app, arguments->loci);
   add_mesh_argument(*app, arguments->loci);
   app->add_option("--export", arguments->formats,
                   fmt::format("Files besides loci.json, comma-separated: {}",

@@ -74,6 +74,7 @@ Command add_validate_command(CLI::App& program) {
   const auto arguments = std::make_shared<ValidateCommand>();
   add_common_arguments(*app, arguments->common);
   add_tracing_arguments(*app, arguments->loci);
+  add_controlled_argument(*app, arguments->loci);
   app->add_option("--grid", arguments->grid,
                   "Nodes along each coordinate (default: 400x400, over one 4000, over three 40x40x40)")
       ->type_name("NXxNY|NXxNYxNZ|N");

@@ -67,6 +67,12 @@ void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
       ->type_name("M");
 }
 
+void add_controlled_argument(CLI::App& command, LociArguments& arguments) {
+  command.add_flag("--controlled", arguments.controlled,
+                   "Efforts that are free and have no value may vary with the pose: singular is only what is so "
+                   "whichever efforts are free");
+}
+
 void add_mesh_argument(CLI::App& command, LociArguments& arguments) {
   command
       .add_option("--mesh-size", arguments.mesh_size,
@@ -78,6 +84,7 @@ void add_mesh_argument(CLI::App& command, LociArguments& arguments) {
 LociRequest loci_request(const LociArguments& arguments, const mechanism::Mechanism& mechanism, Progress& progress,
                          const TimeLimit& limit) {
   LociRequest request;
+  request.controlled = arguments.controlled;
   request.joints = parse_joints(arguments.joints, mechanism);
   request.quantities = parse_quantities(arguments.quantities);
   if (!arguments.min_force.empty())

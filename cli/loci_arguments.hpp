@@ -13,6 +13,7 @@
 namespace clearloci::cli {
 
 struct LociArguments {
+  bool controlled = false;
   std::vector<std::string> joints;
   std::string quantities = "f,M";
   std::string min_force, min_couple, tolerance, mesh_size = "1/32", working_mode;
@@ -26,6 +27,8 @@ void add_tracing_arguments(CLI::App& command, LociArguments& arguments);
 void add_locus_arguments(CLI::App& command, LociArguments& arguments);
 
 /// --mesh-size.
+void add_controlled_argument(CLI::App& command, LociArguments& arguments);
+
 void add_mesh_argument(CLI::App& command, LociArguments& arguments);
 
 /// `progress` must outlive the request.

@@ -14,10 +14,11 @@
 
 namespace clearloci::inline core {
 
+/// `preload`: where the choice of free efforts changes (docs/method.md section 15).
 /// `construction`: a squared distance that the closure divides by; a point where the mode may change. With f of a joint
 /// in space: zero where two directions across its axis may fall together, so that f1 and f2 of a force vanish that does
 /// not.
-enum class FactorRole { reaction, margin, direct_singularity, workspace_boundary, construction };
+enum class FactorRole { reaction, margin, preload, direct_singularity, workspace_boundary, construction };
 
 /// Of a function that is a quadratic form in others, its parts: where all of these vanish it has a node. That is three
 /// equations or more, of which two imply the others:
@@ -38,7 +39,8 @@ struct LocusFactor {
   FactorRole role = FactorRole::reaction;
   std::string expression;            ///< over the points' coordinates: "x - xB2"
   std::string cause;                 ///< "link PB2 parallel to the load"; empty where it has no such reading
-  std::vector<Vanishing> vanishing;  ///< components (fx, fy, M) that vanish with it; margins: the quantity held
+  std::vector<Vanishing> vanishing;  ///< components (fx, fy, M) that vanish with it; margins: the quantity held;
+                                     ///< preload: what vanishes at one choice
   Polynomial sheet;                  ///< in (x, y, s1...sm), multilinear in the roots; zero exactly where the factor is
   StraightLine line;                 ///< a multiple of `sheet`, zero besides only where denominators are; may be empty
   /// Irreducible over Z in (x, y): together they contain its zeros in every mode. Empty where its curves are not

@@ -14,6 +14,8 @@ std::string to_string(LocusKind kind) {
       return "component";
     case LocusKind::margin:
       return "margin";
+    case LocusKind::preload:
+      return "preload";
     case LocusKind::direct_singularity:
       return "direct-singularity";
     case LocusKind::workspace_boundary:

@@ -114,8 +114,14 @@ std::string value_words(const Parameter& parameter, const Mechanism& mechanism) 
 
 std::vector<std::pair<std::string, std::string>> told_parameters(const Mechanism& mechanism) {
   std::vector<std::pair<std::string, std::string>> told;
+  const std::vector<JointIndex> free = joints_without_preload(mechanism);
+  const auto has_no_value = [&](const Parameter& parameter) {
+    return std::any_of(free.begin(), free.end(), [&](JointIndex joint) {
+      return mechanism.joints[static_cast<std::size_t>(joint)].free_effort->parameter == parameter.name;
+    });
+  };
   for (const Parameter& parameter : mechanism.parameters)
-    told.emplace_back(parameter.name, value_words(parameter, mechanism));
+    if (!has_no_value(parameter)) told.emplace_back(parameter.name, value_words(parameter, mechanism));
   return told;
 }
 

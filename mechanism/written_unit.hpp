@@ -38,7 +38,8 @@ std::string value_words(const Parameter& parameter, const Rational& value, const
 /// The parameter's value: "3 N/mm", "30 deg", "7/20"; an expression where it is irrational.
 std::string value_words(const Parameter& parameter, const Mechanism& mechanism);
 
-/// Of every parameter its name and value_words: what answers tell of a mechanism's parameters.
+/// Of every parameter its name and value_words: what answers tell of a mechanism's parameters. Without efforts that are
+/// free and have no value.
 std::vector<std::pair<std::string, std::string>> told_parameters(const Mechanism& mechanism);
 
 }  // namespace clearloci::mechanism

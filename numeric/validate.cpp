@@ -17,6 +17,7 @@
 #include "numeric/reactions.hpp"
 #include "numeric/turns.hpp"
 #include "numeric/validate_lines.hpp"
+#include "numeric/validation_grid.hpp"
 
 namespace clearloci::numeric {
 
@@ -27,33 +28,10 @@ using core::LocusKind;
 using core::LocusMap;
 using core::WorkingMode;
 
-/// Off every centre and every symmetry (validate.hpp).
-constexpr double shift_x = std::numbers::sqrt2 - 1;
-constexpr double shift_y = std::numbers::phi - 1;
-
-/// Chords are within the map's tolerance of the curve; below this fraction of the box a tolerance means nothing, for
-/// vertices themselves are only within 1e-12 of the box.
-constexpr double least_tolerance = 1e-9;
-
 /// A force's direction that turns by more than a right angle within this fraction of the box has flipped.
 constexpr double flip_resolution = 1e-10;
 
 constexpr int zero_samples = 64;  ///< nodes on which a numerator must vanish before all nodes are asked
-
-std::vector<WorkingMode> modes_of(const LocusMap& map) {
-  std::vector<WorkingMode> modes;
-  const auto add = [&](const WorkingMode& mode) {
-    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
-  };
-  for (const auto& region : map.workspace) add(region.mode);
-  for (const auto& curve : map.curves) add(curve.mode);
-  return modes;
-}
-
-GridAxis axis(double lower, double upper, int nodes, double shift) {
-  const double step = (upper - lower) / nodes;
-  return {lower + shift * step, step, nodes};
-}
 
 struct LineTally {
   std::vector<std::array<std::size_t, 4>> counts;  ///< by reaction and Outcome
@@ -214,7 +192,7 @@ class ModeValidation {
   void judge_arcs(ValidationReport& report) const {
     for (std::size_t c = 0; c < map_.curves.size(); ++c) {
       const LocusCurve& curve = map_.curves[c];
-      if (curve.mode != mode_ || curve.kind == LocusKind::margin) continue;
+      if (curve.mode != mode_ || curve.kind == LocusKind::margin || curve.kind == LocusKind::preload) continue;
       for (const core::Arc& arc : curve.arcs) {
         const std::vector<Approach> ways = approaches(model_, signs_, curve, arc, diagonal_);
         const bool context = curve.kind == LocusKind::direct_singularity || curve.kind == LocusKind::workspace_boundary;
@@ -326,7 +304,7 @@ std::vector<TracedReaction> named_reactions(const LocusMap& map) {
   std::vector<TracedReaction> named;
   const auto add = [&](const auto& loci) {
     for (const auto& locus : loci) {
-      if (locus.kind == LocusKind::margin) continue;
+      if (locus.kind == LocusKind::margin || locus.kind == LocusKind::preload) continue;
       for (const auto& v : locus.vanishing) {
         const TracedReaction reaction{v.joint, v.quantity};
         if (std::find(named.begin(), named.end(), reaction) == named.end()) named.push_back(reaction);
@@ -344,19 +322,12 @@ ValidationReport validate(const mechanism::Mechanism& mechanism, const LocusMap&
   const NumericModel model = compile(mechanism);
   check_call(model, map, spec);
   if (model.box.size() != 2) return validate_lines(model, map, spec, traced.empty() ? named_reactions(map) : traced);
-  const auto bound = [&](const std::vector<core::Rational>& corner, std::size_t c) {
-    return core::to_double(corner[c]);
-  };
-  const Grid grid = {axis(bound(map.lower, 0), bound(map.upper, 0), spec.nx, shift_x),
-                     axis(bound(map.lower, 1), bound(map.upper, 1), spec.ny, shift_y)};
-  const double diagonal =
-      std::hypot(bound(map.upper, 0) - bound(map.lower, 0), bound(map.upper, 1) - bound(map.lower, 1));
-  const double reach = std::max(map.tolerance, least_tolerance * diagonal);
-
+  const ValidationGrid own = validation_grid(map, spec);
+  const auto& [grid, reach, diagonal] = own;
   ValidationReport report;
   tbb::task_arena arena(spec.threads > 0 ? spec.threads : tbb::task_arena::automatic);
   arena.execute([&] {
-    for (const auto& mode : modes_of(map)) {
+    for (const auto& mode : modes_in(map)) {
       ModeValidation(model, map, grid, mode, traced.empty() ? named_reactions(map) : traced, reach, diagonal)
           .run(report, spec.listed_disputes);
     }

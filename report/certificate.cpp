@@ -83,6 +83,8 @@ std::string role_text(core::FactorRole role) {
       return "reaction";
     case core::FactorRole::margin:
       return "margin";
+    case core::FactorRole::preload:
+      return "preload";
     case core::FactorRole::direct_singularity:
       return "direct-singularity";
     case core::FactorRole::workspace_boundary:

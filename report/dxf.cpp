@@ -23,6 +23,8 @@ std::string line_type_of(core::LocusKind kind) {
       return "DOT";
     case core::LocusKind::margin:
       return "HIDDEN";
+    case core::LocusKind::preload:
+      return "PHANTOM";
     case core::LocusKind::direct_singularity:
       return "DASHDOT";
     default:

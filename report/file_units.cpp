@@ -132,6 +132,7 @@ core::Zones in_file_units(core::Zones map) {
     for (std::vector<double>* const at : {&zone.lower, &zone.upper, &zone.sample}) scaling.place(*at);
     for (core::ZoneBorder& border : zone.borders) border.length = scaling.length(border.length);
   }
+  for (core::PreloadRegion& region : map.preload_regions) region.size = scaling.area(region.size);
   for (core::ZonedMode& mode : map.modes)
     for (double* const size : {&mode.workspace, &mode.outside, &mode.in_doubt}) *size = scaling.area(*size);
   return map;

@@ -20,6 +20,7 @@ Stroke reaction_stroke(core::LocusKind kind, int within_kind, int number) {
   static const Dashes backlash = {{0, 4}, {4, 5}, {0, 7}, {4, 5, dot, 5}, {9, 5}, {9, 5, dot, 5}};
   static const Dashes component = {{0, 2.4}, {3, 2.4}, {0, 5}, {3, 2.4, dot, 2.4}};
   static const Dashes margin = {{4, 2.5}, {2, 2}, {7, 3}, {7, 2, 2, 2}};
+  static const Dashes preload = {{9, 2, 2, 2}, {5, 2, 2, 2}, {13, 2, 2, 2}, {9, 2, 2, 2, 2, 2}};
   const auto pick = [&](const Dashes& dashes) { return dashes[static_cast<std::size_t>(within_kind) % dashes.size()]; };
   const Colour colour = palette_colour(number);
   switch (kind) {
@@ -27,6 +28,8 @@ Stroke reaction_stroke(core::LocusKind kind, int within_kind, int number) {
       return {colour, 2.2, pick(contact_loss), false};
     case core::LocusKind::margin:
       return {light_theme.failed, 1.1, pick(margin), false};
+    case core::LocusKind::preload:
+      return {colour, 1.6, pick(preload), false};
     case core::LocusKind::backlash:
       return {colour, 2.6, pick(backlash), true};
     case core::LocusKind::component:

@@ -110,6 +110,19 @@ bool shows_more_than_searched(const Layout& layout) {
   return more;
 }
 
+/// How zones are filled by the efforts that they need (report/zone_drawing.cpp).
+std::string preload_words(const core::Zones& zones, const core::WorkingMode& mode) {
+  bool none = false;
+  double most = 0;
+  for (const core::Zone& zone : zones.zones) {
+    if (zone.mode != mode || !zone.preload) continue;
+    none = none || !zone.preload->feasible;
+    if (!zone.preload->efforts.empty() && !zone.preload->efforts.front().cable)
+      most = std::max(most, zone.preload->smallest.value_or(0));
+  }
+  return std::string(none ? "; grey: no feasible efforts" : "") + (most > 0 ? "; darker: larger efforts" : "");
+}
+
 /// Entries with their labels not wrapped yet.
 std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& layout) {
   std::vector<LegendEntry> entries;
@@ -146,7 +159,8 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
       std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
     if (subject.zones != nullptr)
       add(SampleKind::zones, "zones, the largest first",
-          subject.task == nullptr ? "dashed: the largest circle inside" : "numbered as in the zones' table");
+          (subject.task == nullptr ? "dashed: the largest circle inside" : "numbered as in the zones' table") +
+              preload_words(*subject.zones, subject.mode));
     else
       add(SampleKind::workspace, "workspace");
   }

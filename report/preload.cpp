@@ -103,12 +103,27 @@ nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
 
 namespace {
 
-/// "tension of K1 = 31.2 N, of 5 N (F_K2) to 88.1 N (F_K3)".
-template <class Told, class End>
-std::string tension_text(const core::FeasibleEfforts& tension, const Told& told, const End& end) {
-  std::string text = fmt::format("tension of {} = {}", tension.joint, told(tension.effort));
-  for (const core::EffortRange& own : tension.ranges)
-    text += fmt::format(", feasible {} {}", end("from", own.from, own.below), end("to", own.to, own.above));
+/// "B2", in the unit of the file: "from 15 N m (M_A1) to 93.5 N m (M_A2)", "any".
+std::string range_words(const core::EffortRange& range, const core::ShownUnit& unit) {
+  const auto end = [&](const char* word, double value, const std::vector<core::Vanishing>& fails) {
+    if (!std::isfinite(value)) return std::string();
+    return fmt::format("{} {} {}{}", word, engineering(value * unit.per_si, digits), unit.name,
+                       fails.empty() ? "" : " (" + reaction_names(fails) + ")");
+  };
+  const std::string from = end("from", range.from, range.below),
+                    to = end(from.empty() ? "up to" : "to", range.to, range.above);
+  return from.empty() && to.empty() ? "any" : from + (from.empty() || to.empty() ? "" : " ") + to;
+}
+
+core::ShownUnit unit_of(const core::FeasibleEfforts& efforts, const core::Units& units) {
+  return core::told_unit(efforts.force ? "N" : "N m", units);
+}
+
+/// "tension of K1 = 31.2 N, feasible from 5 N (F_K2) to 88.1 N (F_K3)".
+std::string tension_text(const core::FeasibleEfforts& tension, const core::ShownUnit& unit) {
+  std::string text =
+      fmt::format("tension of {} = {} {}", tension.joint, engineering(tension.effort * unit.per_si, digits), unit.name);
+  for (const core::EffortRange& own : tension.ranges) text += ", feasible " + range_words(own, unit);
   if (tension.ranges.empty())
     text += "; no tensions within their bounds hold this pose" +
             (tension.never.empty() ? "" : ": those of " + reaction_names(tension.never) + " exclude each other");
@@ -118,24 +133,31 @@ std::string tension_text(const core::FeasibleEfforts& tension, const Told& told,
 }  // namespace
 
 std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units) {
-  const core::ShownUnit unit = core::told_unit(efforts.force ? "N" : "N m", units);
-  const auto told = [&](double value) {
-    return fmt::format("{} {}", engineering(value * unit.per_si, digits), unit.name);
-  };
-  const auto end = [&](const char* word, double value, const std::vector<core::Vanishing>& fails) {
-    if (!std::isfinite(value)) return std::string();
-    return fmt::format("{} {}{}", word, told(value), fails.empty() ? "" : " (" + reaction_names(fails) + ")");
-  };
-  if (efforts.cable) return tension_text(efforts, told, end);
-  std::string text = fmt::format("effort of {} = {}{}\n", efforts.joint, told(efforts.effort),
-                                 efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
+  const core::ShownUnit unit = unit_of(efforts, units);
+  if (efforts.cable) return tension_text(efforts, unit);
+  std::string text =
+      fmt::format("effort of {} = {} {}{}\n", efforts.joint, engineering(efforts.effort * unit.per_si, digits),
+                  unit.name, efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
   if (!efforts.never.empty()) text += "  " + reaction_names(efforts.never) + ": lost whatever the effort\n";
-  for (const core::EffortRange& own : efforts.ranges) {
-    const std::string from = end("from", own.from, own.below),
-                      to = end(from.empty() ? "up to" : "to", own.to, own.above);
-    text += "  " + (from.empty() && to.empty() ? "any" : from + (from.empty() || to.empty() ? "" : " ") + to) + "\n";
-  }
+  for (const core::EffortRange& own : efforts.ranges) text += "  " + range_words(own, unit) + "\n";
   return text;
+}
+
+std::string zone_preload_text(const std::string& zone, const core::ZonePreload& preload, const core::Units& units) {
+  std::string text;
+  for (const core::FeasibleEfforts& efforts : preload.efforts) {
+    if (!preload.feasible) {
+      text = efforts.cable ? "no tensions within their bounds"
+                           : fmt::format("no effort of {} keeps every joint loaded", efforts.joint);
+      if (!efforts.never.empty()) text += ": " + reaction_names(efforts.never);
+      text += "\n";
+      break;
+    }
+    for (const core::EffortRange& own : efforts.ranges)
+      text += fmt::format("{}{} {}\n", text.empty() ? "" : "       ", efforts.joint,
+                          range_words(own, unit_of(efforts, units)));
+  }
+  return fmt::format("{:<6} {}", zone, text);
 }
 
 nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& efforts) {
@@ -151,6 +173,26 @@ nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& effo
           {"within", efforts.within ? Json(*efforts.within) : Json(nullptr)},
           {"ranges", std::move(ranges)},
           {"never", vanishing_array(efforts.never)}};
+}
+
+nlohmann::ordered_json zone_preload_object(const core::ZonePreload& preload) {
+  using Json = nlohmann::ordered_json;
+  Json efforts = Json::object();
+  for (const core::FeasibleEfforts& own : preload.efforts) {
+    const Json object = feasible_efforts_object(own);
+    Json& told = efforts[own.joint];
+    for (const char* key : {"within", "ranges", "never"}) told[key] = object[key];
+    if (preload.patterns.size() != own.ranges.size() || preload.efforts.size() > 1) continue;
+    for (std::size_t i = 0; i < preload.patterns.size(); ++i) {
+      Json signs = Json::object();
+      for (const auto& [reaction, sign] : preload.patterns[i])
+        signs[reaction.joint][core::to_string(reaction.quantity)] = sign;
+      told["ranges"][i]["signs"] = std::move(signs);
+    }
+  }
+  return {{"feasible", preload.feasible},
+          {"smallest", preload.smallest ? Json(*preload.smallest) : Json(nullptr)},
+          {"efforts", std::move(efforts)}};
 }
 
 }  // namespace clearloci::report

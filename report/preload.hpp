@@ -8,6 +8,7 @@
 
 #include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
+#include "clearloci/zones.hpp"
 
 namespace clearloci::report {
 
@@ -22,5 +23,12 @@ std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const co
 /// {"effort": 0, "given": false, "within": null, "ranges": [{"from", "to", "below", "above"}], "never": []}; null at an
 /// infinite end.
 nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& efforts);
+
+/// At the sample of a zone: {"feasible", "smallest", "efforts"}, of every effort {"within", "ranges", "never"}; of one
+/// free motor each range with its "signs".
+nlohmann::ordered_json zone_preload_object(const core::ZonePreload& preload);
+
+/// Of the zone of this name a line or more: "z1: B2 up to -6.08 N m (M_A1)".
+std::string zone_preload_text(const std::string& zone, const core::ZonePreload& preload, const core::Units& units);
 
 }  // namespace clearloci::report

@@ -84,6 +84,8 @@ void set_colour(const Canvas& canvas, core::LocusKind kind) {
       return canvas.set_source_rgb(0, 0.62, 0.451);
     case core::LocusKind::margin:
       return canvas.set_source_rgb(0.8, 0.475, 0.655);
+    case core::LocusKind::preload:
+      return canvas.set_source_rgb(0.902, 0.624, 0);
     case core::LocusKind::direct_singularity:
       return canvas.set_source_rgb(0, 0, 0);
     default:

@@ -158,6 +158,8 @@ constexpr std::array happenings = {
     Happening{core::LocusKind::backlash, "the effort of an actuator vanishes: the actuator crosses its play"},
     Happening{core::LocusKind::component, "a component of a reaction vanishes and changes its sign"},
     Happening{core::LocusKind::margin, "a reaction has the least size that is allowed"},
+    Happening{core::LocusKind::preload,
+              "the efforts of free motors that keep contact are others on either side, or none"},
     Happening{core::LocusKind::direct_singularity,
               "the mechanism is singular: reactions grow without bound and change their sign"},
     Happening{core::LocusKind::workspace_boundary, "a leg is stretched out or folded: the workspace ends"},

@@ -144,6 +144,7 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
       {core::Quantity::mx, "mx = 0"},
       {core::Quantity::my, "my = 0"},
       {core::Quantity::mz, "mz = 0"}};
+  if (kind == core::LocusKind::preload) return "preload: " + reaction_names(vanishing);
   if (kind == core::LocusKind::no_limit) {
     return vanishing.empty() ? "no limit" : "no limit: " + reaction_names(vanishing);
   }

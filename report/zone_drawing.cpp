@@ -1,5 +1,6 @@
 #include "report/zone_drawing.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,8 @@ namespace {
 constexpr const auto& fills = light_theme.zones;
 constexpr double fill_strength = light_theme.zone_strength;
 constexpr Colour circle_colour = light_theme.circle;
+constexpr Colour no_preload_colour = {0.55, 0.55, 0.55};  ///< no choice of efforts is feasible
+constexpr Colour little_preload_colour = {0.98, 0.85, 0.45}, much_preload_colour = {0.75, 0.2, 0.1};
 constexpr double least_numbered = 5;  // pt, radius of the largest circle
 constexpr Font number_font{9.5, true, false};
 
@@ -22,9 +25,30 @@ void for_each_zone(const Subject& subject, const Action& action) {
   }
 }
 
+/// The largest size of efforts that a zone needs; 0 where none needs any, and of cables.
+double most_needed(const Subject& subject) {
+  double most = 0;
+  for_each_zone(subject, [&](const core::Zone& zone, std::size_t) {
+    if (zone.preload && !zone.preload->efforts.empty() && !zone.preload->efforts.front().cable)
+      most = std::max(most, zone.preload->smallest.value_or(0));
+  });
+  return most;
+}
+
+Colour fill_of(const core::Zone& zone, std::size_t number, double most) {
+  if (zone.preload && !zone.preload->feasible) return no_preload_colour;
+  if (!zone.preload || most <= 0) return zone_colour(number);
+  const double part = zone.preload->smallest.value_or(0) / most;
+  const auto between = [&](double a, double b) { return a + part * (b - a); };
+  return {between(little_preload_colour.red, much_preload_colour.red),
+          between(little_preload_colour.green, much_preload_colour.green),
+          between(little_preload_colour.blue, much_preload_colour.blue)};
+}
+
 }  // namespace
 
 void draw_zones(const Canvas& canvas, const Subject& subject, const Layout& layout) {
+  const double most = most_needed(subject);
   for_each_zone(subject, [&](const core::Zone& zone, std::size_t number) {
     const auto add = [&](const core::Polyline& ring) {
       canvas.begin_new_sub_path();
@@ -37,7 +61,7 @@ void draw_zones(const Canvas& canvas, const Subject& subject, const Layout& layo
     add(zone.outer);
     for (const core::Polyline& hole : zone.holes) add(hole);
     canvas.set_fill_rule(FillRule::even_odd);
-    set_colour(canvas, zone_colour(number), fill_strength);
+    set_colour(canvas, fill_of(zone, number, most), fill_strength);
     canvas.fill();
     canvas.set_fill_rule(FillRule::winding);
   });

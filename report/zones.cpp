@@ -5,6 +5,7 @@
 
 #include "report/loci_json.hpp"
 #include "report/pose.hpp"
+#include "report/preload.hpp"
 #include "report/wording.hpp"
 
 namespace clearloci::report {
@@ -28,6 +29,7 @@ Json borders_array(const core::Zones& map, const core::Zone& zone) {
     entry["kind"] = border.kind ? core::to_string(*border.kind) : "box";
     entry["vanishing"] = vanishing_array(border.vanishing);
     if (!map.by_cells) entry["length"] = border.length;
+    if (!border.beside.empty()) entry["beside"] = border.beside;
     borders.push_back(std::move(entry));
   }
   return borders;
@@ -73,6 +75,7 @@ Json zone_object(const core::Zones& map, const core::Zone& zone) {
                {"certified", zone.certified},
                {"borders", borders_array(map, zone)},
                {"perhaps_one_with", zone.perhaps_one_with}};
+  if (zone.preload) body["preload"] = zone_preload_object(*zone.preload);
   if (map.by_cells) {
     body["bounds"] = body["borders"];
     body["ends"] = ends_array(zone);
@@ -131,6 +134,14 @@ Json zones_object(const core::Zones& map) {
   if (map.by_cells && map.modes.size() == 1) root["working_mode"] = mode_object(map.loci.tower, map.modes.front().mode);
   root["zones"] = Json::array();
   for (const core::Zone& zone : map.zones) root["zones"].push_back(zone_object(map, zone));
+  for (const core::PreloadRegion& region : map.preload_regions) {
+    Json signs = Json::object();
+    for (const auto& [reaction, sign] : region.signs) signs[reaction.joint][core::to_string(reaction.quantity)] = sign;
+    root["preload_regions"].push_back({{"working_mode", mode_object(map.loci.tower, region.mode)},
+                                       {"signs", std::move(signs)},
+                                       {"zones", region.zones},
+                                       {"area", region.size}});
+  }
   root["areas"] = Json::array();
   core::ZonedMode all;
   for (const core::ZonedMode& own : map.modes) {

@@ -7,6 +7,7 @@
 
 #include "core/shown_units.hpp"
 #include "report/file_units.hpp"
+#include "report/preload.hpp"
 #include "report/wording.hpp"
 #include "report/zones.hpp"
 
@@ -71,6 +72,28 @@ std::string rows_of(const core::Zones& map, const core::WorkingMode& mode) {
   return out;
 }
 
+/// Which free efforts keep every joint loaded in the zones.
+std::string preload_lines_of(const core::Zones& map, const core::WorkingMode& mode) {
+  std::string lines;
+  for (const core::Zone& zone : map.zones)
+    if (zone.mode == mode && zone.preload) lines += zone_preload_text(zone.id, *zone.preload, map.loci.units);
+  if (!lines.empty()) lines = "\nefforts that are feasible at the sample of each zone\n" + lines;
+  std::string regions;
+  for (const core::PreloadRegion& region : map.preload_regions) {
+    if (region.mode != mode || region.zones.size() < 2) continue;
+    regions += fmt::format("{:>12} ", engineering(region.size, area_digits));
+    for (const auto& [reaction, sign] : region.signs) regions += " " + reaction_name(reaction) + sign_words(sign);
+    regions += ":";
+    for (const std::string& zone : region.zones) regions += " " + zone;
+    regions += "\n";
+  }
+  if (!regions.empty())
+    lines += fmt::format("\nzones that one effort, varying with the pose, keeps loaded, area/{}2\n",
+                         map.loci.units.length.name) +
+             regions;
+  return lines;
+}
+
 /// Of a zone's size, of as many dimensions as there are coordinates: "mm2 deg".
 ShownUnit unit_of_size(const core::LocusMap& map) {
   const std::vector<bool> all = angles_of(map);
@@ -93,7 +116,7 @@ std::string bounds_words(const core::Zone& zone) {
   std::string words;
   for (const core::LocusKind kind :
        {core::LocusKind::workspace_boundary, core::LocusKind::direct_singularity, core::LocusKind::contact_loss,
-        core::LocusKind::backlash, core::LocusKind::margin}) {
+        core::LocusKind::backlash, core::LocusKind::margin, core::LocusKind::preload}) {
     std::vector<core::Vanishing> all;
     bool any = false;
     for (const core::ZoneBorder& own : zone.borders) {
@@ -228,6 +251,7 @@ std::string zones_table(const core::Zones& in_si) {
     const std::string words = printable(mode_words(map.loci.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";
     out += map.by_cells ? paragraphs_of(map, mode) : rows_of(map, mode);
+    out += preload_lines_of(map, mode);
   }
   if (modes.empty()) out += "\nno zones: the mechanism reaches nothing in the box\n";
   const bool doubtful = std::any_of(map.zones.begin(), map.zones.end(), [](const auto& z) { return !z.certified; });

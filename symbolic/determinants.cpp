@@ -47,6 +47,12 @@ FactoredDeterminants factored_determinants(const Geometry& geometry, const Geome
   return *derived(std::nullopt, geometry, std::move(equations));
 }
 
+FactoredDeterminants effort_determinants(const Geometry& geometry, std::size_t effort) {
+  NewtonEulerEquations equations = newton_euler_equations(geometry);
+  equations.loads = equations.efforts.at(effort);
+  return *derived(std::nullopt, geometry, std::move(equations));
+}
+
 FactoredDeterminants probed_determinants(const Geometry& geometry) {
   constexpr std::array probes = {3, -2, 5, 1, -4, 2, -1, 7, -3, 4, 6, -5};
   NewtonEulerEquations equations = newton_euler_equations(geometry);

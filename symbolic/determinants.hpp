@@ -17,9 +17,13 @@ struct FactoredDeterminants {
   std::vector<DeterminantForm> forms = {};  ///< CramerDeterminants::forms
 };
 
-/// Throws core::InputError where |A| vanishes in every pose. `loaded`: the same mechanism under another load, which
-/// takes the place of its own; what comes back is in the ring of `geometry`.
+/// Throws core::InputError where |A| vanishes in every pose. Free efforts without a value are zero. `loaded`: the same
+/// mechanism under another load, which takes the place of its own; what comes back is in the ring of `geometry`.
 FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded = nullptr);
+
+/// With one N or N m of a free effort without a value in the place of the loads, by its place in
+/// NewtonEulerEquations::efforts: the numerators of what the reactions change with it.
+FactoredDeterminants effort_determinants(const Geometry& geometry, std::size_t effort);
 
 /// As of `geometry` under loads that no mechanism has: numbers in general position, one a row of the equations.
 FactoredDeterminants probed_determinants(const Geometry& geometry);

@@ -17,11 +17,13 @@
 #include "symbolic/algebra_turn.hpp"
 #include "symbolic/causes.hpp"
 #include "symbolic/code_names.hpp"
+#include "symbolic/demands.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/elimination.hpp"
 #include "symbolic/expression_text.hpp"
 #include "symbolic/formula.hpp"
 #include "symbolic/formula_text.hpp"
+#include "symbolic/preload_constraints.hpp"
 #include "symbolic/sheets.hpp"
 
 namespace clearloci::symbolic {
@@ -77,6 +79,7 @@ class SheetWriter {
       sheet.numerators.push_back(
           determinant(equations.unknown_names[k], determinants_.numerators[k], &equations.unknowns[k]));
     }
+    write_preload(sheet);
     sheet.renamed = names_.renamed();
     return sheet;
   }
@@ -165,6 +168,41 @@ class SheetWriter {
       result.factors.push_back({text(factor.poly), factor.multiplicity, words, own.list, own.too_heavy});
     }
     return result;
+  }
+
+  /// Where reactions can only vanish together, of the joints and quantities that `loci` takes without options.
+  void write_preload(EquationSheet& sheet) {
+    const NewtonEulerEquations& equations = determinants_.equations;
+    if (equations.free_joints.empty() && !mechanism::has_effort_bounds(mechanism_)) return;
+    for (std::size_t e = 0; e < equations.efforts.size(); ++e) {
+      auto& [joint, column] = sheet.efforts.emplace_back();
+      joint = mechanism_.joints[static_cast<std::size_t>(equations.free_joints[e])].name;
+      for (unsigned i = 0; i < equations.efforts[e].rows(); ++i) column.push_back(text(equations.efforts[e](i, 0)));
+    }
+    const PreloadColumns columns = preload_columns(geometry_, elimination_, determinants_);
+    core::LocusProblem demanded;
+    state_demands(mechanism_, {}, demanded);
+    const PreloadDeterminants all =
+        preload_determinants(geometry_.ring(), determinants_.determinant, columns.joints.size(),
+                             preload_constraints(geometry_, columns, determinants_.determinant, demanded, {}));
+    for (const PreloadDeterminant& own : all.all) {
+      PreloadEquation& equation = sheet.preload.emplace_back();
+      std::string name;
+      for (const core::Vanishing& reaction : own.event.vanishing) {
+        equation.reactions.push_back(core::to_string(reaction.quantity) + "_" + reaction.joint);
+        name += (name.empty() ? "" : "_") + equation.reactions.back();
+      }
+      for (const std::string& words : own.event.words) name += "_" + words;
+      equation.words = words_of(own.event, columns.motors(mechanism_), columns.joints.size());
+      equation.determinant = {
+          name + (own.event.infinite ? "_unbounded" : ""), product_formula(own.value, symbols_, language_), {}};
+      for (const PolyFactor& factor : own.value.factors) {
+        const Implicit& curves = implicit(factor.poly);
+        equation.determinant.factors.push_back({text(factor.poly), factor.multiplicity,
+                                                curves.constant ? "the same in every pose" : causes_.of(factor.poly),
+                                                curves.list, curves.too_heavy});
+      }
+    }
   }
 
   /// What |A| shares with a numerator says the same there.

@@ -33,6 +33,15 @@ struct Determinant {
   std::vector<DeterminantFactor> factors;  ///< without the constant
 };
 
+/// Of a mechanism with free efforts without a value: reactions that vanish at one choice of efforts where the
+/// determinant does; A with -w_e and the columns of the efforts in the place of their columns, without factors with
+/// which a reaction vanishes at every effort (docs/method.md section 15).
+struct PreloadEquation {
+  std::vector<std::string> reactions;  ///< "M_A1"
+  std::string words;                   ///< "M_A1 and M_A3 can only vanish together"
+  Determinant determinant;             ///< its name: the reactions, "_" between them
+};
+
 struct EquationSheet {
   std::string mechanism;
   Language language = Language::text;
@@ -50,7 +59,10 @@ struct EquationSheet {
   /// where they close, as many as unknowns.
   std::vector<std::string> closing;
   Determinant determinant;
-  std::vector<Determinant> numerators;
+  std::vector<Determinant> numerators;  ///< with free efforts of zero
+  /// Joint and column -w_e of one N or N m, of each free effort without a value.
+  std::vector<std::pair<std::string, std::vector<std::string>>> efforts = {};
+  std::vector<PreloadEquation> preload = {};
 };
 
 struct SheetOptions {

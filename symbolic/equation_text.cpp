@@ -71,6 +71,18 @@ std::string format_text(const EquationSheet& sheet) {
     out << "\n|A_" << numerator.name << "| = " << numerator.expression << "\n";
     write_factors(out, numerator, "    ");
   }
+  for (const auto& [joint, column] : sheet.efforts) {
+    out << "\nColumn -w_e of one N or N m of the free effort of " << joint << " (zero above)\n";
+    for (std::size_t i = 0; i < column.size(); ++i)
+      if (column[i] != "0") out << "  " << sheet.rows[i] << ": " << column[i] << "\n";
+  }
+  if (!sheet.preload.empty())
+    out << "\nPreload: |A| with -w_e and the columns of the free efforts in the place of the columns of reactions, "
+           "without what vanishes at every effort\n";
+  for (const PreloadEquation& own : sheet.preload) {
+    out << "\n" << own.words << ": " << own.determinant.expression << "\n";
+    write_factors(out, own.determinant, "    ");
+  }
   return out.str();
 }
 
@@ -115,6 +127,10 @@ std::string format_latex(const EquationSheet& sheet) {
   write("|A|", sheet.determinant);
   for (const Determinant& numerator : sheet.numerators) {
     write("|A_{" + latex_name(numerator.name) + "}|", numerator);
+  }
+  for (std::size_t i = 0; i < sheet.preload.size(); ++i) {
+    out << "% " << comment_text(sheet.preload[i].words, Language::latex) << "\n";
+    write("D_{" + std::to_string(i + 1) + "}", sheet.preload[i].determinant);
   }
   return out.str();
 }
@@ -162,6 +178,7 @@ std::string arguments(const EquationSheet& sheet, const std::string& type) {
 std::vector<const Determinant*> all_determinants(const EquationSheet& sheet) {
   std::vector<const Determinant*> list{&sheet.determinant};
   for (const Determinant& numerator : sheet.numerators) list.push_back(&numerator);
+  for (const PreloadEquation& own : sheet.preload) list.push_back(&own.determinant);
   return list;
 }
 
@@ -273,6 +290,8 @@ std::string format_matlab(const EquationSheet& sheet) {
   write_renamed(out, sheet, "% ");
   out << "% determinants: |A|, then the numerator of every unknown\n";
   if (closes) out << "% closing: zero where the points of groups close\n";
+  for (const PreloadEquation& own : sheet.preload)
+    out << "% then: " << comment_text(own.words, Language::matlab) << "\n";
   for (const Lines* lines : {&sheet.parameters, &sheet.closure})
     for (const auto& [name, value] : *lines) out << name << " = " << value << ";\n";
   out << "A = [\n";

@@ -4,6 +4,7 @@
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/mechanism.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -32,6 +33,7 @@ struct Refactored {
 }  // namespace
 
 Family::Family(const mechanism::Mechanism& member) : mechanism_(member), geometry_(mechanism_, true) {
+  if (!mechanism::joints_without_preload(mechanism_).empty()) return;
   std::optional<FactoredDeterminants> derived = factored_determinants_within(most_terms, geometry_);
   if (!derived || !derived->equations.divisors.empty()) return;
   matrix_ = extended_matrix(geometry_, derived->equations);

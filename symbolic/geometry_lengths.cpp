@@ -61,6 +61,9 @@ void Geometry::list_lengths() {
       inverse_lengths_.push_back({action.length_name(), *action.along});
     else if (action.law == mechanism::Action::Law::torsion && mechanism_->space == mechanism::Space::spatial)
       inverse_lengths_.push_back({action.length_name(), joint_axis(*mechanism_, action)});
+  for (const mechanism::Joint& joint : mechanism_->joints)  // whose force is held against bounds
+    if (joint.actuated && joint.within && !joint.effort && mechanism::actuator_quantity(joint) == core::Quantity::F)
+      inverse_lengths_.push_back({joint.name + ".axis", joint.axes.at(0)});
   for (const mechanism::Spring& spring : mechanism_->springs)
     if (spring.kind == mechanism::Spring::Kind::torsion)
       for (const bool second : {false, true})

@@ -13,6 +13,7 @@
 #include "symbolic/algebra_turn.hpp"
 #include "symbolic/angle_range.hpp"
 #include "symbolic/causes.hpp"
+#include "symbolic/demands.hpp"
 #include "symbolic/determinants.hpp"
 #include "symbolic/effort_limits.hpp"
 #include "symbolic/elimination.hpp"
@@ -22,6 +23,8 @@
 #include "symbolic/margin_nodes.hpp"
 #include "symbolic/margins.hpp"
 #include "symbolic/newton_euler.hpp"
+#include "symbolic/preload.hpp"
+#include "symbolic/preload_constraints.hpp"
 #include "symbolic/reactions.hpp"
 #include "symbolic/shared_curves.hpp"
 #include "symbolic/sheets.hpp"
@@ -40,39 +43,6 @@ using mechanism::Mechanism;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::vector<std::string> selected_joints(const Mechanism& m, const Selection& selection) {
-  std::vector<std::string> known, with_clearance;
-  for (const mechanism::Joint& joint : m.joints) {
-    known.push_back(joint.name);
-    if (joint.clearance) with_clearance.push_back(joint.name);
-  }
-  for (const std::string& name : selection.joints) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    std::string list;
-    for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
-    throw core::InputError({m.file}, "there is no joint '" + name + "'", "choose among " + list);
-  }
-  if (!selection.joints.empty()) return selection.joints;
-  return with_clearance.empty() ? known : with_clearance;
-}
-
-/// Where contact losses are wanted, so are those of either end of a prismatic joint's contact; where backlash is, so is
-/// that of an actuator along its axis.
-std::vector<Quantity> expanded(const Mechanism& m, std::vector<Quantity> wanted) {
-  const auto add = [&wanted](Quantity quantity) {
-    if (std::find(wanted.begin(), wanted.end(), quantity) == wanted.end()) wanted.push_back(quantity);
-  };
-  const std::vector<Quantity> named = wanted;
-  for (const Quantity quantity : named) {
-    if (quantity == Quantity::f && m.space == mechanism::Space::planar) {
-      add(Quantity::end_ahead);
-      add(Quantity::end_behind);
-    }
-    if (quantity == Quantity::M) add(Quantity::F);
-  }
-  return wanted;
-}
-
 /// A natural factor that occurs in numerators, with what vanishes on it.
 struct SharedFactor {
   Poly natural;
@@ -90,6 +60,7 @@ struct DeterminantPart {
   bool alone = true;                 ///< the natural factor is this, once, but for denominators
   std::vector<Vanishing> cancelled;  ///< LocusFactor::cancelled
   bool may_be_idle = false;
+  bool chosen = false;  ///< other efforts free, A is regular there
 };
 
 /// `pieces`: one an angle, in the order of the coordinates.
@@ -136,21 +107,12 @@ class Derivation {
         determinants_(determinants_of(geometry_, family)),
         elimination_(geometry_),
         causes_(geometry_, &determinants_.equations),
-        reactions_(reactions(geometry_, determinants_)),
-        guides_(guides(geometry_, elimination_, reactions_)),
         lines_(geometry_) {
-    add_pressing_reactions();
-    for (const Guide& guide : guides_)
-      for (Reaction& end : end_reactions(guide, determinants_.determinant)) reactions_.push_back(std::move(end));
+    write_reactions();
     lines_.know(determinants_.forms);
     result_.problem.tower = lines_.tower();
-    result_.problem.joints = selected_joints(m, selection);
-    result_.problem.quantities = expanded(m, selection.quantities);
+    state_demands(m, selection, result_.problem);
     for (const Sides& sides : modes_) result_.problem.modes.push_back(mode_of(sides));
-    for (const mechanism::Joint& joint : m.joints) {
-      result_.problem.joint_order.push_back(joint.name);
-      result_.problem.force_components.push_back(mechanism::contact_components(m, joint));
-    }
     auto piece = pieces.begin();
     for (const auto& coordinate : m.coordinates) {
       result_.problem.lower.push_back(coordinate.angle ? piece->lower : coordinate.lower);
@@ -193,7 +155,8 @@ class Derivation {
     mark_orders();
     add_reactions();
     add_moving_guides();
-    if (selection_.min_force || selection_.min_couple) add_margins();
+    if (preload_.joints.empty() && (selection_.min_force || selection_.min_couple)) add_margins();
+    if (!preload_.joints.empty() || mechanism::has_effort_bounds(mechanism_)) add_preload();
     add_direct_singularities();
     add_boundaries();
     add_undirected();
@@ -211,6 +174,21 @@ class Derivation {
       mode.push_back(root.role == core::RootRole::working_mode ? sides[next++] : 1);
     }
     return mode;
+  }
+
+  /// Of free efforts without a value what vanishes at all of them takes the place of what vanishes.
+  void write_reactions() {
+    if (!determinants_.equations.free_joints.empty()) {
+      preload_ = preload_columns(geometry_, elimination_, determinants_);
+      reactions_ = at_every_effort(preload_);
+      return;
+    }
+    reactions_ = reactions(geometry_, determinants_);
+    preload_.reactions = {reactions_};
+    guides_ = guides(geometry_, elimination_, reactions_);
+    add_pressing_reactions();
+    for (const Guide& guide : guides_)
+      for (Reaction& end : end_reactions(guide, determinants_.determinant)) reactions_.push_back(std::move(end));
   }
 
   bool wanted(Quantity quantity) const {
@@ -459,9 +437,11 @@ class Derivation {
           elimination_.sheet_factors(elimination_.over_tower(factor.poly), true, &without_zeros);
       keep_without_zeros(FactorRole::direct_singularity, text(factor.poly), without_zeros);
       const bool alone = sheets.size() == 1 && sheets.front().multiplicity == 1;
+      const bool chosen = is_singular_by_choice(preload_, mechanism_, factor.poly, selection_.controlled);
       for (SheetFactor& sheet : sheets) {
         const int times = sheet.multiplicity;
         DeterminantPart part{&factor, std::move(sheet), factor.multiplicity * times, alone, {}};
+        part.chosen = chosen;
         for (const auto& [natural, vanishing] : cancelled_)
           if (natural == factor.poly)
             part.cancelled.push_back({vanishing.joint, vanishing.quantity, vanishing.multiplicity * times});
@@ -572,13 +552,98 @@ class Derivation {
     }
   }
 
+  /// Where r + 1 constraints on r free efforts hold together. Curves on which |A| or a reaction vanishes at every
+  /// effort are there already.
+  void add_preload() {
+    std::vector<std::string>& notes = result_.notes;
+    notes.insert(notes.end(), preload_.notes.begin(), preload_.notes.end());
+    if (!preload_.joints.empty() &&
+        (selection_.min_force || (selection_.min_couple && mechanism_.space == mechanism::Space::spatial)))
+      notes.emplace_back(
+          "with free efforts no curves are traced on which a contact force, or in space a couple, has its least size: "
+          "the efforts of a zone are those at its sample");
+    if (!preload_.joints.empty() && std::any_of(mechanism_.joints.begin(), mechanism_.joints.end(),
+                                                [](const mechanism::Joint& own) { return own.meshing.has_value(); }))
+      notes.emplace_back("flanks of gears and spans of belts bound no preload here");
+    const std::size_t efforts = preload_.joints.size();
+    const std::string motors = preload_.motors(mechanism_);
+    const PreloadDeterminants all = preload_determinants(
+        geometry_.ring(), determinants_.determinant, efforts,
+        preload_constraints(geometry_, preload_, determinants_.determinant, result_.problem, selection_.min_couple));
+    for (const std::string& names : all.left_out)
+      notes.push_back("where " + names + " vanish together is too long a determinant to be derived");
+    for (const PreloadFactor& own : all.factors) {
+      const Poly sheet = elimination_.over_tower(own.natural);
+      if (sheet.is_zero() || is_inverse_length(own.natural)) continue;
+      LocusFactor factor;
+      factor.expression = text(own.natural);
+      for (const PreloadEvent& event : own.events) {
+        factor.cause += (factor.cause.empty() ? "" : "; ") + words_of(event, motors, efforts);
+        for (const std::vector<Vanishing>* list : {&event.vanishing, &event.bounded})
+          for (const Vanishing& one : *list)
+            if (std::find(factor.vanishing.begin(), factor.vanishing.end(), one) == factor.vanishing.end())
+              factor.vanishing.push_back(one);
+      }
+      const std::size_t before = result_.problem.factors.size();
+      add(FactorRole::preload, &own.natural, sheet, true, factor);
+      drop_known(before);
+    }
+  }
+
+  /// Which has no zeros.
+  bool is_inverse_length(const Poly& p) const {
+    const std::vector<InverseLength>& all = geometry_.inverse_lengths();
+    return std::any_of(all.begin(), all.end(), [&](const InverseLength& own) {
+      return own.variable >= 0 && p == Poly::variable(geometry_.ring(), own.variable);
+    });
+  }
+
+  /// Of the factors from `first` on those with the curves of |A| or of a reaction before.
+  void drop_known(std::size_t first) {
+    std::vector<LocusFactor>& factors = result_.problem.factors;
+    const auto is_known = [&](const LocusFactor& own) {
+      const bool singular =
+          std::any_of(determinant_parts_.begin(), determinant_parts_.end(), [&](const DeterminantPart& part) {
+            return !part.chosen &&
+                   core::scaled_for_doubles(part.sheet.sheet.plain(geometry_.tower_variables())) == own.sheet;
+          });
+      return singular ||
+             std::any_of(
+                 factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(first), [&](const LocusFactor& other) {
+                   return other.role == FactorRole::reaction && other.sheet == own.sheet && !other.implicit.empty();
+                 });
+    };
+    factors.erase(std::remove_if(factors.begin() + static_cast<std::ptrdiff_t>(first), factors.end(), is_known),
+                  factors.end());
+  }
+
+  /// Bounds of all tensions hold them on either side.
+  bool is_passed_by_tensions(const DeterminantPart& part) const {
+    return part.chosen && std::all_of(preload_.joints.begin(), preload_.joints.end(), [&](mechanism::JointIndex joint) {
+             return mechanism::is_cable(mechanism_.joints[static_cast<std::size_t>(joint)]);
+           });
+  }
+
+  /// Where only one value of the free efforts leaves the others finite, which are then open: what is chosen goes
+  /// through infinity along the line of the unknowns.
+  void name_motors(LocusFactor& factor) const {
+    for (const mechanism::JointIndex joint : preload_.joints) {
+      const mechanism::Joint& own = mechanism_.joints[static_cast<std::size_t>(joint)];
+      factor.vanishing.push_back({own.name, mechanism::actuator_quantity(own), 1});
+    }
+    factor.cause += (factor.cause.empty() ? "" : "; ") + std::string("singular with a constant effort of ") +
+                    preload_.motors(mechanism_);
+  }
+
   void add_direct_singularities() {
     const std::vector<int> variables = geometry_.tower_variables();
     for (const DeterminantPart& part : determinant_parts_) {
+      if (is_passed_by_tensions(part)) continue;
       LocusFactor factor;
-      factor.role = FactorRole::direct_singularity;
+      factor.role = part.chosen ? FactorRole::preload : FactorRole::direct_singularity;
       factor.expression = text(part.natural->poly);
       factor.cause = causes_.of_determinant(part.natural->poly);
+      if (part.chosen) name_motors(factor);
       factor.sheet = core::scaled_for_doubles(part.sheet.sheet.plain(variables));
       put_implicit(part.sheet, factor);
       if (part.alone) factor.line = lines_.of(part.natural->poly);
@@ -640,6 +705,7 @@ class Derivation {
   /// A sheet ends where a limit does, as at a fold: one more root, of what is left to the limit.
   void add_limits() {
     for (const LimitCondition& limit : bounding_limits(geometry_, elimination_)) add_limit(limit);
+    if (!preload_.joints.empty()) return;  // what gears bear depends on the efforts
     for (const LimitCondition& limit : effort_limits(geometry_, reactions_, determinants_.determinant))
       if (!elimination_.vanishes_everywhere(limit.natural)) add_limit(limit);
   }
@@ -941,6 +1007,7 @@ class Derivation {
   Elimination elimination_;
   SharedCurves shared_{geometry_};
   Causes causes_;
+  PreloadColumns preload_;  ///< of free efforts without a value
   std::vector<Reaction> reactions_;
   std::vector<Guide> guides_;
   StraightLines lines_;

@@ -21,6 +21,7 @@ struct Selection {
   std::optional<core::Rational> min_couple;  ///< N m: adds the margin curves |M_J| = min_couple
   /// Signs of the dyads and sliders, +1 left or ahead, in the order of mechanism::dyad_points; empty: the file's mode.
   std::vector<std::vector<int>> working_modes = {};
+  bool controlled = false;  ///< free efforts without a value vary with the pose
 };
 
 struct DerivedProblem {

@@ -169,7 +169,6 @@ class Equations {
   }
 
   void write_loads() {
-    mechanism::require_preload(m_);
     for (const mechanism::Load& load : m_.loads) {
       Vector c = components(load.couple_vector);
       if (m_.space == mechanism::Space::planar) c[2] = geometry_.expression(load.couple);
@@ -178,7 +177,10 @@ class Equations {
       const Vector force = as_vector(geometry_.vector(mechanism::force_of(load)));
       add(result_.loads, load.link, 0, force_at(arm(geometry_, *load.at), force), -1);
     }
-    for (const mechanism::Action& action : mechanism::actions(m_)) write_action(action);
+    result_.free_joints = mechanism::joints_without_preload(m_);
+    for (const mechanism::Action& action : mechanism::actions(m_))
+      if (!is_free(action)) write_action(action, result_.loads);
+    for (const mechanism::JointIndex joint : result_.free_joints) write_effort(joint);
     if (m_.gravity.empty()) return;
     const Vector g = components(m_.gravity);
     for (const mechanism::Mass& body : mechanism::masses(m_)) {
@@ -189,20 +191,36 @@ class Equations {
     }
   }
 
+  bool is_free(const mechanism::Action& action) const {
+    const auto& free = result_.free_joints;
+    return action.source == mechanism::Action::Source::actuator &&
+           std::find(free.begin(), free.end(), static_cast<mechanism::JointIndex>(action.index)) != free.end();
+  }
+
+  /// What one N or N m of a free effort exerts.
+  void write_effort(mechanism::JointIndex joint) {
+    GiNaC::matrix& column = result_.efforts.emplace_back(result_.loads.rows(), 1);
+    for (mechanism::Action action : mechanism::actions(m_)) {
+      if (!is_free(action) || static_cast<mechanism::JointIndex>(action.index) != joint) continue;
+      action.effort = core::Expression::number(1);
+      write_action(action, column);
+    }
+  }
+
   /// What a spring or an actuator of known effort exerts on its two links (method.md section 11).
-  void write_action(const mechanism::Action& action) {
+  void write_action(const mechanism::Action& action, GiNaC::matrix& loads) {
     using Law = mechanism::Action::Law;
     const auto value = [&](const core::Expression& e) { return geometry_.expression(e); };
     if (action.law == Law::torsion) {
       const GiNaC::ex size = -value(action.stiffness) * geometry_.torsion_angle(action.index).natural;
-      if (m_.space == mechanism::Space::planar) return write_couple(action, {0, 0, size});
+      if (m_.space == mechanism::Space::planar) return write_couple(action, loads, {0, 0, size});
       Vector c =
           as_vector(geometry_.vector(m_.joints[static_cast<std::size_t>(m_.springs[action.index].joint)].axes.at(0)));
       for (GiNaC::ex& component : c)
         component = (size * geometry_.inverse_length(action.length_name()).natural * component).expand();
-      return write_couple(action, c);
+      return write_couple(action, loads, c);
     }
-    if (!action.along) return write_couple(action, {0, 0, value(action.effort)});
+    if (!action.along) return write_couple(action, loads, {0, 0, value(action.effort)});
     const auto inverse = [&] { return geometry_.inverse_length(action.length_name()).natural; };
     GiNaC::ex per_length;
     if (action.law == Law::constant)
@@ -213,14 +231,14 @@ class Equations {
       per_length = value(action.stiffness);
     Vector force = as_vector(geometry_.vector(*action.along));
     for (GiNaC::ex& component : force) component = (per_length * component).expand();
-    if (action.couple) return write_couple(action, force);
-    add(result_.loads, action.on, 0, force_at(arm(geometry_, action.on_point), force), -1);
-    add(result_.loads, action.by, 0, force_at(arm(geometry_, action.by_point), force), 1);
+    if (action.couple) return write_couple(action, loads, force);
+    add(loads, action.on, 0, force_at(arm(geometry_, action.on_point), force), -1);
+    add(loads, action.by, 0, force_at(arm(geometry_, action.by_point), force), 1);
   }
 
-  void write_couple(const mechanism::Action& action, const Vector& c) {
-    add(result_.loads, action.on, 0, couple(c), -1);
-    add(result_.loads, action.by, 0, couple(c), 1);
+  void write_couple(const mechanism::Action& action, GiNaC::matrix& loads, const Vector& c) {
+    add(loads, action.on, 0, couple(c), -1);
+    add(loads, action.by, 0, couple(c), 1);
   }
 
   const Geometry& geometry_;

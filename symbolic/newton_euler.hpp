@@ -28,6 +28,9 @@ struct NewtonEulerEquations {
   std::vector<std::string> row_names;        ///< "A1B1: force x", ...
   GiNaC::matrix matrix;                      ///< A, in natural coordinates
   GiNaC::matrix loads;                       ///< the column -w_e
+  /// A column -w_e a free effort without a value, of one N or N m of it alone; `loads` is without them.
+  std::vector<GiNaC::matrix> efforts = {};
+  std::vector<mechanism::JointIndex> free_joints = {};  ///< whose efforts those are
   std::vector<ColumnDivisor> divisors;
 };
 
@@ -36,7 +39,8 @@ struct NewtonEulerEquations {
 /// directions, over u_k where that is constant.
 std::size_t across_component(const Geometry& geometry, const std::vector<GiNaC::ex>& axis);
 
-/// Required: A is square; others are not read (mechanism::check_square).
+/// Required: A is square; others are not read (mechanism::check_square). Whoever does not read `efforts` has to ask for
+/// their values first (mechanism::require_preload).
 NewtonEulerEquations newton_euler_equations(const Geometry& geometry);
 
 }  // namespace clearloci::symbolic

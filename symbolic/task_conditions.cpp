@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "core/powers_of_two.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/algebra_turn.hpp"
@@ -44,6 +45,7 @@ class Conditions {
     all.insert(all.end(), directions.begin(), directions.end());
     all.insert(all.end(), forces.begin(), forces.end());
     for (const mechanism::Mechanism* load : all) {
+      mechanism::require_preload(*load);
       const FactoredDeterminants determinants = load == &mechanism_ ? factored_determinants(geometry_) : under(*load);
       lines_.know(determinants.forms);
       reactions_.push_back(reactions(geometry_, determinants));

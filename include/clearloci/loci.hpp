@@ -32,7 +32,18 @@ using Polyline = std::vector<Point2>;
 /// Gravest first; a curve takes the gravest kind of what vanishes on it.
 /// `no_limit`, of points only: the named reactions have no limit there, for it depends on the way along which the pose
 /// is approached.
-enum class LocusKind { contact_loss, backlash, component, margin, direct_singularity, workspace_boundary, no_limit };
+/// `preload`: of free efforts without a value reactions can only vanish together there, or at the bounds of efforts, or
+/// do not depend on the free ones, so that the choice of efforts changes; of determined efforts one is at its bound.
+enum class LocusKind {
+  contact_loss,
+  backlash,
+  component,
+  margin,
+  preload,
+  direct_singularity,
+  workspace_boundary,
+  no_limit
+};
 
 /// "contact-loss", "backlash", ... as written in loci.json.
 std::string to_string(LocusKind kind);
@@ -245,8 +256,11 @@ using DyadSides = std::vector<int>;
 struct LociRequest {
   std::vector<std::string> joints = {};  ///< empty: every joint with a clearance, or all where none has one
   std::vector<Quantity> quantities = {Quantity::f, Quantity::M};
-  std::optional<Rational> min_force = {};     ///< N: adds the margin curves |f_J| = min_force
-  std::optional<Rational> min_couple = {};    ///< N m: adds the margin curves |M_J| = min_couple
+  std::optional<Rational> min_force = {};   ///< N: adds the margin curves |f_J| = min_force
+  std::optional<Rational> min_couple = {};  ///< N m: adds the margin curves |M_J| = min_couple
+  /// Of free efforts without a value: they may vary with the pose. Then a pose is singular only if it is so whichever
+  /// efforts are free; tensions of cables vary always.
+  bool controlled = false;
   std::vector<DyadSides> working_modes = {};  ///< empty: the file's
   bool all_working_modes = false;             ///< every combination of sides, the file's first
   double tolerance = 1e-5;                    ///< largest distance of a chord from its curve, m

@@ -25,6 +25,8 @@ struct ZoneBorder {
   double length = 0;                      ///< m, all stretches of a curve together; 0 by cells
   std::optional<LocusKind> kind = {};     ///< nothing: a side of the box
   std::vector<Vanishing> vanishing = {};  ///< there; by cells what may vanish there
+  /// Over two lengths the zones on the other side; empty where a fold cuts the plane into sheets.
+  std::vector<std::string> beside = {};
 };
 
 /// An end of a zone over one coordinate: the locus that ends it, and how far the end effector jumps across it.
@@ -43,6 +45,20 @@ struct ZoneEnd {
 struct ZoneBall {
   std::vector<double> centre;
   double radius = 0;
+};
+
+/// Which choices of the free efforts keep every demanded reaction, and all bounds of efforts, at a zone's sample, of a
+/// mechanism with free efforts without a value. At other poses of the zone the ranges are others, but there are as
+/// many, with the same signs, and the same reactions end them.
+struct ZonePreload {
+  bool feasible = false;
+  /// Of one free effort what it may be; of several what each may be while the others suit it, of cables all of them.
+  /// Known to rounding.
+  std::vector<FeasibleEfforts> efforts;
+  std::optional<double> smallest;  ///< size of the smallest choice (docs/preload.md); none where there is none
+  /// The signs of the demanded reactions that have one component: of one free effort for every range, of several
+  /// motors every choice of signs that is possible.
+  std::vector<std::vector<std::pair<Vanishing, int>>> patterns;
 };
 
 /// Sizes are products of the coordinates' units: m^2 over two lengths, rad over one angle, m^3 over three lengths.
@@ -68,6 +84,8 @@ struct Zone {
   std::vector<ZoneBorder> borders;   ///< over two lengths longest first
   std::vector<int> isolated_points;  ///< over two lengths: those inside, by their place in LocusMap::isolated_points
 
+  std::optional<ZonePreload> preload = {};  ///< over two lengths
+
   // Its shape: over one coordinate from `lower` to `upper`, with its ends; over two lengths rings; by cells over two
   // and three coordinates the outside of what is proven.
   std::vector<ZoneEnd> ends = {};  ///< the lower and the upper one, where a locus is known there
@@ -75,6 +93,15 @@ struct Zone {
   std::vector<Polyline> holes;     ///< clockwise, first point repeated
   /// Over three coordinates convex polygons, counter-clockwise from outside, over two segments.
   std::vector<std::vector<std::array<double, 3>>> faces = {};
+};
+
+/// Zones with preload loci alone between them in which efforts with the same signs of the demanded reactions exist:
+/// there an effort that varies continuously with the pose keeps these signs.
+struct PreloadRegion {
+  WorkingMode mode;
+  std::vector<std::pair<Vanishing, int>> signs;  ///< as one of ZonePreload::patterns
+  std::vector<std::string> zones;
+  double size = 0;  ///< of them together, m^2
 };
 
 /// How much of the box the zones of a mode account for, in the unit of their sizes.
@@ -95,10 +122,11 @@ struct Zones {
   /// Over two lengths what cuts; ids of borders are its curves'. By cells without loci: what remains are mechanism,
   /// coordinates, box, units and notes, and `complete`, false where the deadline came first.
   LocusMap loci;
-  bool by_cells = false;              ///< else by curves, over two lengths
-  std::vector<Zone> zones;            ///< by mode, then size, largest first
-  std::vector<ZonedMode> modes = {};  ///< one a mode
-  std::vector<int> grid = {};         ///< by cells: of ZonedMode::labels, the number of cells along each coordinate
+  bool by_cells = false;                            ///< else by curves, over two lengths
+  std::vector<Zone> zones;                          ///< by mode, then size, largest first
+  std::vector<PreloadRegion> preload_regions = {};  ///< with one free effort without a value: largest first in a mode
+  std::vector<ZonedMode> modes = {};                ///< one a mode
+  std::vector<int> grid = {};  ///< by cells: of ZonedMode::labels, the number of cells along each coordinate
 };
 
 }  // namespace clearloci::inline core

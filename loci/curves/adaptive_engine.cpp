@@ -62,6 +62,8 @@ core::LocusKind kind_of(FactorRole role, core::LocusKind reaction) {
   switch (role) {
     case FactorRole::margin:
       return core::LocusKind::margin;
+    case FactorRole::preload:
+      return core::LocusKind::preload;
     case FactorRole::direct_singularity:
       return core::LocusKind::direct_singularity;
     case FactorRole::workspace_boundary:

@@ -33,6 +33,8 @@ bool plays_part_of(const LocusFactor& factor, LocusKind kind) {
   switch (kind) {
     case LocusKind::margin:
       return factor.role == FactorRole::margin;
+    case LocusKind::preload:
+      return factor.role == FactorRole::preload;
     case LocusKind::direct_singularity:
       return factor.role == FactorRole::direct_singularity;
     case LocusKind::workspace_boundary:

@@ -231,6 +231,7 @@ const core::LocusFactor* factor_of(const core::LocusProblem& problem, const core
   for (const core::LocusFactor& factor : problem.factors) {
     const FactorRole role = curve.kind == LocusKind::direct_singularity   ? FactorRole::direct_singularity
                             : curve.kind == LocusKind::margin             ? FactorRole::margin
+                            : curve.kind == LocusKind::preload            ? FactorRole::preload
                             : curve.kind == LocusKind::workspace_boundary ? FactorRole::workspace_boundary
                                                                           : FactorRole::reaction;
     if (role == FactorRole::workspace_boundary || factor.role != role) continue;

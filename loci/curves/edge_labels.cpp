@@ -137,6 +137,8 @@ EdgeLabel label_of(const LocusProblem& problem, const std::vector<int>& factors)
   switch (first.role) {
     case FactorRole::margin:
       return {LocusKind::margin, first.vanishing, first.expression, first.cause};
+    case FactorRole::preload:
+      return {LocusKind::preload, first.vanishing, first.expression, first.cause};
     case FactorRole::direct_singularity:
       return {LocusKind::direct_singularity, {}, first.expression, first.cause};
     case FactorRole::workspace_boundary:
@@ -237,6 +239,8 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
     for (const core::LocusFactor* factor : vanishing) {
       if (factor->role == FactorRole::margin && !(margin.contains(factor) && !margin.at(factor)))
         edge.labels.push_back({LocusKind::margin, factor->vanishing, factor->expression, factor->cause});
+      if (factor->role == FactorRole::preload)
+        edge.labels.push_back({LocusKind::preload, factor->vanishing, factor->expression, factor->cause});
       if (factor->role == FactorRole::direct_singularity)
         edge.labels.push_back({LocusKind::direct_singularity,
                                {},

@@ -392,6 +392,7 @@ void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& m
       }
       if (factor.role == FactorRole::direct_singularity) kind = LocusKind::direct_singularity;
       if (factor.role == FactorRole::margin) kind = LocusKind::margin;
+      if (factor.role == FactorRole::preload) kind = LocusKind::preload;
     }
     const std::vector<core::Vanishing> vanishing = wanted_vanishing(problem, components);
     if (!vanishing.empty()) kind = gravest_kind(vanishing);

@@ -334,7 +334,7 @@ class Gathering {
     }
     const bool compare = own.role == FactorRole::direct_singularity ? own.may_be_idle
                          : own.role == FactorRole::margin           ? !own.cleared.empty()
-                                                                    : true;
+                                                                    : own.role != FactorRole::preload;
     if ((others.empty() && !needs_orders(problem_, implicit)) || !compare) return plain({share.factor}, true);
 
     std::optional<bool> margin = true;

@@ -178,14 +178,14 @@ std::vector<EdgeLabel> labels_from(const LocusProblem& problem, const ReactionOr
                                    const std::vector<bool>& vanishing, const std::vector<bool>& margins) {
   std::vector<EdgeLabel> labels;
   const auto context = [&](LocusKind kind, const LocusFactor& factor) {
+    const bool named = kind == LocusKind::margin || kind == LocusKind::preload;
     for (EdgeLabel& label : labels)
-      if (label.kind == kind && kind != LocusKind::margin) {
+      if (label.kind == kind && !named) {
         label.factor += "; " + factor.expression;
         if (!factor.cause.empty()) label.cause += (label.cause.empty() ? "" : "; ") + factor.cause;
         return;
       }
-    const std::vector<core::Vanishing> held =
-        kind == LocusKind::margin ? factor.vanishing : std::vector<core::Vanishing>{};
+    const std::vector<core::Vanishing> held = named ? factor.vanishing : std::vector<core::Vanishing>{};
     const bool excited = kind != LocusKind::direct_singularity || !orders.decided || orders.excited;
     labels.push_back({kind, held, factor.expression, factor.cause, excited});
   };
@@ -193,6 +193,7 @@ std::vector<EdgeLabel> labels_from(const LocusProblem& problem, const ReactionOr
     const LocusFactor& factor = problem.factors[f];
     if (!vanishing[f]) continue;
     if (factor.role == FactorRole::margin && margins[f]) context(LocusKind::margin, factor);
+    if (factor.role == FactorRole::preload) context(LocusKind::preload, factor);
     if (factor.role == FactorRole::direct_singularity) context(LocusKind::direct_singularity, factor);
     if (factor.role == FactorRole::workspace_boundary) context(LocusKind::workspace_boundary, factor);
   }

@@ -199,6 +199,9 @@ class ModeSurfaces {
         case FactorRole::margin:
           labels.push_back({LocusKind::margin, other.vanishing, other.expression, other.cause});
           break;
+        case FactorRole::preload:
+          labels.push_back({LocusKind::preload, other.vanishing, other.expression, other.cause});
+          break;
         case FactorRole::direct_singularity:
           labels.push_back({LocusKind::direct_singularity, {}, other.expression, other.cause});
           break;
@@ -251,7 +254,8 @@ class ModeSurfaces {
     const LocusFactor& factor = *wholes_[f].factor;
     std::string what = core::to_string(factor.role == FactorRole::workspace_boundary ? LocusKind::workspace_boundary
                                                                                      : LocusKind::direct_singularity);
-    if (factor.role == FactorRole::reaction || factor.role == FactorRole::margin) {
+    if (factor.role == FactorRole::reaction || factor.role == FactorRole::margin ||
+        factor.role == FactorRole::preload) {
       what.clear();
       for (const core::Vanishing& v : reaction_label(problem_, std::vector{&factor}).vanishing)
         what += (what.empty() ? "" : ", ") + core::to_string(v.quantity) + "_" + v.joint;

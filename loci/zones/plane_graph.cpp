@@ -81,6 +81,21 @@ std::vector<std::vector<HalfEdge>> walks_of(const PlaneGraph& graph) {
 
 }  // namespace
 
+PlaneGraph without_edges(const PlaneGraph& graph, const std::vector<bool>& marked) {
+  PlaneGraph less{graph.nodes, {}, std::vector<std::vector<HalfEdge>>(graph.around.size())};
+  std::vector<int> place(graph.edges.size(), -1);
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (marked[e]) continue;
+    place[e] = static_cast<int>(less.edges.size());
+    less.edges.push_back(graph.edges[e]);
+  }
+  for (std::size_t n = 0; n < graph.around.size(); ++n)
+    for (const HalfEdge half : graph.around[n])
+      if (const int own = place[static_cast<std::size_t>(half.edge)]; own >= 0)
+        less.around[n].push_back({own, half.reversed});
+  return less;
+}
+
 bool is_planar(const PlaneGraph& graph) {
   const std::vector<int> component = components(graph);
   std::vector<int> characteristic(graph.nodes.size(), 0);

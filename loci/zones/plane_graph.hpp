@@ -37,6 +37,9 @@ struct GraphFace {
 /// Every face, the unbounded one last.
 std::vector<GraphFace> faces_of(const PlaneGraph& graph);
 
+/// Without the edges that are marked; nodes stay.
+PlaneGraph without_edges(const PlaneGraph& graph, const std::vector<bool>& marked);
+
 /// Euler's formula holds for every component, vertices - edges + faces = 2: the orders around the nodes fit together in
 /// the plane. Where they do not, some order is wrong.
 bool is_planar(const PlaneGraph& graph);

@@ -223,7 +223,8 @@ class Builder {
     return at((a + b) / 2).at;
   }
 
-  /// Arcs end on the boundary and on direct singularities; among each other they may cross.
+  /// Arcs of reactions end on the boundary and on direct singularities, preload loci pass through these; among each
+  /// other they may cross.
   void add_crossings() {
     std::vector<int> owners;
     for (const Strand& strand : strands_) {
@@ -233,8 +234,9 @@ class Builder {
     for (std::size_t i = 0; i < owners.size(); ++i)
       for (std::size_t k = i + 1; k < owners.size(); ++k) {
         const core::LocusCurve &a = curve(owners[i]), &b = curve(owners[k]);
+        const bool passes = a.kind == LocusKind::preload || b.kind == LocusKind::preload;
         const bool one_singular =
-            (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
+            !passes && (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
         if (one_singular || is_one_curve(a, b) || add_closed_crossings(owners[i], owners[k])) continue;
         for (const sheet::PlaneCell& place : meeting_places(owners[i], owners[k]))
           if (!add_crossings_in(place, owners[i], owners[k])) {

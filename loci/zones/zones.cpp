@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
@@ -46,8 +47,9 @@ class ModeZones {
   bool is_cut_certified() const { return cut_.certified; }
 
   /// The mode's zones go to `map`, which holds the loci that this was made from.
-  void find(core::Zones& map) {
+  void find(core::Zones& map, const ZoneLabel& label) {
     PlaneGraph& graph = cut_.graph;
+    if (label) join_alike(label);
     for (const GraphEdge& edge : graph.edges) beside_.push_back(area_beside_chords(edge.points, form_of(edge)));
     std::vector<Face> faces;
     for (GraphFace& walks : faces_of(graph)) {
@@ -59,9 +61,13 @@ class ModeZones {
     for (const GraphEdge& edge : graph.edges)
       obstacles_.push_back({&edge.points, curve_of(edge) == nullptr ? nullptr : &projections_.of(edge.owners.front())});
 
+    for (std::size_t f = 0; f < faces.size(); ++f) note_sides(faces[f].walks, name_of(f));
     std::vector<Zone> found;
-    for (const Face& face : faces) {
-      if (auto zone = describe(measured(face.walks))) found.push_back(std::move(*zone));
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (auto zone = describe(measured(faces[f].walks))) {
+        zone->id = name_of(f);
+        found.push_back(std::move(*zone));
+      }
     }
     std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.size > b.size; });
     account_for(found, map);
@@ -84,6 +90,51 @@ class ModeZones {
     std::vector<Polyline> holes;
     double area = 0, error = 0;  // m^2
   };
+
+  /// Takes the edges out that preload loci alone lie along and that have the same label on both sides.
+  void join_alike(const ZoneLabel& label) {
+    const std::vector<GraphFace> faces = faces_of(cut_.graph);
+    std::vector<std::string> labels(2 * cut_.graph.edges.size());
+    for (const GraphFace& face : faces) {
+      if (face.outer.empty()) continue;
+      std::vector<Polyline> rings = {ring_of(cut_.graph, face.outer)};
+      for (const auto& walk : face.inner) rings.push_back(ring_of(cut_.graph, walk));
+      const Polyline inner = points_in_face(rings);
+      if (!workspace_.holds_one_of(inner)) continue;
+      const std::string own = label(mode_, {inner.front()[0], inner.front()[1]});
+      for (const HalfEdge half : face.outer) labels[place_of(half)] = own;
+      for (const auto& walk : face.inner)
+        for (const HalfEdge half : walk) labels[place_of(half)] = own;
+    }
+    std::vector<bool> alike(cut_.graph.edges.size(), false);
+    for (std::size_t e = 0; e < alike.size(); ++e)
+      alike[e] = is_of_preload(cut_.graph.edges[e]) && !labels[2 * e].empty() && labels[2 * e] == labels[2 * e + 1];
+    cut_.graph = without_edges(cut_.graph, alike);
+  }
+
+  bool is_of_preload(const GraphEdge& edge) const {
+    return std::all_of(edge.owners.begin(), edge.owners.end(), [&](int owner) {
+      return owner != box_owner && map_.curves[static_cast<std::size_t>(owner)].kind == core::LocusKind::preload;
+    });
+  }
+
+  /// Of a face, until zones are numbered: no other of any mode has it.
+  std::string name_of(std::size_t face) const {
+    std::string name = std::to_string(face);
+    for (const int side : mode_) name += side > 0 ? "+" : "-";
+    return name;
+  }
+
+  static std::size_t place_of(HalfEdge half) {
+    return 2 * static_cast<std::size_t>(half.edge) + (half.reversed ? 1 : 0);
+  }
+
+  void note_sides(const GraphFace& face, const std::string& name) {
+    sides_.resize(2 * cut_.graph.edges.size());
+    for (const HalfEdge half : face.outer) sides_[place_of(half)] = name;
+    for (const auto& walk : face.inner)
+      for (const HalfEdge half : walk) sides_[place_of(half)] = name;
+  }
 
   /// Holds the zones against the workspace, found without them and without any locus: what they do not cover, or cover
   /// twice, and what is not certified is in doubt.
@@ -275,10 +326,15 @@ class ModeZones {
 
   std::vector<core::ZoneBorder> borders(const GraphFace& face) const {
     std::map<int, double> lengths;  // by owner
+    std::map<int, std::set<std::string>> beside;
     const auto add = [&](const std::vector<HalfEdge>& walk) {
       for (const HalfEdge half : walk) {
         const GraphEdge& edge = cut_.graph.edges[static_cast<std::size_t>(half.edge)];
-        for (const int owner : edge.owners) lengths[owner] += length_of(edge.points);
+        const std::string& other = sides_[place_of({half.edge, !half.reversed})];
+        for (const int owner : edge.owners) {
+          lengths[owner] += length_of(edge.points);
+          if (!other.empty()) beside[owner].insert(other);
+        }
       }
     };
     add(face.outer);
@@ -290,7 +346,7 @@ class ModeZones {
         continue;
       }
       const core::LocusCurve& curve = map_.curves[static_cast<std::size_t>(owner)];
-      list.push_back({curve.id, length, curve.kind, curve.vanishing});
+      list.push_back({curve.id, length, curve.kind, curve.vanishing, {beside[owner].begin(), beside[owner].end()}});
     }
     std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.curve < b.curve; });
     std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.length > b.length; });
@@ -394,12 +450,29 @@ class ModeZones {
   ZoneGraph cut_;
   std::vector<int> points_;
   std::vector<EdgeArea> beside_;
+  std::vector<std::string> sides_;  ///< of every half-edge the name of the face on its left, if it is one
   std::vector<Obstacle> obstacles_;
 };
 
+/// "z1", "z2", ... in place of the names of faces; those that are no zones are beside none.
+void number_zones(std::vector<Zone>& zones) {
+  std::map<std::string, std::string> names;
+  for (const Zone& zone : zones) names.emplace(zone.id, "z" + std::to_string(names.size() + 1));
+  for (Zone& zone : zones) {
+    for (core::ZoneBorder& border : zone.borders) {
+      std::vector<std::string> beside;
+      for (const std::string& face : border.beside)
+        if (const auto own = names.find(face); own != names.end() && face != zone.id) beside.push_back(own->second);
+      border.beside = std::move(beside);
+    }
+  }
+  for (Zone& zone : zones) zone.id = names.at(zone.id);
+}
+
 }  // namespace
 
-CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch, bool may_leave) {
+CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sketch, bool may_leave,
+               const ZoneLabel& label) {
   core::ensure(problem.tower.coordinates.size() == 2, "two free coordinates");
   CutZones cut;
   core::Zones& map = cut.map;
@@ -413,9 +486,8 @@ CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sk
   }
   cut.left = may_leave && cut.finer_may_tell && !is_certified;
   if (cut.left) return cut;
-  for (ModeZones& own : modes) own.find(map);
-  int number = 0;
-  for (Zone& zone : map.zones) zone.id = "z" + std::to_string(++number);
+  for (ModeZones& own : modes) own.find(map, label);
+  number_zones(map.zones);
   return cut;
 }
 

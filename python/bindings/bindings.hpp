@@ -41,7 +41,7 @@ std::vector<std::string> in_python(const std::vector<std::string>& texts);
 void put_error(py::dict& to, const PoseError& error);
 
 /// The keyword arguments of the command line as a request: working_mode ("all", "right,left" or a list), quantity
-/// ("f,M" or a list), joint, min_force, min_couple, tolerance, mesh_size, engine, time_limit (s).
+/// ("f,M" or a list), joint, min_force, min_couple, controlled, tolerance, mesh_size, engine, time_limit (s).
 LociRequest request_of(const Model& model, const py::kwargs& options);
 
 /// What a call pickles to: a model is its text, file and values.

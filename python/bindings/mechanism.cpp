@@ -140,6 +140,8 @@ LociRequest request_of(const Model& model, const py::kwargs& options) {
       request.min_force = exact(value, name);
     } else if (name == "min_couple") {
       request.min_couple = exact(value, name);
+    } else if (name == "controlled") {
+      request.controlled = value.cast<bool>();
     } else if (name == "tolerance") {
       request.tolerance = finite(value, name);
     } else if (name == "mesh_size") {

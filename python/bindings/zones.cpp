@@ -16,6 +16,7 @@ py::list borders_of(const Zones& map, const Zone& zone) {
     one["kind"] = own.kind ? to_string(*own.kind) : "box";
     one["vanishing"] = names_of(own.vanishing);
     if (!map.by_cells) one["length"] = own.length;
+    if (!own.beside.empty()) one["beside"] = own.beside;
     borders.append(one);
   }
   return borders;
@@ -45,15 +46,39 @@ py::list faces_of(const Zone& zone) {
   return faces;
 }
 
+py::dict signs_of(const std::vector<std::pair<Vanishing, int>>& all) {
+  py::dict signs;
+  for (const auto& [reaction, sign] : all) signs[py::str(name_of(reaction))] = sign;
+  return signs;
+}
+
+py::object preload_of(const Zone& zone) {
+  if (!zone.preload) return py::none();
+  const ZonePreload& preload = *zone.preload;
+  py::dict efforts;
+  for (const FeasibleEfforts& own : preload.efforts) {
+    py::list ranges;
+    for (std::size_t i = 0; i < own.ranges.size(); ++i) {
+      const EffortRange& range = own.ranges[i];
+      py::dict one(py::arg("from") = range.from, py::arg("to") = range.to, py::arg("below") = names_of(range.below),
+                   py::arg("above") = names_of(range.above));
+      if (preload.efforts.size() == 1 && !own.cable) one["signs"] = signs_of(preload.patterns[i]);
+      ranges.append(one);
+    }
+    efforts[py::str(own.joint)] = py::dict(py::arg("ranges") = ranges, py::arg("never") = names_of(own.never));
+  }
+  return py::dict(py::arg("feasible") = preload.feasible, py::arg("smallest") = preload.smallest,
+                  py::arg("efforts") = efforts);
+}
+
 py::dict zone_dict(const Zones& map, const Zone& zone) {
   py::list holes;
   for (const Polyline& hole : zone.holes) holes.append(array_of(hole));
-  py::dict signs, one;
-  for (const auto& [reaction, sign] : zone.signs) signs[py::str(name_of(reaction))] = sign;
+  py::dict one;
   one["id"] = zone.id;
   one["working_mode"] = mode_of(map.loci.tower, zone.mode);
   one["assembly_mode"] = zone.assembly_mode;
-  one["signs"] = signs;
+  one["signs"] = signs_of(zone.signs);
   one["size"] = zone.size;
   one["at_least"] = zone.at_least;
   one["at_most"] = zone.at_most;
@@ -69,6 +94,7 @@ py::dict zone_dict(const Zones& map, const Zone& zone) {
   one["polygon"] = map.by_cells ? py::object(py::none()) : py::object(array_of(zone.outer));
   one["holes"] = holes;
   one["faces"] = faces_of(zone);
+  one["preload"] = preload_of(zone);
   return one;
 }
 
@@ -96,6 +122,12 @@ py::dict zones_dict(const Zones& map) {
   py::dict all;
   all["zones"] = zones;
   all["modes"] = modes;
+  py::list regions;
+  for (const PreloadRegion& own : map.preload_regions)
+    regions.append(py::dict(py::arg("working_mode") = mode_of(map.loci.tower, own.mode),
+                            py::arg("signs") = signs_of(own.signs), py::arg("zones") = own.zones,
+                            py::arg("size") = own.size));
+  all["preload_regions"] = regions;
   all["by_cells"] = map.by_cells;
   all["loci"] = dict_of(map.loci);
   return all;

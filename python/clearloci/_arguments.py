@@ -174,6 +174,7 @@ def options(model: Model, **given: Any) -> dict[str, Any]:
         "joint": lambda value: words("joint", value),
         "min_force": lambda value: exact("min_force", value, "N"),
         "min_couple": lambda value: exact("min_couple", value, "N m"),
+        "controlled": bool,
         "tolerance": lambda value: positive("tolerance", value, "m"),
         "mesh_size": lambda value: positive("mesh_size", value),
         "engine": lambda value: text("engine", value),

@@ -43,6 +43,7 @@ class Options(TypedDict, total=False):
     joint: list[str]
     min_force: str
     min_couple: str
+    controlled: bool
     tolerance: float
     mesh_size: float
     engine: str

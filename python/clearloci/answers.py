@@ -28,7 +28,7 @@ class Curve:
     """One curve in one working mode, with all reactions that vanish on it."""
 
     id: str
-    kind: str  #: "contact-loss", "backlash", "component", "margin", "direct-singularity", "workspace-boundary"
+    kind: str  #: "contact-loss", "backlash", "component", "margin", "preload", "direct-singularity", ...
     vanishing: list[str]  #: "f_A1"
     factor: str
     cause: str
@@ -335,6 +335,8 @@ class Zone:
     polygon: np.ndarray | None = field(repr=False)  #: over two lengths (n, 2), counter-clockwise, first point repeated
     holes: list[np.ndarray] = field(repr=False)
     faces: list[np.ndarray] = field(repr=False)  #: by cells convex polygons (corners, 3), over two coordinates segments
+    #: of free efforts without a value, at the sample: "feasible", the "smallest" size, "efforts" with their "ranges"
+    preload: dict[str, Any] | None = field(repr=False)
 
     @property
     def area(self) -> float:
@@ -371,6 +373,8 @@ class Zones(_Answer):
         self.by_cells: bool = data["by_cells"]  #: else the faces between curves, over two lengths
         self._zones = [Zone(**own) for own in data["zones"]]
         self.modes = [ZonedMode(**own) for own in data["modes"]]
+        #: zones between which free efforts lead without a change of "signs": "working_mode", "zones", "size"
+        self.preload_regions: list[dict[str, Any]] = data["preload_regions"]
         self.coordinates: list[str] = data["loci"]["coordinates"]
         self.box: list[tuple[float, float]] = data["loci"]["box"]
         self.complete: bool = data["loci"]["complete"]  #: False where something is open, or a time limit came first

@@ -60,6 +60,7 @@ class Model:
     - `joint`: the joints whose reactions count, "A1" or ["A1", "P"]. None: all that have a clearance, or all.
     - `quantity`: what vanishes: "f" forces, "M" couples, "F" axial forces, "N", "T" of a guide, components "fx" to "mz".
     - `min_force`, `min_couple`: N and N m: also the curves on which a force or a couple has this value.
+    - `controlled`: efforts that are free and have no value may vary with the pose.
     - `tolerance`: the largest distance of a chord from its curve, m; None: 1e-5.
     - `engine`: "adaptive" (subdivision), "exact" (arrangement of curves), or "adaptive-then-exact".
     - `time_limit`: s, after which the answer says what is known by then, with `complete` False.
@@ -138,6 +139,7 @@ class Model:
         quantity: Names | None = None,
         min_force: Number | None = None,
         min_couple: Number | None = None,
+        controlled: bool | None = None,
         tolerance: float | None = None,
         mesh_size: float | None = None,
         engine: Engine | None = None,
@@ -158,6 +160,7 @@ class Model:
                 quantity=quantity,
                 min_force=min_force,
                 min_couple=min_couple,
+                controlled=controlled,
                 tolerance=tolerance,
                 mesh_size=mesh_size,
                 engine=engine,
@@ -173,6 +176,7 @@ class Model:
         quantity: Names | None = None,
         min_force: Number | None = None,
         min_couple: Number | None = None,
+        controlled: bool | None = None,
         tolerance: float | None = None,
         engine: Engine | None = None,
         time_limit: float | None = None,
@@ -195,6 +199,7 @@ class Model:
                 quantity=quantity,
                 min_force=min_force,
                 min_couple=min_couple,
+                controlled=controlled,
                 tolerance=tolerance,
                 engine=engine,
                 time_limit=time_limit,

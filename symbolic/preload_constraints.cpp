@@ -1,0 +1,222 @@
+#include "symbolic/preload_constraints.hpp"
+
+#include <algorithm>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/joint_traits.hpp"
+#include "symbolic/guide_ends.hpp"
+
+namespace clearloci::symbolic {
+namespace {
+
+using core::Quantity;
+using core::Rational;
+using mechanism::Mechanism;
+
+std::vector<Reaction> all_reactions(const Geometry& geometry, const Elimination& elimination,
+                                    const FactoredDeterminants& determinants, std::vector<std::string>& notes) {
+  std::vector<Reaction> all = reactions(geometry, determinants);
+  for (const Guide& guide : guides(geometry, elimination, all)) {
+    if (guide.length) {
+      for (Reaction& end : end_reactions(guide, determinants.determinant)) all.push_back(std::move(end));
+      continue;
+    }
+    std::string note = "the ends of guide " + guide.joint + ", whose axis changes its length, bound no preload here";
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+  }
+  for (Reaction& part : pressing_reactions(geometry, determinants)) all.push_back(std::move(part));
+  return all;
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+class Demands {
+ public:
+  Demands(const Geometry& geometry, const PreloadColumns& columns, const FactoredPoly& determinant,
+          const core::LocusProblem& demanded, const std::optional<Rational>& min_couple)
+      : geometry_(geometry),
+        mechanism_(geometry.mechanism()),
+        columns_(columns),
+        determinant_(determinant),
+        demanded_(demanded),
+        min_couple_(min_couple) {}
+
+  std::vector<PreloadConstraint> run() {
+    if (efforts() > 0)
+      for (const std::string& joint : demanded_.joints)
+        for (const Quantity quantity : core::all_quantities)
+          if (wanted(quantity)) add(joint, quantity);
+    for (const mechanism::Joint& joint : mechanism_.joints)
+      if (joint.actuated && joint.within) add_bounds(joint);
+    for (std::size_t e = 0; e < columns_.joints.size(); ++e) add_own(e);
+    return std::move(result_);
+  }
+
+ private:
+  /// In space numerators are over the length of an axis.
+  bool is_planar() const { return mechanism_.space == mechanism::Space::planar; }
+
+  std::size_t efforts() const { return columns_.joints.size(); }
+
+  bool wanted(Quantity quantity) const {
+    return std::find(demanded_.quantities.begin(), demanded_.quantities.end(), quantity) != demanded_.quantities.end();
+  }
+
+  std::optional<std::size_t> place_of(const std::string& joint, Quantity quantity) const {
+    const std::vector<Reaction>& all = columns_.reactions.front();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].joint == joint && all[i].quantity == quantity) return i;
+    return std::nullopt;
+  }
+
+  std::vector<const FactoredPoly*> numerators(std::size_t reaction) const {
+    std::vector<const FactoredPoly*> list;
+    for (const std::vector<Reaction>& column : columns_.reactions) list.push_back(&column[reaction].numerator);
+    return list;
+  }
+
+  void add(const std::string& joint, Quantity quantity) {
+    PreloadConstraint constraint;
+    constraint.vanishing = {{joint, quantity, 1}};
+    const std::vector<Quantity> parts =
+        quantity == Quantity::f ? core::force_components(demanded_, joint) : std::vector<Quantity>{quantity};
+    bool chosen = false;  // some effort changes it
+    for (const Quantity part : parts) {
+      const std::optional<std::size_t> at = place_of(joint, part);
+      if (!at) return;
+      if (quantity == Quantity::M && min_couple_ && is_planar()) return add_least(joint, *at);
+      constraint.rows.push_back(preload_row(numerators(*at)));
+      chosen = chosen || changes(constraint.rows.back());
+    }
+    if (chosen) result_.push_back(std::move(constraint));
+  }
+
+  static bool changes(const PreloadRow& row) {
+    return std::any_of(row.efforts.begin(), row.efforts.end(), [](const FactoredPoly& p) { return !p.is_zero(); });
+  }
+
+  /// A couple at its least size, to either side: N -+ least |A|.
+  void add_least(const std::string& joint, std::size_t reaction) {
+    const std::vector<const FactoredPoly*> own = numerators(reaction);
+    const Ring& ring = geometry_.ring();
+    const Poly load = own.front()->is_zero() ? Poly(ring) : expanded(*own.front(), ring);
+    for (const Rational& least : {*min_couple_, Rational(-*min_couple_)}) {
+      const FactoredPoly beyond = factored(load - expanded(determinant_, ring).scaled(least), determinant_.factors);
+      std::vector<const FactoredPoly*> columns = own;
+      columns.front() = &beyond;
+      PreloadConstraint constraint;
+      constraint.rows = {preload_row(columns)};
+      constraint.vanishing = {{joint, Quantity::M, 1}};
+      if (changes(constraint.rows.front())) result_.push_back(std::move(constraint));
+    }
+  }
+
+  /// Of the scale of lengths that couples are written in.
+  Rational scale_of(Quantity quantity) const {
+    return mechanism_.frame && quantity != Quantity::F ? mechanism_.frame->scale : Rational(1);
+  }
+
+  static std::string words_at(const mechanism::Joint& joint, const Rational& bound) {
+    const bool force = mechanism::actuator_quantity(joint) == Quantity::F;
+    return (mechanism::is_cable(joint) ? "tension of " : "") + joint.name + " at " + core::to_string(bound) +
+           (force ? " N" : " N m");
+  }
+
+  /// An effort that follows from the free ones at its bounds: N - bound |A|, of a force along an axis u over |u|.
+  void add_bounds(const mechanism::Joint& joint) {
+    const Quantity quantity = mechanism::actuator_quantity(joint);
+    const std::optional<std::size_t> at = place_of(joint.name, quantity);
+    if (!at) return;
+    const std::vector<const FactoredPoly*> own = numerators(*at);
+    const Ring& ring = geometry_.ring();
+    const Poly load = own.front()->is_zero() ? Poly(ring) : expanded(*own.front(), ring);
+    Poly unit = expanded(determinant_, ring);
+    if (quantity == Quantity::F) unit = unit * geometry_.poly(geometry_.inverse_length(joint.name + ".axis").natural);
+    // In space u . f of a joint that bears other forces, too.
+    if (quantity == Quantity::F && !is_planar() && !mechanism::is_cable(joint))
+      unit = unit * squared_axis(geometry_, joint);
+    for (const Rational& bound : {joint.within->first, joint.within->second}) {
+      const FactoredPoly beyond = factored(load - unit.scaled(bound / scale_of(quantity)), determinant_.factors);
+      std::vector<const FactoredPoly*> columns = own;
+      columns.front() = &beyond;
+      result_.push_back(
+          {{preload_row(columns)}, {}, words_at(joint, bound), false, core::Vanishing{joint.name, quantity, 1}});
+    }
+  }
+
+  /// The bounds of an effort, and its own backlash.
+  void add_own(std::size_t effort) {
+    const mechanism::Joint& joint = mechanism_.joints[static_cast<std::size_t>(columns_.joints[effort])];
+    const Quantity quantity = mechanism::actuator_quantity(joint);
+    const bool force = quantity == Quantity::F;
+    const Rational scale = scale_of(quantity);
+    const auto at = [&](const Rational& value) { return bound_row(efforts(), effort, value / scale, determinant_); };
+    if (const auto& within = joint.free_effort->within) {
+      for (const Rational& bound : {within->first, within->second})
+        result_.push_back({{at(bound)}, {}, words_at(joint, bound), false, core::Vanishing{joint.name, quantity, 1}});
+    } else if (std::none_of(result_.begin(), result_.end(), [](const auto& own) { return own.infinite; })) {
+      result_.push_back({{infinite_row(efforts(), determinant_)}, {}, "", true});
+    }
+    if (!joint.clearance || !contains(demanded_.joints, joint.name) || !wanted(quantity)) return;
+    if (mechanism::value_of(force ? joint.clearance->axial : joint.clearance->angular, mechanism_) == 0) return;
+    const Rational least = !force && min_couple_ && is_planar() ? *min_couple_ * scale : Rational(0);
+    result_.push_back({{at(least)}, {{joint.name, quantity, 1}}});
+    if (least != 0) result_.push_back({{at(-least)}, {{joint.name, quantity, 1}}});
+  }
+
+  const Geometry& geometry_;
+  const Mechanism& mechanism_;
+  const PreloadColumns& columns_;
+  const FactoredPoly& determinant_;
+  const core::LocusProblem& demanded_;
+  const std::optional<Rational>& min_couple_;
+  std::vector<PreloadConstraint> result_;
+};
+
+}  // namespace
+
+std::string PreloadColumns::motors(const Mechanism& mechanism) const {
+  std::string names;
+  for (const mechanism::JointIndex joint : joints)
+    names += (names.empty() ? "" : ", ") + mechanism.joints[static_cast<std::size_t>(joint)].name;
+  return names;
+}
+
+PreloadColumns preload_columns(const Geometry& geometry, const Elimination& elimination,
+                               const FactoredDeterminants& loads) {
+  PreloadColumns columns{loads.equations.free_joints, {}};
+  columns.reactions.push_back(all_reactions(geometry, elimination, loads, columns.notes));
+  for (std::size_t e = 0; e < columns.joints.size(); ++e)
+    columns.reactions.push_back(all_reactions(geometry, elimination, effort_determinants(geometry, e), columns.notes));
+  return columns;
+}
+
+std::vector<Reaction> at_every_effort(const PreloadColumns& columns) {
+  std::vector<Reaction> contents = columns.reactions.front();
+  for (std::size_t i = 0; i < contents.size(); ++i) {
+    std::vector<const FactoredPoly*> own;
+    for (const std::vector<Reaction>& column : columns.reactions) own.push_back(&column[i].numerator);
+    contents[i].numerator = preload_row(own).content;
+  }
+  return contents;
+}
+
+bool is_singular_by_choice(const PreloadColumns& columns, const Mechanism& mechanism, const Poly& factor,
+                           bool controlled) {
+  for (std::size_t e = 0; e < columns.joints.size(); ++e) {
+    if (!controlled && !mechanism::is_cable(mechanism.joints[static_cast<std::size_t>(columns.joints[e])])) continue;
+    for (const Reaction& own : columns.reactions[e + 1])
+      if (!own.numerator.is_zero() && own.numerator.multiplicity(factor) == 0) return true;
+  }
+  return false;
+}
+
+std::vector<PreloadConstraint> preload_constraints(const Geometry& geometry, const PreloadColumns& columns,
+                                                   const FactoredPoly& determinant, const core::LocusProblem& demanded,
+                                                   const std::optional<Rational>& min_couple) {
+  return Demands(geometry, columns, determinant, demanded, min_couple).run();
+}
+
+}  // namespace clearloci::symbolic
