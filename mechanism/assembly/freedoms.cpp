@@ -107,6 +107,7 @@ class Freedoms {
     m_.gravity.clear();
     m_.springs.clear();
     m_.end_effector_link = ground;
+    for (const DrawnMesh& mesh : drawing.meshes) m_.joints.push_back(mesh.joint);
     for (std::size_t p = 0; p < m_.points.size() && p < d_.points.size(); ++p) {
       ExplicitPoint form;
       for (std::size_t i = 0; i < dimension(m_); ++i)
@@ -148,11 +149,12 @@ class Freedoms {
   void braced(std::vector<std::string>& rods, std::vector<std::string>& joints) const {
     std::set<JointIndex> own;
     for (const std::size_t c : dependence_of(balances_of(m_, passive_, places_)).columns) own.insert(passive_[c].joint);
-    for (const JointIndex j : own) joints.push_back(d_.joint(j).name);
+    const auto joint_at = [&](JointIndex j) -> const Joint& { return m_.joints[static_cast<std::size_t>(j)]; };
+    for (const JointIndex j : own) joints.push_back(joint_at(j).name);
     for (std::size_t l = 0; l < m_.links.size(); ++l) {
       const auto link = static_cast<LinkIndex>(l);
       const bool touched = std::any_of(
-          own.begin(), own.end(), [&](JointIndex j) { return d_.joint(j).from == link || d_.joint(j).to == link; });
+          own.begin(), own.end(), [&](JointIndex j) { return joint_at(j).from == link || joint_at(j).to == link; });
       if (touched && is_rod(m_, link)) rods.push_back(m_.links[l].name);
     }
   }
@@ -295,7 +297,8 @@ std::vector<bool> fixed_points(const Drawing& d) {
   }
   for (const Joint& joint : d.mechanism.joints) {
     if (joint.from != ground && joint.to != ground) continue;
-    if (!traits(joint).slides) fixed[static_cast<std::size_t>(joint.at)] = true;
+    const bool pin_stands = is_slot(d.mechanism, joint) && joint.to == ground;
+    if (!traits(joint).slides || pin_stands) fixed[static_cast<std::size_t>(joint.at)] = true;
     if (!d.is_spatial() || joint.type != JointType::revolute) continue;
     // What lies on the axis of a crank stands still with it.
     const auto axis = sample_vector(d.mechanism, joint.axes.front(), spread_poses(d.mechanism, 1).front());
@@ -316,6 +319,23 @@ std::vector<bool> fixed_points(const Drawing& d) {
                              [&](PointIndex base) { return fixed[static_cast<std::size_t>(base)]; });
   }
   return fixed;
+}
+
+LinkIndex carrier_of(const Drawing& d, const Joint& mesh) {
+  if (!mesh.meshing->second) return ground;
+  const PointIndex first = mesh.meshing->first, second = *mesh.meshing->second;
+  const std::vector<bool> fixed = fixed_points(d);
+  if (fixed[static_cast<std::size_t>(first)] && fixed[static_cast<std::size_t>(second)]) return ground;
+  for (std::size_t l = 0; l < d.mechanism.links.size(); ++l) {
+    const auto link = static_cast<LinkIndex>(l);
+    const std::vector<PointIndex>& points = d.link(link).points;
+    const auto has = [&](PointIndex point) { return std::find(points.begin(), points.end(), point) != points.end(); };
+    if (link != mesh.from && link != mesh.to && has(first) && has(second)) return link;
+  }
+  throw InputError(mesh.where,
+                   "no link holds both centres of " + to_string(mesh.type) + " " + mesh.name + ", " + d.name(first) +
+                       " and " + d.name(second),
+                   "pin both wheels to one carrier, a link or the ground");
 }
 
 void check_drawing(const Drawing& d) {

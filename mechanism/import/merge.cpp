@@ -77,6 +77,9 @@ void merge_links(Source& source, int into, int from) {
   for (SourceSpring& spring : source.springs)
     for (int& link : spring.links)
       if (link == from) link = into;
+  for (SourceMesh& mesh : source.meshes)
+    for (int& link : mesh.links)
+      if (link == from) link = into;
   source.links[static_cast<std::size_t>(from)].dropped = true;
 }
 

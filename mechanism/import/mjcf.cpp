@@ -21,6 +21,14 @@ struct TreeJoint {
   std::string name, type;
   std::vector<int> joints;  ///< of the source
   double reference = 0;
+  double value = 0;  ///< in the posture, from that of the model
+};
+
+/// A joint that follows another one of the tree: value = constant + slope value of the leader.
+struct TreeFollower {
+  std::size_t joint = 0, leader = 0;
+  double constant = 0, slope = 1;
+  int line = 0;
 };
 
 struct Body {
@@ -51,6 +59,7 @@ class Reader : private MjcfSettings {
       if (!used_sites_.contains(name) && bodies_[static_cast<std::size_t>(site.first)].link != ground_link)
         s_.points.push_back({name, bodies_[static_cast<std::size_t>(site.first)].link, site.second.at, true});
     for (const XmlElement* own : root_.all("keyframe")) keyframe(*own);
+    for (const TreeFollower& own : followers_) follow(own);
     if (const auto left = unread(root_); !left.empty()) {
       std::string text;
       for (const std::string& word : left) text += (text.empty() ? "" : ", ") + word;
@@ -331,12 +340,12 @@ class Reader : private MjcfSettings {
         child.take_whole();
         continue;
       }
+      if (child.name == "joint") {
+        joint_equality(child, name);
+        continue;
+      }
       if (child.name != "connect" && child.name != "weld")
-        refuse(
-            child, "equality " + name + " is a <" + child.name + ">",
-            child.name == "joint"
-                ? "joints that follow each other, as by gears, have no part here: close the loop that makes them follow"
-                : "use connect or weld");
+        refuse(child, "equality " + name + " is a <" + child.name + ">", "use connect, weld or joint");
       SourceJoint joint;
       joint.name = name;
       joint.line = child.line;
@@ -379,6 +388,51 @@ class Reader : private MjcfSettings {
     }
   }
 
+  std::size_t hinge_named(const XmlElement& at, const std::string& equality, const std::string& name) const {
+    const auto found = std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& own) { return own.name == name; });
+    if (found == tree_.end())
+      refuse(at, "equality " + equality + " names joint '" + name + "', which is not there", "correct the name");
+    if (s_.joints[static_cast<std::size_t>(found->joints.front())].kind != SourceKind::revolute)
+      refuse(at, "equality " + equality + " is of joint " + name + ", which is no hinge alone", "tie two hinges");
+    return static_cast<std::size_t>(found - tree_.begin());
+  }
+
+  /// A hinge whose angle is a constant, or one plus a multiple of that of another hinge.
+  void joint_equality(const XmlElement& at, const std::string& name) {
+    std::vector<double> c = numbers(at, "polycoef", at.get("polycoef", "0 1 0 0 0"), 1, 5);
+    c.resize(5);
+    const std::size_t joint = hinge_named(at, name, at.get("joint1", ""));
+    if (!at.has("joint2")) {
+      followers_.push_back({joint, joint, c[0], 0, at.line});
+      return;
+    }
+    if (c[2] != 0 || c[3] != 0 || c[4] != 0 || c[1] == 0)
+      refuse(at, "equality " + name + " is of two joints in no constant ratio (polycoef)",
+             "write 0 for the coefficients of second to fourth order");
+    followers_.push_back({joint, hinge_named(at, name, at.get("joint2", "")), c[0], c[1], at.line});
+  }
+
+  /// Turns what follows to where it has to be in the posture.
+  void follow(const TreeFollower& own) {
+    TreeJoint& joint = tree_[own.joint];
+    const auto index = static_cast<std::size_t>(joint.joints.front());
+    const double off = own.constant + own.slope * tree_[own.leader].value - joint.value;
+    if (std::abs(off) > 1e-12) {
+      const SourceJoint pin = s_.joints[index];
+      for (const int link : below(pin.to)) move_link(s_, link, pin.at(), {}, turn(pin.axis(), off));
+      joint.value += off;
+      s_.note("joint " + joint.name + " was turned by " + shortest_decimal(off, 1e-9) + " rad to where it follows");
+    }
+    if (own.joint == own.leader) {
+      SourceJoint& held = s_.joints[index];
+      held.kind = SourceKind::fixed;
+      held.actuated = false;
+      held.on_to.frame = held.on_from.frame;
+      return;
+    }
+    s_.followers.push_back({index, static_cast<std::size_t>(tree_[own.leader].joints.front()), own.slope, own.line});
+  }
+
   void actuators(const XmlElement& at) {
     std::vector<std::string> others;
     for (const XmlElement& child : at.children) {
@@ -413,7 +467,7 @@ class Reader : private MjcfSettings {
     const auto q = numbers(*key, "qpos", *text, wanted, wanted);
     s_.note("the posture is that of keyframe " + key->get("name", "1"));
     std::size_t at_q = 0;
-    for (const TreeJoint& own : tree_) {
+    for (TreeJoint& own : tree_) {
       const SourceJoint joint = s_.joints[static_cast<std::size_t>(own.joints.front())];
       Rotation r;
       Vec shift{};
@@ -423,6 +477,7 @@ class Reader : private MjcfSettings {
         at_q += 4;
       } else {
         const double value = q[at_q++] - own.reference;
+        own.value = value;
         if (own.type == "slide")
           shift = value * joint.axis();
         else
@@ -460,6 +515,7 @@ class Reader : private MjcfSettings {
   Source s_;
   std::vector<Body> bodies_;
   std::vector<TreeJoint> tree_;
+  std::vector<TreeFollower> followers_;
   std::map<std::string, std::pair<int, Pose>> sites_;
   std::set<std::string> used_sites_;
   std::vector<std::string> without_mass_;
