@@ -34,7 +34,12 @@ export function sketchOf(drawing: Drawing): Sketch {
 /** Every place that is to be seen, in m. */
 export function extentOf(drawing: Drawing): Point[] {
   const box = boxOf(drawing);
-  return [...drawing.points.flatMap((one) => (one.at ? [one.at] : [])), ...(box ? [box.low, box.high] : [])].filter((at) => at.every(Number.isFinite));
+  const rims = drawing.ties.filter((tie) => tie.type !== "cable").flatMap((tie) => tie.ends.flatMap((name, k): Point[] => {
+    const at = placeOf(drawing, name);
+    const radius = tie.radii[k as 0 | 1];
+    return at ? [[at[0] - radius, at[1] - radius], [at[0] + radius, at[1] + radius]] : [];
+  }));
+  return [...drawing.points.flatMap((one) => (one.at ? [one.at] : [])), ...rims, ...(box ? [box.low, box.high] : [])].filter((at) => at.every(Number.isFinite));
 }
 
 function ring(context: CanvasRenderingContext2D, at: Point, radius: number, stroke: string, fill?: string): void {
