@@ -2,7 +2,7 @@
 // joins such joints is not said: here wheels about their pins, on the link that has both.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 #include <set>
 
 #include "core/errors.hpp"
@@ -40,56 +40,99 @@ std::optional<Side> side_of(const SourceJoint& joint, int carrier) {
   return Side{forward ? joint.to : joint.from, joint.at(), (forward ? 1.0 : -1.0) * (joint.axis()[2] < 0 ? -1 : 1)};
 }
 
-class Follower {
- public:
-  Follower(const Source& source, const SourceFollower& own, const std::string& file)
-      : source_(source), own_(own), file_(file), joint_(source.joints[own.joint]), leader_(source.joints[own.leader]) {}
-
-  SourceMesh mesh() const {
-    const std::string mend = "write the linkage that makes it follow, or fix the joint";
-    if (joint_.kind != SourceKind::revolute || leader_.kind != SourceKind::revolute)
-      refuse("but not both of them are pins", mend);
-    if (!source_.planar) refuse("but the mechanism is not in one plane, and gears are planar here", mend);
-    for (const int carrier : {joint_.from, joint_.to}) {
-      const auto a = side_of(joint_, carrier), b = side_of(leader_, carrier);
-      if (!a || !b) continue;
-      if (a->wheel == b->wheel || distance(a->at, b->at) <= near * size_of(source_))
-        refuse("but both turn about one axis", mend);
-      return of(*a, *b);
-    }
-    refuse("but no link has both of them", mend);
+/// Both joints from a link that has both, at two places; nothing where none has.
+std::optional<std::pair<Side, Side>> sides_of(const Source& source, const SourceJoint& joint,
+                                              const SourceJoint& leader) {
+  for (const int carrier : {joint.from, joint.to}) {
+    const auto a = side_of(joint, carrier), b = side_of(leader, carrier);
+    if (a && b && a->wheel != b->wheel && distance(a->at, b->at) > near * size_of(source)) return std::pair{*a, *b};
   }
+  return std::nullopt;
+}
 
- private:
-  [[noreturn]] void refuse(const std::string& problem, const std::string& mend) const {
-    throw InputError({file_, own_.line}, "joint " + joint_.name + " follows joint " + leader_.name + ", " + problem,
-                     mend);
-  }
+[[noreturn]] void refuse(const Source& source, const SourceFollower& own, const std::string& file) {
+  const SourceJoint &joint = source.joints[own.joint], &leader = source.joints[own.leader];
+  const bool shares = side_of(leader, joint.from).has_value() || side_of(leader, joint.to).has_value();
+  std::string why = shares ? "but both turn about one axis" : "but no link has both of them";
+  if (joint.kind != SourceKind::revolute || leader.kind != SourceKind::revolute)
+    why = "but not both of them are pins";
+  else if (!source.planar)
+    why = "but the mechanism is not in one plane, and gears are planar here";
+  throw InputError({file, own.line}, "joint " + joint.name + " follows joint " + leader.name + ", " + why,
+                   "write the linkage that makes it follow, or fix the joint");
+}
 
-  /// turn of a = ratio of b, about z.
-  SourceMesh of(const Side& a, const Side& b) const {
-    const double ratio = own_.ratio * a.sense * b.sense;
-    SourceMesh mesh;
-    mesh.name = joint_.name + "_follows";
-    mesh.line = own_.line;
-    mesh.belt = std::abs(ratio - 1) < 1e-9;
-    // Of a ring and its pinion the pinion, which turns faster, comes first.
-    const bool swapped = ratio > 0 && ratio < 1 && !mesh.belt;
-    const Side &first = swapped ? b : a, &second = swapped ? a : b;
-    mesh.links = {first.wheel, second.wheel};
-    mesh.at = {first.at, second.at};
-    if (mesh.belt) return mesh;
-    const double size = std::abs(swapped ? 1 / ratio : ratio);
-    mesh.teeth = teeth_of(1, size, "joint " + joint_.name, file_, own_.line);
-    if (ratio > 0) mesh.teeth[1] = -mesh.teeth[1];
-    return mesh;
-  }
+/// Wheels of which the first turns by `ratio` of the second's joint, as the joints count.
+SourceMesh mesh_of(const SourceJoint& joint, const std::pair<Side, Side>& sides, double of_leader, int line,
+                   const std::string& file) {
+  const auto& [a, b] = sides;
+  const double ratio = of_leader * a.sense * b.sense;
+  SourceMesh mesh;
+  mesh.name = joint.name + "_follows";
+  mesh.line = line;
+  mesh.belt = std::abs(ratio - 1) < 1e-9;
+  // Of a ring and its pinion the pinion, which turns faster, comes first.
+  const bool swapped = ratio > 0 && ratio < 1 && !mesh.belt;
+  const Side &first = swapped ? b : a, &second = swapped ? a : b;
+  mesh.links = {first.wheel, second.wheel};
+  mesh.at = {first.at, second.at};
+  if (mesh.belt) return mesh;
+  mesh.teeth = teeth_of(1, std::abs(swapped ? 1 / ratio : ratio), "joint " + joint.name, file, line);
+  if (ratio > 0) mesh.teeth[1] = -mesh.teeth[1];
+  return mesh;
+}
 
-  const Source& source_;
-  const SourceFollower& own_;
-  const std::string& file_;
-  const SourceJoint &joint_, &leader_;
+/// Joints that follow one of them, by way of others or not, and by how much.
+struct Followers {
+  std::map<std::size_t, double> turns;  ///< of those that are meshed already, the leader's being 1
+  std::vector<std::pair<SourceFollower, double>> left;
 };
+
+std::map<std::size_t, Followers> by_leaders(const Source& source) {
+  std::map<std::size_t, SourceFollower> followers;
+  for (const SourceFollower& own : source.followers) followers.emplace(own.joint, own);
+  std::map<std::size_t, Followers> all;
+  for (const auto& [joint, own] : followers) {
+    double ratio = own.ratio;
+    std::size_t leader = own.leader;
+    for (std::size_t depth = 0; followers.contains(leader) && depth < followers.size(); ++depth) {
+      ratio *= followers.at(leader).ratio;
+      leader = followers.at(leader).leader;
+    }
+    all[leader].turns = {{leader, 1}};
+    all[leader].left.emplace_back(own, ratio);
+  }
+  return all;
+}
+
+/// Meshes one joint with one that is meshed already, its own leader or another one of the same; false where none can
+/// be.
+bool mesh_one(Source& source, Followers& own, const std::string& file) {
+  for (auto next = own.left.begin(); next != own.left.end(); ++next) {
+    const SourceJoint& joint = source.joints[next->first.joint];
+    std::vector<std::size_t> leaders;
+    if (own.turns.contains(next->first.leader)) leaders.push_back(next->first.leader);
+    for (const auto& other : own.turns) leaders.push_back(other.first);
+    for (const std::size_t leader : leaders) {
+      const SourceJoint& to = source.joints[leader];
+      const bool pins = joint.kind == SourceKind::revolute && to.kind == SourceKind::revolute;
+      const auto sides = pins && source.planar ? sides_of(source, joint, to) : std::nullopt;
+      if (!sides) continue;
+      source.meshes.push_back(mesh_of(joint, *sides, next->second / own.turns.at(leader), next->first.line, file));
+      const SourceMesh& mesh = source.meshes.back();
+      source.note("joint " + joint.name + " follows joint " + to.name + ": " +
+                  (mesh.belt           ? "a belt"
+                   : mesh.teeth[1] < 0 ? "a gear in a ring"
+                                       : "a pair of gears") +
+                  " stands for what joins " + link_words(source, mesh.links[0]) + " and " +
+                  link_words(source, mesh.links[1]));
+      own.turns.emplace(next->first.joint, next->second);
+      own.left.erase(next);
+      return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -120,35 +163,32 @@ std::array<long, 2> teeth_of(double first, double second, const std::string& wha
 }
 
 void mesh_followers(Source& source, const std::string& file) {
-  for (const SourceFollower& own : source.followers) {
+  std::erase_if(source.followers, [&](const SourceFollower& own) {
     const SourceJoint &joint = source.joints[own.joint], &leader = source.joints[own.leader];
-    if (joint.dropped && leader.dropped) continue;
-    if (joint.dropped || leader.dropped)
+    if (joint.dropped != leader.dropped)
       throw InputError({file, own.line},
                        "joint " + joint.name + " follows joint " + leader.name + ", but one of them does not move",
                        "fix both joints, or none");
-    source.meshes.push_back(Follower(source, own, file).mesh());
-    const SourceMesh& mesh = source.meshes.back();
-    source.note("joint " + joint.name + " follows joint " + leader.name + ": " +
-                (mesh.belt           ? "a belt"
-                 : mesh.teeth[1] < 0 ? "a gear in a ring"
-                                     : "a pair of gears") +
-                " stands for what joins " + link_words(source, mesh.links[0]) + " and " +
-                link_words(source, mesh.links[1]));
+    return joint.dropped;
+  });
+  for (auto& [leader, own] : by_leaders(source)) {
+    while (mesh_one(source, own, file)) {
+    }
+    if (!own.left.empty()) refuse(source, own.left.front().first, file);
   }
 }
 
 void check_meshes(const Source& source, const std::string& file) {
   for (const SourceMesh& mesh : source.meshes) {
-    const auto refuse = [&](const std::string& problem, const std::string& mend) {
+    const auto fault = [&](const std::string& problem, const std::string& mend) {
       throw InputError({file, mesh.line}, mesh.name + " joins " + problem, mend);
     };
     const std::string wheels = link_words(source, mesh.links[0]) + " and " + link_words(source, mesh.links[1]);
     if (mesh.links[0] == mesh.links[1])
-      refuse("wheels of one link, " + link_words(source, mesh.links[0]), "take it out");
-    if (!source.planar) refuse(wheels + ", which are not in one plane", "take it out, and close the loop otherwise");
+      fault("wheels of one link, " + link_words(source, mesh.links[0]), "take it out");
+    if (!source.planar) fault(wheels + ", which are not in one plane", "take it out, and close the loop otherwise");
     if (!carrier_of(source, mesh))
-      refuse(wheels + ", but nothing has both of their centres", "pin both wheels to the ground or to one link");
+      fault(wheels + ", but nothing has both of their centres", "pin both wheels to the ground or to one link");
   }
 }
 

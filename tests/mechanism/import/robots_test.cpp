@@ -329,6 +329,18 @@ TEST(Urdf, TurnsJointsThatFollow) {
   expect_turned(own, "tip", {0.1, 0}, {0.1 - 0.08 * std::sin(0.5), 0.08 * std::cos(0.5)}, "left", 3);
 }
 
+/// rp follows l, which no link has with it; it turns against r on the right finger, which follows l too. Pads that turn
+/// back by what their fingers turn keep their direction.
+TEST(Urdf, TurnsJointsThatFollowByWayOfOthers) {
+  const Imported own = imported("urdf/mimic_by_another.urdf");
+  EXPECT_TRUE(has_note(own, "joint rp follows joint r: a belt stands for what joins"));
+  EXPECT_TRUE(has_note(own, "joint lp follows joint l: a belt stands for what joins"));
+  const double turned = 0.37, c = std::cos(-turned), s = std::sin(-turned);
+  const auto at = moved(own, "tip", "left", turned);
+  EXPECT_NEAR(at[0], 0.03 + c * 0.02 - s * 0.06 - 0.01, 1e-9);
+  EXPECT_NEAR(at[1], s * 0.02 + c * 0.06 + 0.03, 1e-9);
+}
+
 /// theta_2 = -theta_1 / 2: the motor's wheel turns twice as fast, and the coordinate is the other one's angle.
 TEST(Sdf, ReadsGearboxesAndJointsThatFollow) {
   const Imported own = imported("sdf/gearbox.sdf");
