@@ -91,7 +91,6 @@ std::array<Amount, 2> PlanarTurning::parts(const Amounts& v, const Amounts& refe
 
 WrittenVector PlanarTurning::image(const Orientation& own, const Amounts& v, const Amounts& reference) {
   const auto [along, beside] = parts(v, reference, own.means == Means::points);
-  refuse_part_of_angle(own);
   if (own.means == Means::vectors) return along * own.first + beside * own.second;
   const std::string from = known(own.from).name, to = known(own.to).name;
   const std::string tail = own.means == Means::way ? extra(own, "_along", 0) : to;
@@ -100,10 +99,12 @@ WrittenVector PlanarTurning::image(const Orientation& own, const Amounts& v, con
   return result;
 }
 WrittenVector PlanarTurning::image_of_shape(LinkIndex link, const Amounts& v) {
+  refuse_part_of_angle(link);
   return image(*orientation(link), v, orientation(link)->reference);
 }
 
 WrittenVector PlanarTurning::image(LinkIndex link, const Amounts& drawn) {
+  refuse_part_of_angle(link);
   return image(*orientation(link), drawn, orientation(link)->drawn);
 }
 
@@ -297,17 +298,20 @@ bool PlanarTurning::orient_by_teeth(LinkIndex link, const DrawnMesh& mesh) {
 }
 
 /// Only whole multiples of an angle have a cosine and a sine that are polynomials in its own.
-void PlanarTurning::refuse_part_of_angle(const Orientation& own) const {
+void PlanarTurning::refuse_part_of_angle(LinkIndex link) const {
+  const Orientation& own = *orientation(link);
   if (!own.angle) return;
-  for (const auto& [name, times] : *own.angle)
-    if (times.get_den() != 1)
-      for (const DrawnCoordinate& c : d_.coordinates)
-        if (c.name == name)
-          throw core::InputError(
-              c.where,
-              "coordinate " + name + " turns a wheel by " + times.get_str() +
-                  " of its angle, whose cos and sin are no polynomials of those of the angle",
-              "make the angle of the wheel that turns less the coordinate: {angle: [...], of: its link}");
+  for (const auto& [name, times] : *own.angle) {
+    if (times.get_den() == 1) continue;
+    const bool is_slow = abs(times.get_num()) == 1;
+    const auto c = std::find_if(d_.coordinates.begin(), d_.coordinates.end(),
+                                [&, own_name = name](const DrawnCoordinate& one) { return one.name == own_name; });
+    throw core::InputError(c == d_.coordinates.end() ? core::SourcePosition{d_.mechanism.file} : c->where,
+                           "coordinate " + name + " turns link " + d_.name_of(link) + " by " + times.get_str() +
+                               " of its angle, whose cos and sin are no polynomials of those of the angle",
+                           "make the angle of the wheel that turns less the coordinate: {angle: [0, 360 deg], of: " +
+                               (is_slow ? d_.name_of(link) : "its link") + "}");
+  }
 }
 
 }  // namespace clearloci::mechanism

@@ -65,7 +65,7 @@ class PlanarTurning : public PartByPart {
   bool orient_as(LinkIndex link, LinkIndex guide);
   bool orient_by_wheels(LinkIndex link);
   bool orient_by_teeth(LinkIndex link, const DrawnMesh& mesh);
-  void refuse_part_of_angle(const Orientation& own) const;
+  void refuse_part_of_angle(LinkIndex link) const;
 
   Orientation ground_;
   std::vector<std::optional<Orientation>> orientations_;

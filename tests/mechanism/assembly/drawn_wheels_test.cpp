@@ -157,9 +157,9 @@ TEST(DrawnGear, RefusesAPartOfAnAngle) {
     (void)parse_mechanism(geared("20, 60", "one"), "drawing.yaml");
     FAIL();
   } catch (const core::InputError& error) {
-    EXPECT_NE(error.problem().find("coordinate theta turns a wheel by -1/3 of its angle"), std::string::npos)
+    EXPECT_NE(error.problem().find("coordinate theta turns link two by -1/3 of its angle"), std::string::npos)
         << error.what();
-    EXPECT_NE(error.mend().find("turns less"), std::string::npos);
+    EXPECT_NE(error.mend().find("of: two}"), std::string::npos);
   }
 }
 

@@ -302,7 +302,7 @@ describe("another program's file", () => {
     await page.getByLabel("teeth of L0", { exact: true }).press("Enter");
     await rest(page);
     const [words, element] = await sheet.said();
-    expect(words).toContain("turns a wheel by -8/5 of its angle");
+    expect(words).toContain("turns link L0 by -8/5 of its angle");
     expect(element).not.toBe("");
     await shot(page, "imported-gears");
     await page.getByLabel("teeth of L1", { exact: true }).fill("75");
