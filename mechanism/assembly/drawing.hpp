@@ -73,6 +73,7 @@ struct Drawing {
   std::vector<std::vector<Node>> axes;  ///< as written, one list a joint
   std::vector<std::size_t> written;     ///< of each joint its place in the file: cables hold nothing, and are left out
   std::vector<bool> cabled;             ///< of each link whether a cable pulls at it
+  std::size_t cables = 0;               ///< each may do what a motor does
   std::vector<DrawnMesh> meshes;        ///< gears and belts, which are no joints of `mechanism` here
   Rational unit = 1;                    ///< of the file's lengths, m
   double size = 1;                      ///< of the drawing, m

@@ -122,6 +122,7 @@ class Freedoms {
     for (const auto& place : sample_points(m_, pose_)) places_.push_back(place.value_or(PointAt{}));
     if (auto columns = reactions_at(m_, pose_)) {
       for (const BorneReaction& own : *columns) (own.motor ? motors_ : passive_).push_back(own);
+      hold_turning_of_points();
       known_ = true;
     }
   }
@@ -223,6 +224,21 @@ class Freedoms {
     for (std::size_t p = 0; p < d_.points.size(); ++p)
       if (d_.points[p].held)
         for (std::size_t i = 0; i < dimension(m_); ++i) hold(static_cast<PointIndex>(p), i);
+  }
+
+  /// A point mass on cables does not turn: no balance of its couples is asked for.
+  void hold_turning_of_points() {
+    for (std::size_t l = 0; l < m_.links.size(); ++l) {
+      const auto link = static_cast<LinkIndex>(l);
+      const bool joined = std::any_of(m_.joints.begin(), m_.joints.end(),
+                                      [&](const Joint& joint) { return joint.from == link || joint.to == link; });
+      if (!d_.cabled[l] || joined || m_.links[l].points.size() != 1) continue;
+      for (std::size_t i = d_.is_spatial() ? 0 : 2; i < 3; ++i) {
+        BorneReaction own{0, false, ground, link, m_.links[l].points.front(), {}, {}};
+        own.couple[i] = 1;
+        passive_.push_back(own);
+      }
+    }
   }
 
   static PointAt unit(const PointAt& v) {
@@ -387,7 +403,7 @@ void check_drawing(const Drawing& d) {
     throw InputError({d.mechanism.file}, "motors " + listed(names) + " work against each other: " + counts(d, freedoms),
                      "leave out one of them (actuated: false), or give it a known effort (actuated: {effort: 0})");
   }
-  if (freedoms.motors() < freedoms.mobility()) {
+  if (freedoms.motors() + d.cables < freedoms.mobility()) {
     const std::vector<LinkIndex> undriven = freedoms.undriven();
     throw InputError(
         place_of(d, undriven),

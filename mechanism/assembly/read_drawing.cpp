@@ -297,6 +297,7 @@ class DrawingReader {
         kept.push_back(std::move(joint));
         continue;
       }
+      ++result_.cables;
       for (const LinkIndex link : {joint.from, joint.to})
         if (link != ground) result_.cabled[static_cast<std::size_t>(link)] = true;
     }

@@ -222,6 +222,31 @@ TEST(DrawnGear, NamesCentresThatNothingHas) {
   }
 }
 
+/// A cable may do what a motor does.
+TEST(DrawnCable, HoldsABoom) {
+  const std::string text = file_of("theta: {angle: [-60 deg, 60 deg], of: boom}",
+                                   "A: [0, 0], B: [0, 200], C: [250, 100]", "  boom: {points: [A, C]}\n",
+                                   "  A: {revolute: [ground, boom], at: A}\n"
+                                   "  K: {cable: [ground, boom], at: [B, C], tension: [0 N, 1000 N]}\n",
+                                   "link: boom, at: C");
+  expect_path(text, "C", [](double theta) {
+    return Place{std::hypot(250, 100) * std::cos(theta), std::hypot(250, 100) * std::sin(theta)};
+  });
+  const std::string loose = with_line(text, "  K: {cable: [ground, boom], at: [B, C], tension: [0 N, 1000 N]}\n", "");
+  EXPECT_THROW((void)parse_mechanism(loose, "drawing.yaml"), core::InputError);
+}
+
+/// It has no direction of its own, so that nothing has to hold one.
+TEST(DrawnCable, HangsAPointMass) {
+  const std::string text =
+      "format: 1\nworkspace: {x: {place: x, of: P, within: [-1, 1]}, y: {place: y, of: P, within: [-1, -0.1]}}\n"
+      "drawn: {A: [-1, 0], B: [1, 0], P: [0, -0.5]}\nlinks: {load: {points: [P], masses: [{at: P, mass: 2}]}}\n"
+      "joints:\n  K: {cable: [ground, load], at: [A, P], tension: [5, 40]}\n"
+      "  L: {cable: [ground, load], at: [B, P], tension: [5, 40]}\n"
+      "end_effector: {link: load, at: P}\ngravity: [0, -9.81]\n";
+  EXPECT_EQ(parse_mechanism(text, "drawing.yaml").coordinates.size(), 2U);
+}
+
 /// A rod that only braces, with a force that is chosen.
 TEST(DrawnRods, MayBeRedundant) {
   const std::string text =

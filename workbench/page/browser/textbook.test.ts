@@ -175,6 +175,20 @@ const textbook: Textbook[] = [
       expect(spread(at.map((own) => own[0] * x + own[1] * y))).toBeCloseTo(400, 0);
     } },
   },
+  {
+    name: "Arm of a drafting machine",
+    source: "Wikipedia, Drafting machine: a band over two pulleys keeps the direction of the head; one of its two arms",
+    steps: [["ground", [0, 0]], ["link", [0, 0], [150, 200]], ["link", [150, 200], [210, 200]], ["belt", [0, 0], [150, 200]], ["motor", [0, 0]], ["force", [210, 200], [210, 140]]],
+    coordinates: ["A"],
+    path: { within: [0, 6.28], holds: (at) => at.forEach(([x, y]) => expect(Math.hypot(x - 60, y)).toBeCloseTo(250, 9)) },
+  },
+  {
+    name: "Derrick",
+    source: "Wikipedia, Crane: a boom on a hinge that a cable from the mast holds",
+    steps: [["ground", [0, 0], [0, 200]], ["link", [0, 0], [250, 100]], ["cable", [0, 200], [250, 100]], ["free", [125, 50]], ["force", [250, 100], [250, 40]]],
+    coordinates: ["theta"],
+    path: { within: [-1.2, 1.2], holds: (at) => at.forEach(([x, y]) => expect(Math.hypot(x, y)).toBeCloseTo(Math.hypot(250, 100), 9)) },
+  },
 ];
 
 describe("mechanisms of textbooks", () => {
