@@ -83,6 +83,20 @@ TEST(DrawnSlot, GuidesAPin) {
               });
 }
 
+/// A given length moves the pin along its slot, and not across it: by the way that a calculation by hand has.
+TEST(DrawnSlot, ClosesAnewAlongItsLine) {
+  const std::string text = with_crank("C: [150, 0]", "  rod: {points: [B, C], length: 130}\n",
+                                      "  B: {revolute: [crank, rod], at: B}\n"
+                                      "  S: {slot: [ground, rod], at: C, axis: [1, 0]}\n",
+                                      "link: rod, at: C");
+  expect_path(text, "C", [](double theta) {
+    return Place{50 * std::cos(theta) + std::sqrt(130 * 130 - std::pow(50 * std::sin(theta), 2)), 0};
+  });
+  const Mechanism m = parse_mechanism(text, "drawing.yaml");
+  ASSERT_FALSE(m.notes.empty());
+  EXPECT_NE(m.notes.front().find("closed anew"), std::string::npos) << m.notes.front();
+}
+
 /// A rod that slides over a pin that stands.
 TEST(DrawnSlot, SlidesOverAPin) {
   expect_path(with_crank("F: [100, 10], C: [170, -20]", "  rod: {points: [B, C]}\n",
