@@ -1,5 +1,5 @@
 // What one free effort has to be between at poses of a task, so that every demanded reaction keeps the sign that it has
-// at the first pose: a pattern of signs (docs/method.md section 15). Private to analysis/.
+// at the first pose: a pattern of signs (docs/background/method.md section 15). Private to analysis/.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // Efforts that are free at one pose, and all bounds that efforts have there: a polytope
 //     offset_i + slope_i . lambda >= 0,       two rows an effort that has bounds, one a bound
-// (docs/method.md section 15). Private to analysis/.
+// (docs/background/method.md section 15). Private to analysis/.
 #pragma once
 
 #include <optional>

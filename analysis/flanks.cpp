@@ -54,10 +54,11 @@ std::vector<std::string> slack_belts(const mechanism::Mechanism& mechanism, cons
   std::vector<std::string> slack;
   for (const mechanism::Joint& joint : mechanism.joints) {
     if (!joint.meshing || joint.meshing->flank) continue;
-    const double most = core::to_double(mechanism::value_of(joint.meshing->most, mechanism));
+    const double most = std::abs(core::to_double(mechanism::value_of(joint.meshing->most, mechanism)));
     for (const JointReaction& own : pose.reactions)
       for (const ReactionComponent& part : own.components)
-        if (own.joint == joint.name && part.quantity == Quantity::M && std::abs(part.value) > most)
+        if (own.joint == joint.name && part.quantity == mechanism::actuator_quantity(joint) &&
+            std::abs(part.value) > most)
           slack.push_back(joint.name);
   }
   return slack;

@@ -1,4 +1,4 @@
-// Efforts of free actuators at one pose (numeric/effort_gaps.hpp; docs/preload.md). Private to analysis/.
+// Efforts of free actuators at one pose (numeric/effort_gaps.hpp; docs/guide/preload.md). Private to analysis/.
 #pragma once
 
 #include <optional>

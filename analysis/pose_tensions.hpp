@@ -1,4 +1,4 @@
-// Tensions of cables at one pose: which are feasible, as a polytope (analysis/effort_polytope.hpp; docs/preload.md).
+// Tensions of cables at one pose: which are feasible, as a polytope (analysis/effort_polytope.hpp; preload.md).
 // Private to analysis/.
 #pragma once
 

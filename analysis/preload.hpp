@@ -1,4 +1,4 @@
-// Which constant efforts of the free actuators make a task verify (docs/preload.md)?
+// Which constant efforts of the free actuators make a task verify (docs/guide/preload.md)?
 //     Mechanism, Task -> PreloadJudge, the efforts left open -> boxes of efforts
 // A box whose every effort verifies, and one whose every effort fails, are proven; others are cut. Private to
 // analysis/.

@@ -1,4 +1,4 @@
-// A law of one free effort under which a task verifies: docs/method.md section 15. Private to analysis/.
+// A law of one free effort under which a task verifies: docs/background/method.md section 15. Private to analysis/.
 //     poses of the task -> gaps of efforts -> for each pattern of signs what the effort is between -> a polynomial
 //     between these -> verify(), which alone proves it
 // A pattern fails where at one pose two reactions ask for efforts that exclude each other.

@@ -1,5 +1,5 @@
-// Whether cables have tensions within their bounds at every pose of a task, one choice a pose (docs/preload.md,
-// docs/method.md section 15):
+// Whether cables have tensions within their bounds at every pose of a task, one choice a pose (docs/guide/preload.md,
+// docs/background/method.md section 15):
 //     pose -> the polytope of feasible efforts -> its deepest place -> a cell in which that choice is proven
 // At one pose the bounds are linear in the free efforts, so that the feasible ones are convex: where every pose has
 // some strictly within all bounds, some vary continuously with the pose. Private to analysis/.

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/flanks.hpp"
+#include "analysis/flank_motions.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
@@ -16,13 +16,11 @@
 #include "mechanism/fits.hpp"
 #include "mechanism/handed_files.hpp"
 #include "mechanism/written_unit.hpp"
-#include "numeric/period_sweep.hpp"
 
 namespace clearloci {
 namespace {
 
 using numeric::Instant;
-using Samples = std::vector<std::vector<Instant>>;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -90,7 +88,7 @@ void put_joints(TableRows& row, const numeric::Motion& motion, const Instant& at
   }
 }
 
-core::Table table_of(const numeric::Motion& motion, const Samples& samples, double period) {
+core::Table table_of(const numeric::Motion& motion, const InstantSamples& samples, double period) {
   core::Table table;
   TableRows row(table);
   const std::string along = distance_unit(motion);
@@ -180,13 +178,13 @@ std::vector<ContactLoss> losses_of(const numeric::Motion& motion, const std::vec
   return losses;
 }
 
-void add_sweep(const numeric::Motion& motion, const Samples& samples, const numeric::LossThresholds& thresholds,
+void add_sweep(const FlankMotions& motions, const numeric::LossThresholds& thresholds,
                const std::vector<double>& periods, TrajectoryResult& result) {
-  numeric::PeriodSweep sweep = numeric::period_sweep(motion, samples, periods);
+  numeric::PeriodSweep sweep = motions.sweep(periods);
   result.sweep = PeriodSweep{std::move(sweep.periods), std::move(sweep.distance), std::move(sweep.dx),
                              std::move(sweep.dy),      std::move(sweep.dz),       std::move(sweep.dalpha)};
-  for (numeric::LossCurve& curve : numeric::loss_curves(motion, samples, thresholds, periods.front(), periods.back()))
-    result.loss_curves.push_back({joint_name(motion, curve.joint), curve.quantity, std::move(curve.lines)});
+  for (numeric::LossCurve& curve : motions.loss_curves(thresholds, periods.front(), periods.back()))
+    result.loss_curves.push_back({joint_name(motions.motion(), curve.joint), curve.quantity, std::move(curve.lines)});
 }
 
 // ---- Request
@@ -215,15 +213,16 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   if (const std::optional<Framed> own = framed_where_far(mechanism))
     return from_frame(follow_trajectory(own->mechanism, in_frame(trajectory, own->frame), request), mechanism,
                       own->frame);
-  refuse_gears(mechanism, "trajectories are followed", "ask for pose at places of the path");
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
-  const numeric::Motion motion = numeric::compile_motion(mechanism, trajectory, sides);
+  const FlankMotions motions(mechanism, trajectory, sides, request.samples);
+  const numeric::Motion& motion = motions.motion();
   const double own = trajectory.speed ? motion.timeline.length() / core::to_double(*trajectory.speed)
                                       : core::to_double(trajectory.period);
   const double period = request.period.value_or(own);
-  const Samples samples = numeric::sample(motion, request.samples);
-  numeric::LossThresholds thresholds = numeric::default_thresholds(motion, samples);
+  const InstantSamples samples = motions.samples(period);
+  numeric::LossThresholds thresholds =
+      numeric::default_thresholds(motion, motions.samples(std::numeric_limits<double>::infinity()));
   if (request.min_force) thresholds.force = *request.min_force;
 
   TrajectoryResult result;
@@ -238,10 +237,11 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   result.distance_unit = distance_unit(motion);
   result.min_force = thresholds.force;
   for (const mechanism::Joint& joint : mechanism.joints) result.joints.push_back(joint.name);
-  result.losses = losses_of(motion, numeric::contact_losses(motion, samples, period, thresholds));
-  result.stages = stages_of(motion, period, numeric::critical_periods(motion, samples, thresholds));
+  result.losses = losses_of(motion, motions.contact_losses(period, thresholds));
+  result.stages = stages_of(motion, period, motions.critical_periods(thresholds));
+  for (std::string& note : motions.slack_notes(samples, period)) result.notes.push_back(std::move(note));
   result.samples = table_of(motion, samples, period);
-  if (!request.periods.empty()) add_sweep(motion, samples, thresholds, request.periods, result);
+  if (!request.periods.empty()) add_sweep(motions, thresholds, request.periods, result);
   return result;
 }
 

@@ -1,6 +1,8 @@
 #include "analysis/verification.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "analysis/flanks.hpp"
 #include "analysis/loci.hpp"
@@ -12,6 +14,7 @@
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
+#include "mechanism/evaluate.hpp"
 #include "mechanism/group_closing.hpp"
 #include "mechanism/read_task.hpp"
 #include "mechanism/written_unit.hpp"
@@ -24,11 +27,17 @@ using mechanism::Mechanism;
 
 bool is_spatial(const Mechanism& mechanism) { return mechanism.space == mechanism::Space::spatial; }
 
-/// The tower answers over two lengths, but for loads that vary in space, bounds of efforts and what it does not move
-/// or scale.
+bool meshes(const Mechanism& mechanism) {
+  return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
+                     [](const mechanism::Joint& joint) { return joint.meshing.has_value(); });
+}
+
+/// The tower answers over two lengths, but for loads that vary in space or press on teeth and belts, bounds of efforts
+/// and what it does not move or scale.
 bool is_asked_of_tower(const Mechanism& mechanism, const Task& task, TaskFit fit) {
   if (!mechanism::is_plane(mechanism) || !mechanism.groups.empty() || mechanism::has_effort_bounds(mechanism))
     return false;
+  if (meshes(mechanism) && !task.loads_within.empty()) return false;
   if (is_spatial(mechanism) && (task.loads || !task.loads_within.empty() || task.pose_error)) return false;
   return fit != TaskFit::largest && (fit == TaskFit::none || !is_tolerant(task));
 }
@@ -93,28 +102,42 @@ core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::Numeri
 
 namespace {
 
-bool has(const Mechanism& mechanism, mechanism::JointType type) {
-  return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
-                     [&](const mechanism::Joint& joint) { return joint.type == type; });
-}
-
-/// With gears a task is verified on the flanks that bear in it: no teeth change theirs between two of its poses.
+/// With gears a task is verified on the flanks that bear in it: no teeth change theirs between two of its poses, or
+/// under two of its loads.
 VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequest request) {
-  if (!has(mechanism, mechanism::JointType::gear)) return request;
-  if (task.loads || !task.loads_within.empty() || request.fit != TaskFit::none)
-    throw InputError({task.file}, "tasks with gears are verified under the loads of the file, where they lie",
-                     "leave out the loads of the task, and --fit");
+  const auto is_gear = [](const mechanism::Joint& joint) { return joint.meshing && joint.meshing->flank; };
+  if (std::none_of(mechanism.joints.begin(), mechanism.joints.end(), is_gear)) return request;
+  if (request.fit != TaskFit::none)
+    throw InputError({task.file}, "tasks with gears are verified where they lie", "leave out --fit");
   const WidenedTask widened(mechanism, task);
   const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
-  const std::vector<double> pose = region.samples().front();
+  const std::vector<double> at = widened.settled(region.samples().front());
   const DyadSides sides = requested_modes(mechanism, request.loci).front(),
-                  bearing = sides_that_push(mechanism, sides, pose);
+                  bearing = sides_that_push(widened.at_place(at, 0), sides, at);
   if (!request.loci.working_modes.empty() && bearing != sides)
     throw InputError({.file = "--working-mode"},
                      "in this working mode the teeth of a gear would have to pull in the task",
                      "leave it out, or ask for the other flank");
   request.loci.working_modes = {bearing};
   return request;
+}
+
+bool depends_on(const core::Expression& expression, const std::string& parameter, const Mechanism& mechanism) {
+  const std::set<std::string> all = core::symbols(expression);
+  return all.contains(parameter) ||
+         std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(), [&](const mechanism::Parameter& own) {
+           return all.contains(own.name) && depends_on(own.expression, parameter, mechanism);
+         });
+}
+
+void refuse_tolerances_of_belts(const Mechanism& mechanism, const Task& task) {
+  for (const core::Tolerance& tolerance : task.tolerances)
+    for (const mechanism::Joint& joint : mechanism.joints)
+      if (joint.meshing && !joint.meshing->flank && depends_on(joint.meshing->most, tolerance.parameter, mechanism))
+        throw InputError({task.file},
+                         "what belt " + joint.name + " carries before a span is slack depends on " +
+                             tolerance.parameter + ", which has a tolerance",
+                         "leave this tolerance out, and verify the task with both of its ends");
 }
 
 }  // namespace
@@ -138,15 +161,14 @@ Verification verify(const Model& model, const Task& task, const VerifyRequest& a
   const Mechanism& mechanism = model.content().mechanism;
   check_request(mechanism, asked.loci);
   const VerifyRequest request = on_flanks(mechanism, task, asked);
-  if (has(mechanism, mechanism::JointType::belt) && !is_asked_of_tower(mechanism, task, request.fit))
-    throw InputError({task.file}, "tasks with belts are verified over two lengths alone, since a span may go slack",
-                     "make all coordinates but two lengths parameters");
+  refuse_tolerances_of_belts(mechanism, task);
   check_task(mechanism, task);
   require_answerable(mechanism, task, request);
   if (!task.preload.empty()) return verify_preloaded(model, task, request);
   if (!mechanism::joints_without_preload(mechanism).empty()) return verify_with_preload(model, task, request);
-  Verification result = is_asked_of_tower(mechanism, task, request.fit) ? verify_by_tower(mechanism, task, request)
-                                                                        : verify_by_statics(mechanism, task, request);
+  Verification result = is_asked_of_tower(mechanism, task, request.fit)
+                            ? verify_by_tower(mechanism, task, request)
+                            : verify_by_statics(mechanism::with_bounded_belts(mechanism), task, request);
   tell_mechanism(mechanism, request, result);
   return result;
 }

@@ -180,7 +180,7 @@ core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest&
                        core::Certificate* certificate, const symbolic::LocusFamily* family) {
   if (request.by_cells || !mechanism::is_plane(mechanism) || !mechanism.groups.empty() ||
       mechanism::has_effort_bounds(mechanism))
-    return zones_by_cells(mechanism, request);
+    return zones_by_cells(mechanism::with_bounded_belts(mechanism), request);
   const std::optional<Framed> own = framed(mechanism);
   core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, family)
                         : cut_zones(mechanism, request.loci, certificate, family);

@@ -46,7 +46,7 @@ void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& mo
   for (std::size_t d = 0; d < statics.demands.size(); ++d) {
     const std::vector<double>& own = at->components[d].front();
     const core::TaskDemand& demand = statics.demands[d].demand;
-    if (own.size() == 1)
+    if (own.size() == 1 && !demand.bound)
       zone.signs.emplace_back(core::Vanishing{demand.joint, demand.quantity, 1}, own[0] > 0 ? 1 : own[0] < 0 ? -1 : 0);
   }
 }
@@ -162,14 +162,22 @@ class Ends {
   bool jumps_ = false;
 };
 
-/// Zones on a side of a fold on which a link bends are out of reach: on one side links are rigid or bend all over it,
-/// so that one pose tells.
+/// Teeth that would have to pull. Zones are cut where their force vanishes.
+bool teeth_pull(const numeric::NumericModel& model, const std::vector<double>& pose, const DyadSides& sides) {
+  const auto& joints = model.mechanism.joints;
+  return std::any_of(joints.begin(), joints.end(),
+                     [](const mechanism::Joint& joint) { return joint.meshing.has_value(); }) &&
+         !numeric::reachable(model, pose, sides);
+}
+
+/// Zones on a side of a fold on which a link bends are out of reach, as are those in which teeth would have to pull: in
+/// all of a zone or nowhere, so that one pose tells.
 void leave_rigid(loci::pose::CellZones& found, const numeric::NumericModel& model, const DyadSides& sides) {
   std::vector<std::size_t> place(found.zones.size(), found.zones.size());  // among those that stay
   std::vector<loci::pose::CellZone> kept;
   for (std::size_t z = 0; z < found.zones.size(); ++z) {
     const numeric::Posture posture = numeric::posture(model, found.zones[z].sample, sides);
-    if (posture.broken && !posture.unreachable) {
+    if ((posture.broken && !posture.unreachable) || teeth_pull(model, found.zones[z].sample, sides)) {
       found.outside += found.zones[z].at_least;
       continue;
     }

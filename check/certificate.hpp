@@ -1,4 +1,4 @@
-// What a certificate file says (docs/certificates.md), read with limits on everything and believed in nothing.
+// What a certificate file says (certificates.md), read with limits on everything and believed in nothing.
 // Private to check/.
 #pragma once
 

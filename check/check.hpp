@@ -1,4 +1,4 @@
-// The second opinion: verifies a certificate (docs/certificates.md) from the model, with statics, intervals and proofs
+// The second opinion: verifies a certificate (certificates.md) from the model, with statics, intervals and proofs
 // of its own. Nothing of what wrote the certificate is used here: only the reader of mechanism files and plain data.
 //
 // In the order in which to read the folder:

@@ -1,4 +1,4 @@
-// Which reactions vanish along a curve: the orders of w = N / |A| there (docs/method.md section 10), seen from two
+// Which reactions vanish along a curve: the orders of w = N / |A| there (method.md section 10), seen from two
 // poses that are very near to it. Private to check/.
 #pragma once
 

@@ -1,6 +1,6 @@
 // The equations of a mechanism over a cell of poses, in the plane and in space, derived from the model alone: closure
-// point by point (docs/method.md section 1), then A w = b with the unit wrenches of the joints as columns, three or six
-// rows a link (docs/notation.md), b the opposite of the loads. Of designs within tolerances the parameters that vary
+// point by point (method.md section 1), then A w = b with the unit wrenches of the joints as columns, three or six
+// rows a link (notation.md), b the opposite of the loads. Of designs within tolerances the parameters that vary
 // are coordinates as well. Private to check/.
 //
 //   dyad B on A, P about n:   r = (P - A) - h n,  h = n . (P - A),  D = r . r,  b'^2 = b^2 - h^2,  k = a^2 - b'^2 + D

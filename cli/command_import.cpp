@@ -67,7 +67,7 @@ Command add_import_command(CLI::App& program) {
       "  clearloci import linkage.linkage2 -o own.yaml\n"
       "  clearloci import 'https://app.pmksplus.com/?...' -o own.yaml --clearance '30 um'\n"
       "  clearloci loci robot.urdf\n"
-      "All commands take such files directly. docs/import.md lists what is read of each format.");
+      "All commands take such files directly. docs/guide/import.md lists what is read of each format.");
   return {command, [arguments] { return run(*arguments); }};
 }
 

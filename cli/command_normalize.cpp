@@ -37,7 +37,7 @@ Command add_normalize_command(CLI::App& program) {
                       "Give a parameter another value, in the unit in which the file writes it (repeatable)");
   command->add_flag("--json", arguments->json, "Print the text and the notes as JSON");
   command->add_flag("--quiet", arguments->quiet, "Print no notes");
-  command->footer("Example: clearloci normalize sketch.yaml -o own.yaml\nThe drawn form: docs/drawn-form.md.");
+  command->footer("Example: clearloci normalize sketch.yaml -o own.yaml\nThe drawn form: docs/guide/drawn-form.md.");
   return {command, [arguments] { return run(*arguments); }};
 }
 

@@ -60,7 +60,7 @@ std::vector<Command> add_commands(CLI::App& program, const std::string& word) {
 /// The keys of a mechanism file, of which the page mechanism-file.md has the values.
 std::string wrapped_keys() {
   constexpr std::size_t width = 110;
-  std::string text = "Keys of a mechanism file (docs/mechanism-file.md):";
+  std::string text = "Keys of a mechanism file (docs/reference/mechanism-file.md):";
   for (const std::string& key : mechanism::file_keys()) {
     if (text.size() - text.rfind('\n') + key.size() > width) text += "\n ";
     text += " " + key;

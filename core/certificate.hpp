@@ -1,4 +1,4 @@
-// What a trace leaves behind for someone else to check (docs/certificates.md): plain data, no proof of its own.
+// What a trace leaves behind for someone else to check (certificates.md): plain data, no proof of its own.
 #pragma once
 
 #include <array>

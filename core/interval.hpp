@@ -1,6 +1,7 @@
 // Intervals of doubles, rounded outwards without touching the rounding mode:
 //     fl(a op b) = (a op b)(1 + e), |e| <= 2^-53, so widening a result r by |r| 2^-52 + 2^-1000 on either side encloses
-// the true one, underflow included. Overflow does not occur on the bounded boxes this program works on.
+// the true one, underflow included. A bound that overflowed is infinite and stands for a finite value: 0 times it is 0.
+// A sum of such bounds may be no number, which bounds nothing: the ends are infinite to whoever asks for them.
 #pragma once
 
 #include <algorithm>
@@ -45,20 +46,18 @@ class Interval {
   }
   friend Interval operator-(const Interval& a) { return Interval(_mm_shuffle_pd(a.ends_, a.ends_, 1)); }
   friend Interval operator*(const Interval& a, const Interval& b) {
-    const __m128d sign = _mm_set1_pd(-0.0);
     const __m128d straight = _mm_mul_pd(a.ends_, b.ends_);
     const __m128d crossed = _mm_mul_pd(a.ends_, _mm_shuffle_pd(b.ends_, b.ends_, 1));
-    const __m128d upper = _mm_max_pd(straight, _mm_xor_pd(crossed, sign));
-    const __m128d lower = _mm_max_pd(crossed, _mm_xor_pd(straight, sign));
-    return outward(_mm_max_pd(_mm_unpacklo_pd(lower, upper), _mm_unpackhi_pd(lower, upper)));
+    if (_mm_movemask_pd(_mm_cmpunord_pd(straight, crossed)) != 0) return overflowed(a, b);
+    return product(straight, crossed);
   }
   friend Interval around(const Interval& middle, const Interval& first, const Interval& second) {
-    const __m128d one = _mm_max_pd(first.ends_, _mm_shuffle_pd(first.ends_, first.ends_, 1));
-    const __m128d other = _mm_max_pd(second.ends_, _mm_shuffle_pd(second.ends_, second.ends_, 1));
+    const __m128d a = known(first.ends_), b = known(second.ends_);
+    const __m128d one = _mm_max_pd(a, _mm_shuffle_pd(a, a, 1)), other = _mm_max_pd(b, _mm_shuffle_pd(b, b, 1));
     return outward(_mm_add_pd(outward(_mm_add_pd(one, other)).ends_, middle.ends_));
   }
   friend Interval meet(const Interval& a, const Interval& b) {
-    const __m128d ends = _mm_min_pd(a.ends_, b.ends_);
+    const __m128d ends = _mm_min_pd(known(a.ends_), known(b.ends_));
     // Where rounding leaves nothing, the lower end.
     const __m128d lower = _mm_xor_pd(_mm_set1_pd(-0.0), _mm_unpacklo_pd(ends, ends));
     return Interval(_mm_move_sd(_mm_max_pd(ends, lower), ends));
@@ -66,14 +65,30 @@ class Interval {
 
  private:
   explicit Interval(__m128d ends) : ends_(ends) {}
+  /// Infinite where they are no numbers: the second of two where the first is none.
+  static __m128d known(__m128d ends) { return _mm_min_pd(ends, _mm_set1_pd(std::numeric_limits<double>::infinity())); }
   static Interval outward(__m128d ends) {
     const __m128d size = _mm_andnot_pd(_mm_set1_pd(-0.0), ends);
     const __m128d error = _mm_add_pd(_mm_mul_pd(size, _mm_set1_pd(0x1p-52)), _mm_set1_pd(0x1p-1000));
     return Interval(_mm_add_pd(ends, error));
   }
+  /// Of all four products of ends, which are numbers.
+  static Interval product(__m128d straight, __m128d crossed) {
+    const __m128d sign = _mm_set1_pd(-0.0);
+    const __m128d upper = _mm_max_pd(straight, _mm_xor_pd(crossed, sign));
+    const __m128d lower = _mm_max_pd(crossed, _mm_xor_pd(straight, sign));
+    return outward(_mm_max_pd(_mm_unpacklo_pd(lower, upper), _mm_unpackhi_pd(lower, upper)));
+  }
+  static Interval overflowed(const Interval& a, const Interval& b) {
+    const __m128d x = known(a.ends_), y = known(b.ends_);
+    const __m128d straight = _mm_mul_pd(x, y), crossed = _mm_mul_pd(x, _mm_shuffle_pd(y, y, 1));
+    return product(_mm_and_pd(straight, _mm_cmpord_pd(straight, straight)),
+                   _mm_and_pd(crossed, _mm_cmpord_pd(crossed, crossed)));
+  }
   void set(double negated_lower, double upper) { ends_ = _mm_set_pd(upper, negated_lower); }
   double end(int which) const {
-    return which == 0 ? _mm_cvtsd_f64(ends_) : _mm_cvtsd_f64(_mm_unpackhi_pd(ends_, ends_));
+    const __m128d ends = known(ends_);
+    return which == 0 ? _mm_cvtsd_f64(ends) : _mm_cvtsd_f64(_mm_unpackhi_pd(ends, ends));
   }
   __m128d ends_;
 #else
@@ -85,8 +100,8 @@ class Interval {
   }
   friend Interval operator-(const Interval& a) { return Interval(-a.upper(), -a.lower()); }
   friend Interval operator*(const Interval& a, const Interval& b) {
-    const double ll = a.lower() * b.lower(), lu = a.lower() * b.upper();
-    const double ul = a.upper() * b.lower(), uu = a.upper() * b.upper();
+    const double ll = product(a.lower(), b.lower()), lu = product(a.lower(), b.upper());
+    const double ul = product(a.upper(), b.lower()), uu = product(a.upper(), b.upper());
     return outward(-std::min({ll, lu, ul, uu}), std::max({ll, lu, ul, uu}));
   }
   friend Interval around(const Interval& middle, const Interval& first, const Interval& second) {
@@ -100,10 +115,17 @@ class Interval {
   }
 
  private:
+  static double product(double a, double b) {
+    const double exact = a * b;
+    return std::isnan(exact) ? 0.0 : exact;
+  }
+  static double outward(double end) {
+    const double bound = end + (std::abs(end) * 0x1p-52 + 0x1p-1000);
+    return std::isnan(bound) ? std::numeric_limits<double>::infinity() : bound;
+  }
   static Interval outward(double negated_lower, double upper) {
     Interval result;
-    result.set(negated_lower + (std::abs(negated_lower) * 0x1p-52 + 0x1p-1000),
-               upper + (std::abs(upper) * 0x1p-52 + 0x1p-1000));
+    result.set(outward(negated_lower), outward(upper));
     return result;
   }
   void set(double negated_lower, double upper) { ends_[0] = negated_lower, ends_[1] = upper; }

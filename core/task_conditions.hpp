@@ -58,7 +58,7 @@ struct TaskConditions {
   std::vector<int> determinant;         ///< the factors of |A|
   std::vector<int> denominators;        ///< squared distances that the closure divides by
   std::vector<TaskCondition> conditions;
-  /// Reactions that take up clearances (docs/method.md section 6), each with its D; nothing is demanded of them. Their
+  /// Reactions that take up clearances (method.md section 6), each with its D; nothing is demanded of them. Their
   /// `directions` end with those of a unit force along x and along y on the end effector.
   std::vector<TaskCondition> take_ups = {};
   /// Demands that no pose can fail to meet otherwise: the reaction is zero whatever the pose and the load.

@@ -79,7 +79,7 @@ std::optional<Flat> way_of(const Mechanism& m, LinkIndex link, const Flat& at, c
   return Flat{q[0] - p[0] - turn * arm[1], q[1] - p[1] + turn * arm[0]};
 }
 
-/// Of a belt: the pulleys turn alike.
+/// Of a belt over pulleys of one size: they turn alike.
 void check_turns(const Mechanism& m, const Joint& belt, const PosturePoints& before, const PosturePoints& after,
                  const std::string& coordinate) {
   const auto turn = [&](LinkIndex link) -> std::optional<double> {
@@ -104,15 +104,17 @@ void check_mesh(const Mechanism& m, const Joint& gear) {
       more[c] += step;
       const auto before = sample_posture(m, less, mode), after = sample_posture(m, more, mode);
       if (!before || !after) continue;
-      if (!gear.meshing->flank) {
+      if (gear.axes.empty()) {
         check_turns(m, gear, *before, *after, m.coordinates[c].name);
         continue;
       }
-      const Flat at = place(own.points, gear.at), touch = place(own.points, *gear.meshing->flank);
+      const auto axis = sample_vector(m, gear.axes.front(), own.pose);
+      if (!axis) continue;
+      const Flat at = place(own.points, gear.at);
       const auto a = way_of(m, gear.from, at, *before, *after, true),
                  b = way_of(m, gear.to, at, *before, *after, gear.meshing->second.has_value());
       if (!a || !b) return;
-      const Flat u = {at[0] - touch[0], at[1] - touch[1]};
+      const Flat u = {(*axis)[0], (*axis)[1]};
       const double length = std::hypot(u[0], u[1]);
       const double differ = ((*b)[0] - (*a)[0]) * u[0] / length + ((*b)[1] - (*a)[1]) * u[1] / length;
       const auto step_of = [&](PointIndex centre) {
@@ -125,9 +127,9 @@ void check_mesh(const Mechanism& m, const Joint& gear) {
       if (std::abs(differ) > apart * size + 1e-12 * length)
         throw core::InputError(
             gear.where,
-            "the teeth of gear " + gear.name + " do not move alike as " + m.coordinates[c].name +
+            "the teeth of " + words_of(gear) + " do not move alike as " + m.coordinates[c].name +
                 " changes: the points of its wheels turn by other angles",
-            "check its teeth, and write points of the wheels in frames with the names of their links");
+            "check its teeth or radii, and write points of the wheels in frames with the names of their links");
     }
 }
 

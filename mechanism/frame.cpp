@@ -35,7 +35,7 @@ class Change {
       // Of a couple, else of a force.
       if (joint.effort) joint.effort = scaled(*joint.effort, traits(joint).slides ? 0 : 1);
       if (joint.meshing) {
-        joint.meshing->most = scaled(joint.meshing->most, 1);
+        if (actuator_quantity(joint) == core::Quantity::M) joint.meshing->most = scaled(joint.meshing->most, 1);
         joint.meshing->radius = scaled(joint.meshing->radius, 1);
       }
       if (joint.within && !traits(joint).slides) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci::mechanism {
@@ -61,7 +62,10 @@ std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Join
   return components;
 }
 
-Quantity actuator_quantity(const Joint& joint) { return traits(joint).actuator.value_or(Quantity::M); }
+Quantity actuator_quantity(const Joint& joint) {
+  if (traits(joint).meshes) return joint.axes.empty() ? Quantity::M : Quantity::F;
+  return traits(joint).actuator.value_or(Quantity::M);
+}
 
 std::vector<Expression> numbers_of(const VectorExpression& vector) {
   std::vector<Expression> numbers = vector.numbers;
@@ -135,6 +139,15 @@ std::vector<JointIndex> joints_without_preload(const Mechanism& mechanism) {
 bool has_effort_bounds(const Mechanism& mechanism) {
   return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
                      [](const Joint& joint) { return joint.actuated && joint.within; });
+}
+
+Mechanism with_bounded_belts(Mechanism mechanism) {
+  for (Joint& joint : mechanism.joints) {
+    if (!joint.meshing || joint.meshing->flank) continue;
+    const Rational most = abs(value_of(joint.meshing->most, mechanism));
+    joint.within = {-most, most};
+  }
+  return mechanism;
 }
 
 void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort) {

@@ -122,7 +122,7 @@ struct Point {
   core::SourcePosition where;
 };
 
-/// Points that close together, none before the others (docs/method.md section 14): as many equations as unknowns,
+/// Points that close together, none before the others (method.md section 14): as many equations as unknowns,
 ///     |Q - P|^2 = length^2 of every distance,   (P - Q) x u = 0 of every line
 /// The points are `first` and the `count` - 1 behind it; the equations may name points up to `last`, which are built on
 /// these. Of all assemblies it is the one that holds the posture `near`.
@@ -187,7 +187,7 @@ enum class JointType { revolute, prismatic, universal, spherical, cylindrical, s
 /// "revolute", ..., the key of the file.
 std::string to_string(JointType type);
 
-/// Of an actuator whose effort is chosen and not determined: the preload (docs/preload.md). It is the value of a
+/// Of an actuator whose effort is chosen and not determined: the preload (docs/guide/preload.md). It is the value of a
 /// parameter, and there are no forces where none is given.
 struct FreeEffort {
   std::string parameter;                                     ///< preload_ and the joint's name, N m or N
@@ -195,12 +195,13 @@ struct FreeEffort {
   bool given = false;
 };
 
-/// Two wheels, or a wheel and a rack, whose teeth touch at the pitch point; or two pulleys of one size.
+/// Two wheels, or a wheel and a rack, whose teeth touch at the pitch point; or two pulleys. The joint's axis is the
+/// line of action; a belt over pulleys of one size has none and carries a couple.
 struct Meshing {
   PointIndex first = 0;              ///< centre of `from`
   std::optional<PointIndex> second;  ///< centre of `to`; none of a rack
   std::optional<PointIndex> flank;   ///< of a gear: where the line of action touches the base circle of `from`
-  Expression most = {};              ///< of a belt: the couple beyond which a span is slack, N m
+  Expression most = {};              ///< of a belt: the couple or force beyond which a span is slack, N m or N
   Expression radius = {};            ///< of the pitch circle of `from`, m
 };
 
@@ -345,6 +346,8 @@ void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort)
 
 /// Whether the effort of some actuator is determined and has bounds: poses beyond them are not of the workspace.
 bool has_effort_bounds(const Mechanism& mechanism);
+/// The slack of a belt's spans as bounds of what it carries, for proofs that know no limits by efforts.
+Mechanism with_bounded_belts(Mechanism mechanism);
 
 /// A mass of a link and where it sits: that of its body and its point masses.
 struct Mass {
@@ -366,7 +369,7 @@ std::vector<Unknown> unknowns(const Mechanism& mechanism);
 /// The columns of one joint, without a planar joint's actuator.
 std::vector<core::Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint);
 
-/// What the actuator of a joint exerts: M or F.
+/// What the actuator of a joint, the teeth of a gear or a belt exerts: M or F.
 core::Quantity actuator_quantity(const Joint& joint);
 
 /// Force components that vanish together where contact is lost: in space those across the axis of a pin or a sleeve.

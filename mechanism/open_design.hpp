@@ -1,6 +1,6 @@
 // A mechanism whose parameters are left open: each varied parameter, and every expression of varied parameters that is
 // no polynomial in them (1/k, cos(alpha)), becomes a free coordinate after the file's own. Equations written for it
-// hold for every design at once; docs/method.md section 12.
+// hold for every design at once; docs/background/method.md section 12.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // Where a mechanism's points and vectors are in one working mode, in closed form over any algebra: in doubles for
 // samples, and as the steps of a program over the pose. Plane and space are one here: a planar mechanism lies in z = 0,
-// and its dyads turn about z (docs/method.md section 1).
+// and its dyads turn about z (docs/background/method.md section 1).
 //
 //   dyad B on A, P about n with |AB| = a, |BP| = b:   w = P - A,  N = n . n,  h = n . w,
 //       D = N w . w - h^2,  k = a^2 - b^2 + w . w,  s^2 = 4 a^2 D - N k^2

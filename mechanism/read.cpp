@@ -78,6 +78,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   read_workspace(mechanism, root.at("workspace"));
   read_points(mechanism, root.at("points"), root.find("frames"), root.find("links"), root.find("joints"));
   read_gear_points(mechanism, root.at("joints"));
+  read_belt_points(mechanism, root.at("joints"));
   read_links(mechanism, root.at("links"));
   read_joints(mechanism, root.at("joints"));
   fill_inertia(mechanism);

@@ -13,7 +13,7 @@ namespace clearloci::mechanism {
 using Override = std::pair<std::string, std::string>;
 
 /// The text of a model: of a mechanism file as it is, of another program's file or address as the drawn form that it is
-/// imported as (docs/import.md).
+/// imported as (docs/guide/import.md).
 struct ModelText {
   std::string text;
   std::vector<std::string> notes;  ///< what the import says

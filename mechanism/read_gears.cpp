@@ -132,26 +132,20 @@ class WrittenGear {
   }
 
   /// Between the centres, m.
-  Expression distance() const {
-    if (const auto written = mapping_.find("distance"))
-      return read_number(m_, part_of(*written, "the distance of " + what_, "length"), Sign::positive).expression;
-    const auto place = [&](std::size_t wheel) -> const std::vector<Expression>& {
-      const PointIndex point = centre(wheel);
-      const auto* own = std::get_if<ExplicitPoint>(&m_.points[static_cast<std::size_t>(point)].form);
-      if (own == nullptr || !coordinates_of(m_, point).empty())
-        throw InputError(mapping_.at("centres").where, what_ + " has centres that move, on a carrier",
-                         "add distance: and the distance between them");
-      return own->coordinates;
-    };
-    const std::vector<Expression>&a = place(0), &b = place(1);
-    return hypotenuse(difference_of(b[0], a[0]), difference_of(b[1], a[1]));
-  }
+  Expression distance() const { return centre_distance(m_, mapping_, what_).expression; }
 
   const Mechanism& m_;
   std::string name_, what_;
   Mapping mapping_;
   std::array<Rational, 2> teeth_ = {0, 0};
 };
+
+/// Of a gear or a belt: by how much of the angle of the first wheel the second one turns.
+Rational ratio_of(const Mechanism& mechanism, const Entry& entry) {
+  if (!is_gear(entry.value)) return belt_ratio(mechanism, entry);
+  const WrittenGear gear(mechanism, entry);
+  return -gear.first_teeth() / gear.second_teeth();
+}
 
 std::vector<Entry> gears_among(const Value& joints) {
   std::vector<Entry> all;
@@ -162,21 +156,6 @@ std::vector<Entry> gears_among(const Value& joints) {
 }
 
 std::string flank_name(const std::string& gear) { return "flank_" + gear; }
-
-PointIndex named(const Mechanism& mechanism, const std::string& name) {
-  const auto found = std::find_if(mechanism.points.begin(), mechanism.points.end(),
-                                  [&](const Point& point) { return point.name == name; });
-  core::ensure(found != mechanism.points.end(), "the points of gears are read before");
-  return static_cast<PointIndex>(found - mechanism.points.begin());
-}
-
-void add_point(Mechanism& mechanism, const Entry& gear, const std::string& name, PointForm form) {
-  for (const Point& point : mechanism.points)
-    if (point.name == name)
-      throw InputError(gear.where, "gear " + gear.key + " has the name of a point, as its own pitch point has",
-                       "rename the gear or the point " + name);
-  mechanism.points.push_back({name, std::move(form), false, gear.where});
-}
 
 const BodyFrame* frame_of(const Mechanism& mechanism, const std::string& link) {
   for (const BodyFrame& frame : mechanism.body_frames)
@@ -199,10 +178,43 @@ BodyFrame turned_with(const BodyFrame& first, const Rational& ratio, const Expre
 
 }  // namespace
 
+void add_pitch_point(Mechanism& mechanism, const Entry& joint, const std::string& name, PointForm form) {
+  const std::string what = (is_gear(joint.value) ? "gear " : "belt ") + joint.key;
+  for (const Point& point : mechanism.points)
+    if (point.name == name)
+      throw InputError(joint.where, what + " has the name of a point, as its own pitch point has",
+                       "rename the " + what.substr(0, 4) + " or the point " + name);
+  mechanism.points.push_back({name, std::move(form), false, joint.where});
+}
+
+PointIndex pitch_point(const Mechanism& mechanism, const std::string& name) {
+  const auto found = std::find_if(mechanism.points.begin(), mechanism.points.end(),
+                                  [&](const Point& point) { return point.name == name; });
+  core::ensure(found != mechanism.points.end(), "the points of gears and belts are read before");
+  return static_cast<PointIndex>(found - mechanism.points.begin());
+}
+
+Number centre_distance(const Mechanism& mechanism, const Mapping& mapping, const std::string& what) {
+  if (const auto written = mapping.find("distance"))
+    return read_number(mechanism, part_of(*written, "the distance of " + what, "length"), Sign::positive);
+  const std::vector<Value> centres = elements(mapping.at("centres"), 2);
+  const auto place = [&](std::size_t wheel) -> const std::vector<Expression>& {
+    const PointIndex point = read_point_name(mechanism, centres[wheel]);
+    const auto* own = std::get_if<ExplicitPoint>(&mechanism.points[static_cast<std::size_t>(point)].form);
+    if (own == nullptr || !coordinates_of(mechanism, point).empty())
+      throw InputError(mapping.at("centres").where, what + " has centres that move, on a carrier",
+                       "add distance: and the distance between them");
+    return own->coordinates;
+  };
+  const std::vector<Expression>&a = place(0), &b = place(1);
+  const Expression apart = hypotenuse(difference_of(b[0], a[0]), difference_of(b[1], a[1]));
+  return {apart, value_of(apart, mechanism)};
+}
+
 bool is_gear(const Value& value) { return value.is_map() && value.node.has("gear"); }
 
 std::optional<std::array<Rational, 2>> teeth_of(const Mechanism& mechanism, const Entry& mesh) {
-  if (!is_gear(mesh.value)) return std::array<Rational, 2>{1, -1};
+  if (!is_gear(mesh.value)) return std::array<Rational, 2>{belt_ratio(mechanism, mesh), -1};
   const WrittenGear gear(mechanism, mesh);
   if (gear.is_rack()) return std::nullopt;
   return std::array<Rational, 2>{gear.first_teeth(), gear.second_teeth()};
@@ -213,11 +225,11 @@ void read_gear_points(Mechanism& mechanism, const Value& joints) {
     check_label(entry.key, entry.where, "a joint");
     const WrittenGear gear(mechanism, entry);
     const PointIndex centre = gear.centre(0);
-    add_point(mechanism, entry, entry.key, ShiftedPoint{centre, gear.way_to_pitch()});
-    const PointIndex pitch = named(mechanism, entry.key);
+    add_pitch_point(mechanism, entry, entry.key, ShiftedPoint{centre, gear.way_to_pitch()});
+    const PointIndex pitch = pitch_point(mechanism, entry.key);
     DyadPoint touch{centre, pitch, product_of(gear.radius(), gear.cosine()), Expression(), gear.flank()};
     touch.right_angle = true;
-    add_point(mechanism, entry, flank_name(entry.key), std::move(touch));
+    add_pitch_point(mechanism, entry, flank_name(entry.key), std::move(touch));
   }
 }
 
@@ -232,8 +244,8 @@ Joint read_gear(const Mechanism& mechanism, const Entry& entry) {
   joint.to = read_link_name(mechanism, names[1], true);
   if (joint.from == joint.to)
     throw InputError(names[1].where, "gear " + entry.key + " joins a wheel to itself", "name two different links");
-  joint.at = named(mechanism, entry.key);
-  const PointIndex flank = named(mechanism, flank_name(entry.key));
+  joint.at = pitch_point(mechanism, entry.key);
+  const PointIndex flank = pitch_point(mechanism, flank_name(entry.key));
   joint.axes = {way(flank, joint.at)};
   joint.actuated = true;
   joint.meshing = Meshing{gear.centre(0), std::nullopt, flank, {}, gear.radius()};
@@ -253,12 +265,14 @@ Joint read_gear(const Mechanism& mechanism, const Entry& entry) {
 }
 
 void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints) {
-  if (!joints || mechanism.space == Space::spatial) return;
-  for (const Entry& entry : gears_among(*joints)) {
-    if (!entry.value.node.has("centres") || !entry.value.node.has("teeth")) continue;
+  if (!joints || mechanism.space == Space::spatial || !joints->is_map()) return;
+  for (const Entry& entry : entries(*joints)) {
+    if (!is_gear(entry.value) && !is_belt(entry.value)) continue;
+    const std::string kind = is_gear(entry.value) ? "gear" : "belt";
+    if (!entry.value.node.has("centres") || !entry.value.node.has(kind == "gear" ? "teeth" : "radii")) continue;
     std::vector<Value> wheels, centres;
     for (const Entry& part : entries(entry.value)) {
-      if (part.key == "gear" && part.value.is_sequence()) wheels = elements(part.value);
+      if (part.key == kind && part.value.is_sequence()) wheels = elements(part.value);
       if (part.key == "centres" && part.value.is_sequence()) centres = elements(part.value);
     }
     if (wheels.size() != 2 || centres.size() != 2 || !wheels[0].is_scalar() || !wheels[1].is_scalar()) continue;
@@ -268,26 +282,28 @@ void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints)
     if ((frames[0] == nullptr) == (frames[1] == nullptr)) continue;
     const std::size_t known = frames[0] != nullptr ? 0 : 1;
     if (!frames[known]->angle || names[1 - known] == "ground") continue;
-    const WrittenGear gear(mechanism, entry);
-    if (!coordinates_of(mechanism, gear.centre(0)).empty() || !coordinates_of(mechanism, gear.centre(1)).empty())
+    const std::array<PointIndex, 2> at = {read_point_name(mechanism, centres[0]),
+                                          read_point_name(mechanism, centres[1])};
+    if (!coordinates_of(mechanism, at[0]).empty() || !coordinates_of(mechanism, at[1]).empty())
       continue;  // relative to a carrier that turns
-    const Rational forward = -gear.first_teeth() / gear.second_teeth();
-    const Rational ratio = known == 0 ? forward : 1 / forward;
+    const Rational forward = ratio_of(mechanism, entry), ratio = known == 0 ? forward : 1 / forward;
     if (ratio.get_den() != 1)
       throw InputError(entry.where,
-                       "gear " + entry.key + " turns " + names[1 - known] + " by " + ratio.get_str() +
+                       kind + " " + entry.key + " turns " + names[1 - known] + " by " + ratio.get_str() +
                            " of the angle of " + names[known] +
                            ", whose cos and sin are no polynomials of those of the angle",
                        "make the angle of the wheel that turns less the coordinate: its frame under frames");
     Expression phase;
-    if (const auto written = gear.mapping().find("phase"))
-      phase =
-          read_number(mechanism, part_of(*written, "the phase of gear " + entry.key, "turned"), Sign::any).expression;
+    for (const Entry& part : entries(entry.value))
+      if (part.key == "phase")
+        phase =
+            read_number(mechanism, part_of(part.value, "the phase of " + kind + " " + entry.key, "turned"), Sign::any)
+                .expression;
     // phase: of the second wheel where the first has not turned.
     if (known == 1) phase = product_of(Expression::number(-ratio), phase);
-    if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(gear.centre(1 - known))].form))
+    if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(at[1 - known])].form))
       continue;
-    BodyFrame own = turned_with(*frames[known], ratio, phase, gear.centre(1 - known), names[1 - known]);
+    BodyFrame own = turned_with(*frames[known], ratio, phase, at[1 - known], names[1 - known]);
     mechanism.body_frames.push_back(std::move(own));
   }
 }

@@ -1,4 +1,4 @@
-// From a study file (docs/studies.md) to a Study.
+// From a study file (docs/guide/studies.md) to a Study.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// From a task file (docs/task-files.md) to a Task.
+// From a task file (docs/reference/task-files.md) to a Task.
 #pragma once
 
 #include <string>

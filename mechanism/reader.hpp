@@ -173,12 +173,23 @@ void read_gear_points(Mechanism& mechanism, const Value& joints);
 bool is_gear(const Value& value);
 /// The joint of a gear whose points are read.
 Joint read_gear(const Mechanism& mechanism, const Entry& entry);
-/// What the turns of both wheels, from their carrier, sum up to 0 with; of a belt 1 and -1; none of a rack.
+/// What the turns of both wheels, from their carrier, sum up to 0 with; of a belt over two radii; none of a rack.
 std::optional<std::array<Rational, 2>> teeth_of(const Mechanism& mechanism, const Entry& mesh);
-/// Frames of wheels that turn with another one, whose frame is known: frames have the names of the wheels' links.
+/// Frames of wheels and pulleys that turn with another one, whose frame is known: frames have the names of the links.
 void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints);
+/// A point of a gear or a belt, which has the joint's name or is made of it. Throws where another one has the name.
+void add_pitch_point(Mechanism& mechanism, const Entry& joint, const std::string& name, PointForm form);
+/// A point that was added so.
+PointIndex pitch_point(const Mechanism& mechanism, const std::string& name);
+/// Between the `centres` of a gear or a belt, m: `distance`, else that of two fixed points.
+Number centre_distance(const Mechanism& mechanism, const Mapping& mapping, const std::string& what);
 
 // --- read_belts.cpp
+/// Of every belt over pulleys of two sizes among the joints: the pitch point, which has the belt's name, and a point
+/// beside it, `beside_` and its name.
+void read_belt_points(Mechanism& mechanism, const Value& joints);
+/// By how much of the angle of the first pulley of a belt the second one turns.
+Rational belt_ratio(const Mechanism& mechanism, const Entry& entry);
 /// An entry {belt: [pulley, pulley], ...} of the joints.
 bool is_belt(const Value& value);
 /// Adds the spring of the belt's tension to the mechanism.

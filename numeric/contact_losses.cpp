@@ -374,8 +374,10 @@ std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t
   const JointClearance& clearance = motion.clearances[joint];
   const JointColumns& columns = motion.columns[joint];
   std::vector<core::Quantity> watched;
-  if (clearance.angular > 0 || clearance.axial > 0)
-    watched.push_back(mechanism::actuator_quantity(motion.model.mechanism.joints[joint]));
+  const mechanism::Joint& own = motion.model.mechanism.joints[joint];
+  // Teeth change flanks, with or without play.
+  const bool teeth = own.meshing && own.meshing->flank;
+  if (clearance.angular > 0 || clearance.axial > 0 || teeth) watched.push_back(mechanism::actuator_quantity(own));
   if (clearance.radial > 0) watched.push_back(core::Quantity::f);
   if (clearance.gap > 0 && columns.normal >= 0)
     for (const auto& [end, sign] : mechanism::guide_end_signs) watched.push_back(end);

@@ -40,7 +40,8 @@ struct ContactLoss {
   double earles_wu = 0;  ///< of a minimum, rad/(N s); infinite where the force vanishes
 };
 
-/// What is watched of a joint: f with a radial clearance, M or F with play in its actuator, the ends of a guide's
+/// What is watched of a joint: f with a radial clearance, M or F with play in its actuator, the force of a
+/// gear, the ends of a guide's
 /// contact with a gap.
 std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t joint);
 

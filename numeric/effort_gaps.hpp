@@ -1,4 +1,4 @@
-// At one pose every reaction is affine in the effort e of a free actuator (docs/method.md section 15):
+// At one pose every reaction is affine in the effort e of a free actuator (docs/background/method.md section 15):
 //     w(e) = a + e b
 // so that the efforts at which it vanishes, or is too small, are an interval: a zero of one component, the part of a
 // line that lies in a ball of several.

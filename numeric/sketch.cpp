@@ -152,6 +152,31 @@ std::optional<core::SketchSlide> slide(const NumericModel& model, const Posture&
   return longest;
 }
 
+/// Two pulleys and the spans that touch both, on a line through the pitch point where their sizes differ.
+/// `round`: a circle about a centre through a point.
+template <class Round>
+void draw_belt(const NumericModel& model, const Posture& posture, const mechanism::Joint& belt, const Round& round,
+               core::Sketch& sketch) {
+  const Point2 a = point_of(posture, belt.meshing->first), b = point_of(posture, *belt.meshing->second);
+  const double d = distance(a, b), first = core::to_double(mechanism::value_of(belt.meshing->radius, model.mechanism));
+  const Point2 e = {(b[0] - a[0]) / d, (b[1] - a[1]) / d};
+  double second = first;
+  if (!belt.axes.empty()) {
+    const Point2 w = point_of(posture, belt.at);
+    const double from = (w[0] - a[0]) * e[0] + (w[1] - a[1]) * e[1];
+    second *= (from - d) / from;
+  }
+  const double along = (first - second) / d, across = std::sqrt(std::max(0.0, 1 - along * along));
+  const auto touch = [&](const Point2& centre, double radius, double side) {
+    return Point2{centre[0] + radius * (along * e[0] - side * across * e[1]),
+                  centre[1] + radius * (along * e[1] + side * across * e[0])};
+  };
+  for (const double side : {1.0, -1.0})
+    sketch.slides.push_back({touch(a, first, side), touch(b, second, side), true, false});
+  round(a, touch(a, first, 1));
+  round(b, touch(b, second, 1));
+}
+
 /// The pitch circles of two wheels, and the line of a rack, in pieces as of a rail.
 void draw_pitch_lines(const NumericModel& model, const Posture& posture, const mechanism::Joint& gear,
                       core::Sketch& sketch) {
@@ -167,16 +192,7 @@ void draw_pitch_lines(const NumericModel& model, const Posture& posture, const m
     for (int k = 0; k < pieces; ++k) sketch.slides.push_back({at(k), at(k + 1), true, false});
   };
   const auto circle = [&](mechanism::PointIndex centre) { round(point_of(posture, centre), pitch); };
-  if (!gear.meshing->flank) {  // a belt: two spans beside the line of the centres
-    const Point2 a = point_of(posture, gear.meshing->first), b = point_of(posture, *gear.meshing->second);
-    const double share = radius / distance(a, b);
-    const Point2 off = {-share * (b[1] - a[1]), share * (b[0] - a[0])};
-    for (const double side : {1.0, -1.0})
-      sketch.slides.push_back(
-          {{a[0] + side * off[0], a[1] + side * off[1]}, {b[0] + side * off[0], b[1] + side * off[1]}, true, false});
-    for (const Point2& centre : {a, b}) round(centre, {centre[0] + off[0], centre[1] + off[1]});
-    return;
-  }
+  if (!gear.meshing->flank) return draw_belt(model, posture, gear, round, sketch);
   circle(gear.meshing->first);
   if (gear.meshing->second) return circle(*gear.meshing->second);
   const Point2 c = point_of(posture, gear.meshing->first);

@@ -1,4 +1,4 @@
-// The file behind --certificate (docs/certificates.md).
+// The file behind --certificate (docs/background/certificates.md).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What is known of the efforts that were free (clearloci/verify.hpp, PreloadAnswer; docs/preload.md), as lines of the
+// What is known of the efforts that were free (clearloci/verify.hpp, PreloadAnswer; preload.md), as lines of the
 // table and in verify.json; those that are feasible at one pose (clearloci/pose.hpp), in its text and in pose.json.
 #pragma once
 

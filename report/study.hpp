@@ -1,4 +1,4 @@
-// Studies as files, tables and pictures (docs/studies.md).
+// Studies as files, tables and pictures (docs/guide/studies.md).
 #pragma once
 
 #include <filesystem>

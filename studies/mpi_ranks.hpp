@@ -1,4 +1,4 @@
-// Studies on more than one machine: the processes that mpirun or srun started, by MPI (docs/cluster.md). A target of
+// Studies on more than one machine: the processes that mpirun or srun started, by MPI (cluster.md). A target of
 // its own, which the program links: the library asks for no MPI, and the program loads it when it is started by it.
 #pragma once
 

@@ -15,11 +15,12 @@ Poly pushing(FactoredPoly product, const FactoredPoly& determinant, const Ring& 
   return expanded(product, ring);
 }
 
-Poly tight(const FactoredPoly& numerator, const FactoredPoly& determinant, const core::Rational& most,
+/// `per`: the squared length of the vector that the numerator is in units of.
+Poly tight(const FactoredPoly& numerator, const FactoredPoly& determinant, const core::Rational& most, const Poly& per,
            const Ring& ring) {
   const FactoredPoly shared = common_factors(numerator, determinant);
   const Poly n = without(numerator, shared, ring), d = without(determinant, shared, ring);
-  return (d * d).scaled(most * most) - n * n;
+  return (d * d).scaled(most * most) - n * n * per;
 }
 
 }  // namespace
@@ -31,11 +32,12 @@ std::vector<LimitCondition> effort_limits(const Geometry& geometry, const std::v
   for (const mechanism::Joint& joint : m.joints) {
     if (!joint.meshing) continue;
     const bool gear = joint.meshing->flank.has_value();
-    const FactoredPoly* const force = numerator(reactions, joint.name, gear ? core::Quantity::F : core::Quantity::M);
+    const FactoredPoly* const force = numerator(reactions, joint.name, mechanism::actuator_quantity(joint));
     if (force == nullptr || force->is_zero()) continue;
-    const Poly natural = gear
-                             ? pushing(*force, determinant, geometry.ring())
-                             : tight(*force, determinant, mechanism::value_of(joint.meshing->most, m), geometry.ring());
+    const Poly natural =
+        gear ? pushing(*force, determinant, geometry.ring())
+             : tight(*force, determinant, mechanism::value_of(joint.meshing->most, m),
+                     joint.axes.empty() ? Poly(geometry.ring(), 1) : squared_axis(geometry, joint), geometry.ring());
     if (natural.is_constant() && natural.plain().terms.front().coefficient > 0) continue;
     all.push_back({natural,
                    gear ? "flank of gear " + joint.name : "span of belt " + joint.name,

@@ -1,7 +1,7 @@
 // Teeth push and belts pull: limits of the workspace by what a gear or a belt bears (mechanism/read_gears.cpp). With
 // the numerator N of its unknown, w = N / |A|:
 //     the flank of a gear bears:    N |A| >= 0
-//     no span of a belt is slack:   m^2 |A|^2 - N^2 >= 0,   m = 2 T0 r
+//     no span of a belt is slack:   m^2 |A|^2 - N^2 >= 0,   m = 2 T0 r or 2 T0 |sin g| (mechanism/read_belts.cpp)
 // Factors that both N and |A| have, or that occur an even number of times, are left out. Private to symbolic/.
 #pragma once
 

@@ -1,5 +1,5 @@
 // How far is the end effector from where it should be, all over the workspace? The pose error that the clearances cause
-// (docs/method.md section 6), over one to three free coordinates: in the cells of a grid, over a single coordinate
+// (method.md section 6), over one to three free coordinates: in the cells of a grid, over a single coordinate
 // along its range with the jumps at the loci.
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");

@@ -1,4 +1,4 @@
-// Answers as files, pictures and texts (docs/results.md). Files are whole or not there, and their bytes depend on the
+// Answers as files, pictures and texts (results.md). Files are whole or not there, and their bytes depend on the
 // answer alone.
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");

@@ -1,4 +1,4 @@
-// Other programs' files as mechanism files: PMKS+, Linkage, MJCF, URDF, SDF, DXF, pyslvs and CUIK (docs/import.md).
+// Other programs' files as mechanism files: PMKS+, Linkage, MJCF, URDF, SDF, DXF, pyslvs and CUIK (import.md).
 // Model::read and Model::parse take such files directly; what is here says what became of them.
 //
 //     const auto own = clearloci::import_file("coupler.linkage2");

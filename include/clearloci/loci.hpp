@@ -1,4 +1,4 @@
-// Where do reactions vanish? The discontinuity loci of a mechanism (docs/method.md sections 1 to 5, 10): points over
+// Where do reactions vanish? The discontinuity loci of a mechanism (method.md sections 1 to 5, 10): points over
 // one free coordinate, curves over two, surfaces over three.
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");

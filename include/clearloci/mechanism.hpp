@@ -1,4 +1,4 @@
-// A mechanism, of which every question is asked: what its file says (docs/mechanism-file.md), with values of parameters
+// A mechanism, of which every question is asked: what its file says (mechanism-file.md), with values of parameters
 // put in. Copies share what was derived; a model may be used from several threads.
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");

@@ -1,5 +1,5 @@
 // What is drawn as what is constructed: the mechanism file in which every point has its construction, as the program
-// found it (docs/drawn-form.md). Its answers are those of the drawing.
+// found it (docs/guide/drawn-form.md). Its answers are those of the drawing.
 //
 //     const auto found = clearloci::normalize(clearloci::Model::read("sketch.yaml"));
 //     std::cout << found.text;

@@ -1,6 +1,6 @@
 // What do the joints bear at one pose, and how far is the end effector from where it should be? Posture, reactions, the
-// take-up of the clearances and the pose error that follows from it (docs/method.md sections 1, 2 and 6;
-// docs/results.md, pose --json), of mechanisms of the plane and of space alike.
+// take-up of the clearances and the pose error that follows from it (docs/background/method.md sections 1, 2 and 6;
+// docs/reference/results.md, pose --json), of mechanisms of the plane and of space alike.
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::Pose pose = clearloci::solve_pose(model, {0.25, -0.7});
@@ -64,7 +64,7 @@ struct EffortRange {
 };
 
 /// Which efforts of one free actuator keep every demanded reaction at a pose, the efforts of other free ones held
-/// (docs/preload.md). At each end of a range a reaction vanishes or, where a least one is asked for, has it: known to
+/// (preload.md). At each end of a range a reaction vanishes or, where a least one is asked for, has it: known to
 /// rounding, on the range's side.
 struct FeasibleEfforts {
   std::string joint;

@@ -29,7 +29,7 @@ inline bool is_guide_end(Quantity quantity) {
 std::string to_string(Quantity quantity);
 
 /// A reaction that vanishes. `multiplicity`: how often the factor divides its numerator beyond what it divides |A|; on
-/// a traced curve the order p - q to which the reaction vanishes (docs/method.md section 10). Where that is even the
+/// a traced curve the order p - q to which the reaction vanishes (method.md section 10). Where that is even the
 /// reaction vanishes without a change of sign.
 struct Vanishing {
   std::string joint;

@@ -1,5 +1,5 @@
 // Which of many designs are good, and which is best? A study varies parameters of a mechanism file and judges every
-// design by a task (docs/studies.md).
+// design by a task (docs/guide/studies.md).
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::Study study = clearloci::read_study("studies/lengths.yaml", model);

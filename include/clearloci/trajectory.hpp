@@ -1,6 +1,6 @@
 // What happens along a motion? Reactions with the links' inertia, take-up, actual path, and where the parts of a joint
 // lose contact, along a trajectory file; from which cycle time on they no longer do; and the pose error over a range of
-// cycle times (docs/method.md section 7). Of planar mechanisms.
+// cycle times (docs/background/method.md section 7). Of planar mechanisms.
 //
 //     const clearloci::Model model = clearloci::Model::read("manipulator.yaml");
 //     const clearloci::TrajectoryResult motion = follow_trajectory(model, "path.yaml", {.period = 0.8});

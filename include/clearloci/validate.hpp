@@ -1,6 +1,6 @@
 // Do the loci hold? Traced loci against reactions that are solved numerically, by means that share nothing with the
 // tracing: between the nodes of a grid every reaction changes its sign exactly where it crosses one of its loci, and
-// along the loci what is said to vanish does (docs/notation.md, the numeric witness).
+// along the loci what is said to vanish does (docs/background/notation.md, the numeric witness).
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::Validation validation = clearloci::validate_loci(model, {.nodes = {100, 100}});

@@ -1,6 +1,6 @@
 // Does the mechanism keep clear of its loci over a task: over poses of one to six free coordinates? Proven for every
 // pose of the task and every load, refuted by a witness that is confirmed numerically, or left undecided, and said to
-// be (docs/results.md, verify.json).
+// be (docs/reference/results.md, verify.json).
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::Task task = clearloci::read_task("tasks/pick_and_place.yaml", model);
@@ -174,7 +174,7 @@ struct PreloadLaw {
   std::array<double, 2> within{};  ///< what it takes over the task: between these, proven
 };
 
-/// Which constant efforts of the free actuators make a task verify (docs/preload.md), or which law. The size of a
+/// Which constant efforts of the free actuators make a task verify (docs/guide/preload.md), or which law. The size of a
 /// preload is the largest of its efforts, each as a part of the larger bound of its `within`, or of 1 N or 1 N m where
 /// it has none.
 struct PreloadAnswer {

@@ -1,7 +1,7 @@
 // Where can the mechanism move without losing contact? Its discontinuity-free zones: the parts into which the loci, the
 // workspace boundary and the direct singularities cut the workspace of a working mode, over one to three free
-// coordinates. Over two lengths they are the faces of an arrangement of curves (docs/method.md section 9); over other
-// coordinates they are found by cells, with bounds from inside and from outside (section 13). docs/results.md,
+// coordinates. Over two lengths they are the faces of an arrangement of curves (method.md section 9); over other
+// coordinates they are found by cells, with bounds from inside and from outside (section 13). results.md,
 // zones.json.
 //
 //     const clearloci::Zones found = clearloci::find_zones(clearloci::Model::read("three_upu.yaml"));

@@ -20,7 +20,7 @@ using core::LocusMap;
 using core::LocusProblem;
 
 /// Beyond this degree, as degree_of counts it, the exact arrangement does not end in useful time
-/// (docs/performance.md).
+/// (docs/background/performance.md).
 constexpr int bearable_degree = 14;
 
 /// Cells worth their time before the exact engine takes a curve over: it takes about as long as so many times the

@@ -1,4 +1,4 @@
-// Whether the triangles that `march` made have the topology of the surface: docs/exactness.md, Surfaces.
+// Whether the triangles that `march` made have the topology of the surface: docs/background/exactness.md, Surfaces.
 //
 // The tetrahedra that the triangles were cut from, cut further at the crossings of their edges, carry a function g that
 // is linear in each of them, has the signs of f at their corners, and vanishes on the triangles alone. Where in every

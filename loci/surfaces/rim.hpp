@@ -24,7 +24,7 @@ class Clipping {
   const Mesh& mesh() const { return mesh_; }
   /// Points in triangles that may end otherwise than the surface does. Where the mesh that was given is isotopic to the
   /// surface as it goes on beyond the boundary, regular along its end (isotopy.hpp), the part is isotopic to the
-  /// surface but for these: docs/exactness.md, Surfaces.
+  /// surface but for these: docs/background/exactness.md, Surfaces.
   std::vector<Point> unproven();
 
  private:

@@ -1,4 +1,4 @@
-// How far the clearances that joints take up displace the end effector over a task of poses, at most (docs/method.md
+// How far the clearances that joints take up displace the end effector over a task of poses, at most (method.md
 // section 6), by the statics cell (loci/sheet/pose_cell.hpp). With the reactions c of a joint under the load, those c^u
 // under a unit force u on the end effector, and its clearance s, joint by joint
 //     u . dp = - sum s (c^u . c) / |c|         m

@@ -58,7 +58,7 @@ struct DrawnCoordinate {
 struct DrawnMesh {
   Joint joint;
   std::size_t written = 0;                            ///< its place in the file
-  std::optional<std::array<Rational, 2>> teeth = {};  ///< none of a rack; of a belt 1 and -1
+  std::optional<std::array<Rational, 2>> teeth = {};  ///< none of a rack; of a belt its ratio and -1
   LinkIndex carrier = ground;                         ///< has both centres
 };
 

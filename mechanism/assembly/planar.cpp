@@ -110,7 +110,7 @@ class PlanarConstruction : public PlanarGroups {
   /// Of gears whose centres move: what the drawing says.
   void write_distances() override {
     for (const DrawnMesh& mesh : d_.meshes)
-      if (mesh.joint.type == JointType::gear && mesh.carrier != ground)
+      if (!mesh.joint.axes.empty() && mesh.joint.meshing->second && mesh.carrier != ground)
         found_.distances[mesh.written] =
             shape(mesh.carrier).distance(mesh.joint.meshing->first, *mesh.joint.meshing->second).text();
   }

@@ -1,5 +1,5 @@
 // Points of a planar drawing that close together, none before the others: they become a group of the file
-// (docs/mechanism-file.md). Private to mechanism/.
+// (docs/reference/mechanism-file.md). Private to mechanism/.
 #pragma once
 
 #include <map>

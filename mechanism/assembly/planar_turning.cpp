@@ -183,12 +183,13 @@ bool PlanarTurning::orient_by_points(LinkIndex link) {
   return true;
 }
 
-/// What slides on a link turns with it, and so does a pulley of the same size with the other.
+/// What slides on a link turns with it, and so does a pulley of the same size with the other, or a wheel in a ring.
 bool PlanarTurning::orient_by_guide(LinkIndex link) {
   for (const Joint& joint : d_.mechanism.joints)
     if (slides(joint, link) && orient_as(link, other_of(joint, link))) return true;
   for (const DrawnMesh& mesh : d_.meshes)
-    if (mesh.joint.type == JointType::belt && joins(mesh.joint, link) && orient_as(link, other_of(mesh.joint, link)))
+    if (mesh.teeth && (*mesh.teeth)[0] == -(*mesh.teeth)[1] && joins(mesh.joint, link) &&
+        orient_as(link, other_of(mesh.joint, link)))
       return true;
   return false;
 }

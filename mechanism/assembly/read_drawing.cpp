@@ -49,6 +49,7 @@ class DrawingReader {
     read_points();
     read_links();
     read_gear_points(m, required("joints"));
+    read_belt_points(m, required("joints"));
     read_joints(m, required("joints"));
     set_cables_and_meshes_apart();
     check_size();
@@ -310,7 +311,7 @@ class DrawingReader {
 
   void refuse_phase(const Entry& gear) const {
     if (!gear.value.node.has("phase") || section("frames")) return;
-    throw InputError(gear.where, "gear " + gear.key + " has a phase, but the drawing says how its wheels are turned",
+    throw InputError(gear.where, "joint " + gear.key + " has a phase, but the drawing says how its wheels are turned",
                      "leave the phase out");
   }
 

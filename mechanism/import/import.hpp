@@ -1,4 +1,4 @@
-// Other programs' files as mechanism files in the drawn form (docs/import.md): the door of this folder. A format is a
+// Other programs' files as mechanism files in the drawn form (import.md): the door of this folder. A format is a
 // reader of its own and a line in formats.cpp.
 #pragma once
 

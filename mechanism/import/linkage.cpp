@@ -346,10 +346,8 @@ class Reader {
                 s_.links[static_cast<std::size_t>(mesh.links[1])].name;
     if (!(sizes[0] > 0) || !(sizes[1] > 0))
       throw InputError({file_, at.line}, mesh.name + " has a size that is not positive", "correct it in Linkage");
-    if (mesh.belt && std::abs(sizes[0] - sizes[1]) > 1e-9 * sizes[0])
-      throw InputError({file_, at.line}, mesh.name + " has wheels of two sizes, and a belt has two of one size here",
-                       "take gears, with a third one between them that keeps the sense of turning");
-    if (!mesh.belt) mesh.teeth = teeth_of(sizes[0], sizes[1], mesh.name, file_, at.line);
+    const bool same = std::abs(sizes[0] - sizes[1]) <= 1e-9 * sizes[0];
+    if (!mesh.belt || !same) mesh.teeth = teeth_of(sizes[0], sizes[1], mesh.name, file_, at.line);
     s_.meshes.push_back(std::move(mesh));
   }
 

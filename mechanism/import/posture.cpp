@@ -425,8 +425,8 @@ Rows constraint_rows(const Source& source) {
   for (const SourceMesh& mesh : source.meshes) {
     const auto carrier = carrier_of(source, mesh);
     if (!carrier) continue;
-    const double first = mesh.belt ? 1 : static_cast<double>(mesh.teeth[0]),
-                 second = mesh.belt ? -1 : static_cast<double>(mesh.teeth[1]);
+    const double first = static_cast<double>(mesh.teeth[0]),
+                 second = (mesh.belt ? -1 : 1) * static_cast<double>(mesh.teeth[1]);
     std::vector<double> row(constraints.columns());
     const auto add = [&](int link, double weight) {
       if (link != ground_link) row[freedoms * static_cast<std::size_t>(link) + freedoms - 1] += weight;

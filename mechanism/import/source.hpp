@@ -83,8 +83,9 @@ struct SourceSpring {
   double stiffness = 0, free_length = 0;
 };
 
-/// Two wheels, each with its centre, in a plane; or two pulleys of one size. From what has both centres they turn by
-///     teeth[0] turn[0] + teeth[1] turn[1] = 0,   turn[0] = turn[1] of pulleys
+/// Two wheels, each with its centre, in a plane; or two pulleys, whose radii have the ratio of `teeth`. From what has
+/// both centres they turn by
+///     teeth[0] turn[0] + teeth[1] turn[1] = 0,   teeth[0] turn[0] = teeth[1] turn[1] of pulleys
 struct SourceMesh {
   std::string name;
   int line = 0;

@@ -178,8 +178,11 @@ class Writer : private Drawing {
       text += "  " + name + ": {" + (mesh.belt ? "belt: " : "gear: ") +
               pair(link_name(mesh.links[0]), link_name(mesh.links[1])) + ", centres: " + pair(centre(0), centre(1));
       if (mesh.belt) {
-        const std::string radius = number(0.25 * distance(mesh.at[0], mesh.at[1]));
-        text += ", radii: " + pair(radius, radius) + ", tension: 100 N}\n";
+        // Whole multiples of one decimal, so that the ratio is exact.
+        const core::Rational one = core::rational_from_decimal(
+            number(0.5 * distance(mesh.at[0], mesh.at[1]) / static_cast<double>(mesh.teeth[0] + mesh.teeth[1])));
+        text += ", radii: " + pair(exact_decimal(mesh.teeth[0] * one), exact_decimal(mesh.teeth[1] * one)) +
+                ", tension: 100 N}\n";
       } else {
         text += ", teeth: " + pair(std::to_string(mesh.teeth[0]), std::to_string(mesh.teeth[1])) + "}\n";
       }
@@ -294,7 +297,8 @@ class Writer : private Drawing {
       more = false;
       for (const SourceMesh& mesh : s_.meshes) {
         if (carrier_of(s_, mesh) != ground_link) continue;
-        const double forward = mesh.belt ? 1 : -static_cast<double>(mesh.teeth[0]) / static_cast<double>(mesh.teeth[1]);
+        const double forward =
+            (mesh.belt ? 1 : -1) * static_cast<double>(mesh.teeth[0]) / static_cast<double>(mesh.teeth[1]);
         for (const std::size_t i : {0U, 1U}) {
           const auto known = turns.find(mesh.links[i]);
           if (known == turns.end() || turns.contains(mesh.links[1 - i])) continue;

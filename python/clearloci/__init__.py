@@ -1,4 +1,4 @@
-"""Discontinuity loci of parallel mechanisms with joint clearances.
+"""Discontinuity loci of parallel mechanisms with joint clearances::
 
     import clearloci as cl
 

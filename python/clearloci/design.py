@@ -1,4 +1,4 @@
-"""Many designs: which are good, why the others fail, which is best (docs/studies.md)."""
+"""Many designs: which are good, why the others fail, which is best (docs/guide/studies.md)."""
 
 from __future__ import annotations
 

@@ -126,7 +126,8 @@ class Model:
         return Model(self._handle.with_parameters(**{name: _plain(name, value) for name, value in values.items()}))
 
     def normalize(self) -> NormalizedFile:
-        """The file in which every point has its construction; the drawn form is replaced by constructions (docs/drawn-form.md)."""
+        """The file in which every point has its construction; the drawn form is replaced by constructions
+        (docs/guide/drawn-form.md)."""
         return NormalizedFile(*self._handle.normalize())
 
     def loci(
@@ -413,8 +414,8 @@ def text_of(task: Mapping[str, Any] | np.ndarray) -> str:
 
 
 def read(path: str | os.PathLike[str]) -> Model:
-    """The mechanism of a file (docs/mechanism-file.md). Raises InputError with file, line, column, what is wrong and how to
-    mend it."""
+    """The mechanism of a file (docs/reference/mechanism-file.md). Raises InputError with file, line, column, what is wrong
+    and how to mend it."""
     return Model(_clearloci.Model.read(arguments.path("path", path)))
 
 
@@ -424,7 +425,7 @@ def import_file(
     clearance: str | float | None = None,
     loops: str | os.PathLike[str] | None = None,
 ) -> ImportedFile:
-    """A file of another program as a mechanism file (docs/import.md); `read` also reads such files directly.
+    """A file of another program as a mechanism file (docs/guide/import.md); `read` also reads such files directly.
 
     `path`: of a file, or an address of PMKS+. `clearance`: of pins and balls of which the file says none, m or a text with
     its unit; None: 20e-6 m. `loops`: the file with `closed_loop:` of a URDF; None: robot.yaml beside robot.urdf.

@@ -10,7 +10,7 @@ import pytest
 from conftest import EXAMPLES, SOURCE
 
 
-@pytest.mark.parametrize("page,file", [("README.md", "out/error.json"), ("docs/python.md", "out/loci/loci.csv")])
+@pytest.mark.parametrize("page,file", [("README.md", "out/error.json"), ("docs/reference/python.md", "out/loci/loci.csv")])
 def test_example_runs(page, file, tmp_path, monkeypatch):
     text = (SOURCE / page).read_text(encoding="utf-8")
     (program,) = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
@@ -31,7 +31,7 @@ def test_the_steps_to_the_module_work(tmp_path):
     left_out = ("PYTHONPATH", "PYTHONUSERBASE", "CLEARLOCI_BUILD", "VIRTUAL_ENV")
     environment = {name: value for name, value in os.environ.items() if name not in left_out}
     environment |= {"HOME": str(tmp_path), "PIP_NO_INDEX": "1", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
-    text = (SOURCE / "docs" / "python.md").read_text(encoding="utf-8")
+    text = (SOURCE / "docs" / "reference" / "python.md").read_text(encoding="utf-8")
     commands = [line for block in re.findall(r"^```sh\n(.*?)^```$", text, re.M | re.S) for line in block.splitlines()]
     assert commands[0] == "script/build --python"  # the build that is being tested is that already
     for command in commands[1:]:

@@ -1,4 +1,4 @@
-// Tensions of cables (docs/preload.md), held against the vertices of all feasible tensions: they are linear programs of
+// Tensions of cables (preload.md), held against the vertices of all feasible tensions: they are linear programs of
 // few variables, and each vertex has as many cables at a bound as there are more than freedoms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Bounds of determined efforts, and redundant rods (docs/preload.md).
+// Bounds of determined efforts, and redundant rods (docs/guide/preload.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Efforts of free actuators at one pose, and laws of them over a task (docs/preload.md), held against reactions that
+// Efforts of free actuators at one pose, and laws of them over a task (preload.md), held against reactions that
 // are solved with efforts that are given.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,11 +4,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "clearloci/loci.hpp"
 #include "clearloci/pose.hpp"
+#include "clearloci/trajectory.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
+#include "clearloci/zones.hpp"
 #include "tests/source_dir.hpp"
 #include "tests/texts.hpp"
 
@@ -35,8 +38,9 @@ struct GearedFiveBar {
   Vector2d O2{0.06, 0}, T1, T2, P, rod1, rod2;
   double push1 = 0, push2 = 0;  ///< of the rods on P
 
-  explicit GearedFiveBar(double theta, double phase = 30 * degree) {
-    const double turned = phase - 2 * theta;
+  /// `load`: on P, N.
+  explicit GearedFiveBar(double theta, double ratio = -2, const Vector2d& load = {20, -40}) {
+    const double turned = 30 * degree + ratio * theta;
     T1 = 0.025 * Vector2d(std::cos(theta), std::sin(theta));
     T2 = O2 + 0.015 * Vector2d(std::cos(turned), std::sin(turned));
     const double d = (T2 - T1).norm(), along = (d * d + 0.09 * 0.09 - 0.08 * 0.08) / (2 * d);
@@ -46,7 +50,7 @@ struct GearedFiveBar {
     rod2 = (P - T2).normalized();
     Eigen::Matrix2d rods;
     rods << rod1, rod2;
-    const Vector2d pushes = rods.inverse() * -Vector2d(20, -40);
+    const Vector2d pushes = rods.inverse() * -load;
     push1 = pushes(0);
     push2 = pushes(1);
   }
@@ -184,6 +188,188 @@ TEST(Gears, RefuseWhatDoesNotMesh) {
   says("pressure_angle: 20", "pressure_angle: 60", "above 45 deg");
   says("T2: {in: wheel2, place: [crank2, 0]}", "T2: ['60 + crank2*cos(theta)', 'crank2*sin(theta)']",
        "do not move alike");
+}
+
+/// The same five-bar with a belt over pulleys of two sizes in place of the gear, open or crossed: span by span.
+struct BeltedFiveBar : GearedFiveBar {
+  double t = 0;                            ///< what one span pulls more than the other, N
+  Vector2d on_second_ = Vector2d::Zero();  ///< the force of both on the second pulley
+  double on_motor = 0;                     ///< the moment of both on the first pulley, about its centre
+
+  BeltedFiveBar(double theta, double r2, double tension) : GearedFiveBar(theta, 0.03 / r2) {
+    const double r1 = 0.03, along = (r1 - r2) / 0.06, across = std::sqrt(1 - along * along);
+    std::array<Vector2d, 2> first, second, pull;
+    for (const std::size_t s : {0, 1}) {
+      const Vector2d n(along, s == 0 ? across : -across);
+      first[s] = r1 * n;
+      second[s] = r2 * n;
+      pull[s] = (first[s] - O2 - second[s]).normalized();
+    }
+    t = -2 * on_second() / (moment(second[0], pull[0]) - moment(second[1], pull[1]));
+    for (const std::size_t s : {0, 1}) {
+      const Vector2d force = (tension + (s == 0 ? t : -t) / 2) * pull[s];
+      on_second_ += force;
+      on_motor -= moment(first[s], force);
+    }
+  }
+};
+
+std::string belted(const std::string& radii, int tension) {
+  return replaced(shipped("geared_five_bar.yaml").text(),
+                  "W: {gear: [wheel1, wheel2], centres: [O1, O2], teeth: [40, 20], pressure_angle: 20, phase: 30,",
+                  "W: {belt: [wheel1, wheel2], centres: [O1, O2], radii: " + radii +
+                      ", tension: " + std::to_string(tension) + ", phase: 30,");
+}
+
+/// The geared five-bar at constant speed with a mass at the tip, whose inertia is a load that differences of the path
+/// by hand give: the teeth change flanks with the load and with the speed.
+class TurningGears : public ::testing::TestWithParam<double> {
+ protected:
+  static constexpr double mass = 2;
+  double period_ = GetParam();
+
+  Vector2d tip(double t) const { return GearedFiveBar(2 * std::numbers::pi * t / period_).P; }
+  GearedFiveBar at(double t) const {
+    const double step = 1e-4 * period_;
+    const Vector2d acceleration =
+        (-tip(t - 2 * step) + 16 * tip(t - step) - 30 * tip(t) + 16 * tip(t + step) - tip(t + 2 * step)) /
+        (12 * step * step);
+    return GearedFiveBar(2 * std::numbers::pi * t / period_, -2, Vector2d(20, -40) - mass * acceleration);
+  }
+  /// Of the teeth, along the line on which they push; its direction.
+  static std::pair<double, Vector2d> teeth(const GearedFiveBar& own) {
+    for (const double sense : {1.0, -1.0}) {
+      const Vector2d u = own.line(sense, 20 * degree);
+      const double force = -own.on_second() / moment(Vector2d(0.04, 0) - own.O2, u);
+      if (force >= 0) return {force, u};
+    }
+    throw std::logic_error("teeth that push on no flank");
+  }
+  TrajectoryResult followed() const {
+    const Model model = Model::parse(replaced(shipped("geared_five_bar.yaml").text(), "rod1: {points: [T1, P]}",
+                                              "rod1: {points: [T1, P], masses: [{mass: 2, at: P}]}"));
+    return follow_trajectory_text(model,
+                                  "format: 1\npath: {waypoints: [[0 deg], [360 deg]]}\n"
+                                  "motion: {law: constant, speed: " +
+                                      std::to_string(60 / period_) + " rpm}\n");
+  }
+};
+
+TEST_P(TurningGears, ReactionsAreThoseOfTheFlankThatBears) {
+  const TrajectoryResult result = followed();
+  const std::vector<double>& time = result.samples.at("time");
+  double most = 0;
+  for (const double force : result.samples.at("FW")) most = std::max(most, force);
+  for (std::size_t i = 0; i < time.size(); i += 97) {
+    const GearedFiveBar own = at(time[i]);
+    const auto [force, u] = teeth(own);
+    const Vector2d held = own.push2 * own.rod2 - force * u;
+    EXPECT_NEAR(result.samples.at("FW")[i], force, 1e-6 * most) << time[i];
+    EXPECT_NEAR(result.samples.at("fO2x")[i], held(0), 1e-6 * most) << time[i];
+    EXPECT_NEAR(result.samples.at("fO2y")[i], held(1), 1e-6 * most) << time[i];
+  }
+}
+
+TEST_P(TurningGears, LoseContactWhereTheTeethChangeFlanks) {
+  std::vector<double> by_hand;
+  constexpr int steps = 3600;
+  for (int k = 0; k < steps; ++k) {
+    double a = period_ * k / steps, b = period_ * (k + 1) / steps;
+    if (at(a).on_second() * at(b).on_second() >= 0) continue;
+    for (int i = 0; i < 40; ++i) (at(a).on_second() * at((a + b) / 2).on_second() > 0 ? a : b) = (a + b) / 2;
+    by_hand.push_back(a);
+  }
+  ASSERT_GT(by_hand.size(), 1U);
+  const TrajectoryResult result = followed();
+  std::vector<double> found;
+  for (const ContactLoss& loss : result.losses)
+    if (loss.joint == "W") {
+      found.push_back(loss.time);
+      EXPECT_NEAR(loss.crossed, 0.04e-3 * std::cos(20 * degree), 1e-12);
+    }
+  ASSERT_EQ(found.size(), by_hand.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], by_hand[k], 1e-6 * period_);
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowAndFast, TurningGears, ::testing::Values(10.0, 0.5));
+
+class BeltOfTwoSizes : public ::testing::TestWithParam<int> {};
+
+TEST_P(BeltOfTwoSizes, HoldsTheSecondCrankByItsSpans) {
+  constexpr int tension = 200;
+  const Model model = Model::parse(belted("[30, " + std::to_string(GetParam()) + "]", tension));
+  for (int k = 0; k < 24; ++k) {
+    const double theta = (15 * k + 4) * degree;
+    const BeltedFiveBar by_hand(theta, GetParam() / 1000.0, tension);
+    const Pose pose = solve_pose(model, {theta});
+    EXPECT_NEAR(std::abs(part(pose, "W", Quantity::F)), std::abs(by_hand.t * (30 - GetParam()) / 60), 1e-8) << theta;
+    const Vector2d held = by_hand.push2 * by_hand.rod2 - by_hand.on_second_;
+    EXPECT_NEAR(part(pose, "O2", Quantity::fx), held(0), 1e-8) << theta;
+    EXPECT_NEAR(part(pose, "O2", Quantity::fy), held(1), 1e-8) << theta;
+    EXPECT_NEAR(part(pose, "O1", Quantity::M), moment(by_hand.T1, by_hand.push1 * by_hand.rod1) - by_hand.on_motor,
+                1e-9)
+        << theta;
+  }
+}
+
+/// Where one span pulls with 0, and where both pull alike, by signs along the cycle.
+TEST_P(BeltOfTwoSizes, EndsWhereASpanIsSlack) {
+  constexpr int tension = 20, steps = 7200;
+  const double r2 = GetParam() / 1000.0;
+  const Model model = Model::parse(belted("[30, " + std::to_string(GetParam()) + "]", tension));
+  const auto over = [&](double theta) { return std::abs(BeltedFiveBar(theta, r2, tension).t) - 2 * tension; };
+  std::vector<double> ends;
+  for (int k = 0; k < steps; ++k) {
+    double a = 360 * degree * k / steps, b = 360 * degree * (k + 1) / steps;
+    if (over(a) * over(b) >= 0) continue;
+    for (int i = 0; i < 60; ++i) (over(a) * over((a + b) / 2) > 0 ? a : b) = (a + b) / 2;
+    ends.push_back(a);
+  }
+  ASSERT_GT(ends.size(), 1U);
+  const LocusMap map = trace_loci(model);
+  std::vector<double> found;
+  for (const IsolatedPoint& point : map.isolated_points)
+    if (point.cause.find("span of belt W") != std::string::npos) found.push_back(point.at[0]);
+  std::sort(found.begin(), found.end());
+  ASSERT_EQ(found.size(), ends.size());
+  for (std::size_t k = 0; k < ends.size(); ++k) EXPECT_NEAR(found[k], ends[k], 1e-9);
+  EXPECT_EQ(validate_loci(model, {.nodes = {400}}).report.disputed, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(OpenAndCrossed, BeltOfTwoSizes, ::testing::Values(15, -15, 10));
+
+/// Over the cycle in one working mode: no zone in which the teeth would have to pull.
+TEST(GearedFiveBar, ZonesAreThoseInWhichTheTeethPush) {
+  const Zones zones = find_zones(shipped("geared_five_bar.yaml"));
+  ASSERT_GT(zones.zones.size(), 2U);
+  double size = 0;
+  for (const Zone& zone : zones.zones) {
+    const GearedFiveBar by_hand(zone.sample[0]);
+    // In the file's mode the line of action goes down on the second wheel.
+    EXPECT_GE(-by_hand.on_second() / moment(Vector2d(0.04, 0) - by_hand.O2, by_hand.line(-1, 20 * degree)), 0)
+        << zone.id;
+    size += zone.size;
+  }
+  constexpr int steps = 20000;
+  int push = 0;
+  for (int k = 0; k < steps; ++k) {
+    const GearedFiveBar by_hand(360 * degree * (k + 0.5) / steps);
+    push += by_hand.on_second() / moment(Vector2d(0.04, 0) - by_hand.O2, by_hand.line(-1, 20 * degree)) <= 0;
+  }
+  EXPECT_NEAR(size, 360 * degree * push / steps, 1e-2);
+}
+
+TEST(BeltOverACycle, IsVerifiedWithinTheSlackOfItsSpans) {
+  const Model model = Model::parse(belted("[30, 15]", 40));
+  const auto slack = [](double theta) { return std::abs(BeltedFiveBar(theta, 0.015, 40).t) > 80; };
+  ASSERT_TRUE(slack(60 * degree));
+  ASSERT_FALSE(slack(100 * degree));
+  const std::string task = "format: 1\npath: [[FROM deg], [TO deg]]\nloads_within: [{load: 1, radius: 5}]\n";
+  const auto verdict = [&](const std::string& from, const std::string& to) {
+    return verify(model, parse_task(replaced(replaced(task, "FROM", from), "TO", to), model)).verdict;
+  };
+  EXPECT_EQ(verdict("100", "110"), Verdict::verified);
+  EXPECT_EQ(verdict("50", "60"), Verdict::refuted);
 }
 
 TEST(ScaraBelt, BeltHoldsTheForearm) {

@@ -1,4 +1,4 @@
-// Free efforts: which constant ones verify a task (docs/preload.md).
+// Free efforts: which constant ones verify a task (docs/guide/preload.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

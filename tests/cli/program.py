@@ -14,6 +14,12 @@ FOUR_BAR = SOURCE / "examples" / "four_bar.yaml"
 PICK_AND_PLACE = [SOURCE / "examples" / "pick_and_place" / name for name in ("manipulator.yaml", "path.yaml")]
 
 
+def page(name):
+    """The text of a page of the documentation, whichever folder of docs/ it is in."""
+    (found,) = SOURCE.glob(f"docs/*/{name}")
+    return found.read_text(encoding="utf-8")
+
+
 def run(*words, cwd):
     return subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, capture_output=True, text=True)
 

@@ -1,4 +1,4 @@
-"""What others computed, against the program: docs/agreement.md says where each number was published."""
+"""What others computed, against the program: docs/background/agreement.md says where each number was published."""
 
 import json
 import math

@@ -1,13 +1,13 @@
-"""Every example of docs/mechanism-file.md runs, and so do the commands that other pages show."""
+"""Every example of docs/reference/mechanism-file.md runs, and so do the commands that other pages show."""
 
 import json
 import re
 import shlex
 import unittest
 
-from program import FOUR_BAR, SOURCE, InOwnFolder, run
+from program import FOUR_BAR, SOURCE, InOwnFolder, page, run
 
-TEXT = (SOURCE / "docs" / "mechanism-file.md").read_text(encoding="utf-8")
+TEXT = page("mechanism-file.md")
 
 
 def sections(text):
@@ -68,7 +68,7 @@ class Documented(InOwnFolder):
                     self.assertIn(process.returncode, (0, 3), process.stderr)  # 3: some places of the loci are open
 
     def test_drawings_are_constructed(self):
-        text = (SOURCE / "docs" / "drawn-form.md").read_text(encoding="utf-8")
+        text = page("drawn-form.md")
         drawings = re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
         self.assertEqual(len(drawings), 8)
         for number, drawing in enumerate(drawings):
@@ -87,11 +87,11 @@ class Documented(InOwnFolder):
                         self.assertIn(line + "\n", own.read_text(encoding="utf-8"))
 
     def test_commands_of_other_pages_run(self):
-        for page in ("certificates.md", "preload.md", "studies.md"):
-            text = (SOURCE / "docs" / page).read_text(encoding="utf-8")
+        for name in ("certificates.md", "preload.md", "studies.md"):
+            text = page(name)
             blocks = re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
             commands = [line for block in blocks for line in block.splitlines() if line.startswith("clearloci ")]
-            self.assertTrue(commands, page)
+            self.assertTrue(commands, name)
             for command in commands:
                 with self.subTest(command):
                     words = [str(SOURCE / word) if word.startswith("examples/") else word for word in shlex.split(command)]

@@ -1,4 +1,4 @@
-"""Ten mechanisms from drawings that others published, entered as they are drawn: docs/agreement.md has the table."""
+"""Ten mechanisms from drawings that others published, entered as they are drawn: agreement.md has the table."""
 
 import json
 import math
@@ -6,7 +6,7 @@ import re
 import shutil
 import unittest
 
-from program import SOURCE, InOwnFolder
+from program import SOURCE, InOwnFolder, page
 
 DRAWINGS = sorted((SOURCE / "tests" / "cli" / "drawings").glob("*.yaml"))
 
@@ -24,7 +24,7 @@ class Drawings(InOwnFolder):
                 self.run_program("normalize", model)
 
     def test_the_guide_from_a_cad_sketch_runs(self):
-        text = (SOURCE / "docs" / "cad-sketch.md").read_text(encoding="utf-8")
+        text = page("cad-sketch.md")
         workspace, task = re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
         commands = [line for block in re.findall(r"^```sh\n(.*?)^```$", text, re.MULTILINE | re.DOTALL) for line in block.splitlines()]
         self.assertEqual(len(commands), 3)

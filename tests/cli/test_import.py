@@ -66,7 +66,7 @@ class Imports(InOwnFolder):
 
     def test_what_cannot_be_read_is_one_line(self):
         for name, named in [
-            ("linkage/chain_of_two_sizes.linkage2", "chain"), ("linkage/curved_slot.linkage2", "slot"), ("mjcf/free_body.xml", "freejoint"),
+            ("linkage/curved_slot.linkage2", "slot"), ("mjcf/free_body.xml", "freejoint"),
             ("mjcf/curved_equality.xml", "polycoef"), ("urdf/mimic_across.urdf", "follows"), ("sdf/screw.sdf", "screw"),
         ]:
             for command in ("import", "loci", "equations"):

@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import unittest
 
-from program import BUILD, PROGRAM, SOURCE
+from program import BUILD, PROGRAM, SOURCE, page
 
 README = (SOURCE / "README.md").read_text(encoding="utf-8")
 
@@ -112,13 +112,13 @@ class Readme(unittest.TestCase):
             self.assertTrue(subprocess.run([installed, "--version"], check=True, capture_output=True).stdout)
 
     def test_every_command_of_the_next_pages_works(self):
-        for page in ("commands.md", "task-files.md"):
-            with tempfile.TemporaryDirectory() as name:
-                folder = pathlib.Path(name)
+        for name in ("commands.md", "task-files.md"):
+            with tempfile.TemporaryDirectory() as place:
+                folder = pathlib.Path(place)
                 shutil.copytree(SOURCE / "examples", folder / "examples")
                 shell = Shell(folder)
                 shell.environment["PATH"] = f"{PROGRAM.parent}:{shell.environment['PATH']}"
-                self.run_page((SOURCE / "docs" / page).read_text(encoding="utf-8"), shell)
+                self.run_page(page(name), shell)
 
 
 class Bootstrap(unittest.TestCase):

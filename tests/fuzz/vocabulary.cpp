@@ -1,4 +1,4 @@
-// What texts of each kind are made of: docs/mechanism-file.md, docs/task-files.md, and numbers at which
+// What texts of each kind are made of: mechanism-file.md, task-files.md, and numbers at which
 // arithmetic changes its mind.
 #include <stdexcept>
 
@@ -325,7 +325,7 @@ Vocabulary certificate_vocabulary() {
   return all;
 }
 
-/// Of docs/import.md.
+/// Of docs/guide/import.md.
 Vocabulary import_vocabulary() {
   Vocabulary all;
   all.numbers = numbers;

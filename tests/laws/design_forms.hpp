@@ -1,5 +1,5 @@
-// What mechanism files and requests may have besides a family's bare mechanism: every form of docs/mechanism-file.md,
-// and the options of the commands. The table says how often each is drawn; it is part of the run (docs/exactness.md).
+// What mechanism files and requests may have besides a family's bare mechanism: every form of mechanism-file.md,
+// and the options of the commands. The table says how often each is drawn; it is part of the run (exactness.md).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The long run of the law (docs/exactness.md):
+// The long run of the law (docs/background/exactness.md):
 //     law_run --designs 2000 --state run.state --keep folder
 // A run that was stopped goes on with the same command. --first i begins each family with its i-th design, --seed n
 // draws others, --patience s is the CPU time that each question to the program may take. --show FAMILY INDEX prints one

@@ -116,7 +116,7 @@ std::optional<core::LocusMap> loci_of(Subject& subject, core::Certificate* certi
 void is_rightly_refused(Subject& subject, const std::string& message) {
   const bool unreachable = message.find("unreachable") != std::string::npos;
   const bool singular = message.find("singular in every pose") != std::string::npos;
-  // What is documented to be beyond a command (docs/limitations.md) is no contradiction.
+  // What is documented to be beyond a command (docs/reference/limitations.md) is no contradiction.
   if (!unreachable && !singular) return;
   bool every_mode = true;  // a request of several modes is refused where all of them are
   for (const DyadSides& sides : requested_modes(subject.mechanism, subject.request)) {

@@ -85,8 +85,6 @@ TEST_P(Lanes, AreWhatIntervalsAreAlone) {
 /// Over several divisors that may be 0 bounds overflow: what is computed with them once took no part of a result, and
 /// the product with [0, 1] was an interval without 0.
 TEST_P(Lanes, WhatOverflowsExcludesNothing) {
-  if (std::string(GetParam().name) == "OneByOne")
-    GTEST_SKIP() << "not of enclosures one by one (docs/limitations.md, Open faults)";
   const std::vector<Instruction> code = {{Operation::inverse, 0, 0},  {Operation::square, 3, 3},
                                          {Operation::square, 4, 4},   {Operation::square, 5, 5},
                                          {Operation::subtract, 6, 6}, {Operation::multiply, 7, 0},

@@ -14,7 +14,6 @@ struct Refused {
 
 /// What cannot be read, and the words that name it.
 const std::vector<Refused> refused = {
-    {"linkage/chain_of_two_sizes.linkage2", "chain_L0_L1 has wheels of two sizes"},
     {"linkage/curved_slot.linkage2", "connector C1 slides along an arc"},
     {"mjcf/free_body.xml", "body box is free"},
     {"mjcf/curved_equality.xml", "equality joint1 is of two joints in no constant ratio"},

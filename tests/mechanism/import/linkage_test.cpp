@@ -122,6 +122,22 @@ TEST(Linkage, MakesABeltOfAChainOfOneSize) {
   EXPECT_TRUE(has_note(own, "a tension of 100 N were chosen"));
 }
 
+/// Sizes 1 and 3: the first wheel turns by 3 of the angle of the second.
+TEST(Linkage, MakesABeltOfAChainOfTwoSizes) {
+  const Imported own = imported("linkage/chain_of_two_sizes.linkage2");
+  EXPECT_EQ(section(own, "joints").at("chain_L0_L1"),
+            "{belt: [L0, L1], centres: [C0, C1], radii: [0.75, 2.25], tension: 100 N}");
+  EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
+  const Mechanism m = mechanism_of(own);
+  const double start = std::atan2(1.25, -1), small = std::atan2(2, 1.5), turned = 0.35;
+  const auto at = sample_points(m, {start + turned});
+  for (std::size_t p = 0; p < m.points.size(); ++p)
+    if (m.points[p].name == "C2") {
+      EXPECT_NEAR((*at[p])[0] / 0.0254, 2.5 * std::cos(small + 3 * turned), 1e-10);
+      EXPECT_NEAR((*at[p])[1] / 0.0254, 2.5 * std::sin(small + 3 * turned), 1e-10);
+    }
+}
+
 TEST(Linkage, RollsAPlanetOnAWheelThatStands) {
   const Imported own = imported("linkage/planet.linkage2");
   EXPECT_EQ(section(own, "joints").at("gear_L1_L2"), "{gear: [ground, L2], centres: [C0, C1], teeth: [40, 20]}");

@@ -319,8 +319,8 @@ describe("another program's file", () => {
     await expect.poll(() => legend(page), { timeout: 30_000 }).toBeGreaterThan(0);
     await shot(page, "imported-narrow");
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(400);
-    await opened(page, "linkage/chain_of_two_sizes.linkage2");
-    await expect.poll(() => page.locator(".said").textContent()).toContain("chain_L0_L1");
+    await opened(page, "linkage/curved_slot.linkage2");
+    await expect.poll(() => page.locator(".said").textContent()).toContain("slides along an arc");
     expect(await page.locator("h1").textContent()).toBe("PMKS+");
   });
 });

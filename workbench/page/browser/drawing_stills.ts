@@ -1,4 +1,4 @@
-// The stills of docs/tutorial.md, Draw it instead: node tools/run.mjs browser/drawing_stills.ts OUT.png, with
+// The stills of docs/tutorial/tutorial.md, Draw it instead: node tools/run.mjs browser/drawing_stills.ts OUT.png, with
 // CLEARLOCI_PROGRAM set. The label press from nothing: half drawn, driven and loaded, with its workspace and a task.
 import { montage, Stills } from "./montage";
 import { launch, open, rest, Served } from "./program";

@@ -5,7 +5,7 @@ import type { Page } from "playwright-core";
 import { launch, open, rest, Served } from "./program";
 
 const moves = Number(process.env["CLEARLOCI_MOVES"] ?? 100);
-/** What docs/workbench.md promises, in ms. */
+/** What docs/guide/workbench.md promises, in ms. */
 const aims = { carried: 33, loci: 50, pose: 33, work: 8, open: 1000 };
 
 /**

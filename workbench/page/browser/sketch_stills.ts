@@ -1,4 +1,4 @@
-// The stills of docs/cad-sketch.md: node tools/run.mjs browser/sketch_stills.ts OUT.png, with CLEARLOCI_PROGRAM set. The
+// The stills of cad-sketch.md: node tools/run.mjs browser/sketch_stills.ts OUT.png, with CLEARLOCI_PROGRAM set. The
 // label press as a CAD sketch: opened, given its workspace and its load, and a task proven.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";

@@ -1,4 +1,4 @@
-// What the server answers, as docs/results.md and report/viewer.hpp say.
+// What the server answers, as docs/reference/results.md and report/viewer.hpp say.
 
 import type { Units } from "./units";
 
