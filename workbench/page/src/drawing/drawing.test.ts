@@ -154,7 +154,7 @@ loads:
     expect(removeElement(drawing, gear)).toBe(fiveBar().drawing.text);
     const belt = new Sheet().use("belt", [0, 0], [200, 0]).drawing;
     const [radius] = fieldsOf(belt, { kind: "joint", name: "T" });
-    expect(radius?.write("30")).toContain("radii: [30, 30], tension: 100 N}");
+    expect(radius?.write("30")).toContain("radii: [30, 50], tension: 100 N}");
   });
   it("does nothing where there is nothing to do", () => {
     const sheet = fiveBar();

@@ -200,7 +200,7 @@ function tieOf(reader: Reader, name: string, metres: number, placeOf: (name: str
   const [first = NaN, second = NaN] = sizes;
   // The teeth share the way between the centres; a ring, of a negative number, is around its pinion.
   const tooth = p && q ? Math.hypot(q[0] - p[0], q[1] - p[1]) / Math.abs(first + second) : NaN;
-  return { name, type, from, to, ends: [a, b], radii: type === "gear" ? [Math.abs(first) * tooth, Math.abs(second) * tooth] : [first, second] };
+  return { name, type, from, to, ends: [a, b], radii: type === "gear" ? [Math.abs(first) * tooth, Math.abs(second) * tooth] : [Math.abs(first), Math.abs(second)] };
 }
 
 function coordinatesOf(reader: Reader, joints: DrawnJoint[], metres: number): DrawnCoordinate[] {

@@ -85,9 +85,8 @@ function tieFields(drawing: Drawing, tie: DrawnTie, length: string, force: strin
   if (tie.type === "cable") return ["least tension", "most tension"].map((label, k) => field(drawing, label, [...path, "tension", k], unitless(drawing, [...path, "tension", k], force)));
   const backlash = field(drawing, "backlash", [...path, "clearance", "backlash"], length, "none");
   if (tie.type === "gear") return [...[tie.from, tie.to].map((wheel, k) => field(drawing, `teeth of ${wheel}`, [...path, "teeth", k], "")), backlash];
-  const radius = field(drawing, "radius", [...path, "radii", 0], length);
-  const both = { ...radius, write: (text: string): Edit => [0, 1].reduce((written, k) => setValue(written, [...path, "radii", k], typed(text.trim())), drawing.text) };
-  return [both, field(drawing, "tension", [...path, "tension"], unitless(drawing, [...path, "tension"], force)), backlash];
+  const radii = [tie.from, tie.to].map((pulley, k) => field(drawing, `radius of ${pulley}`, [...path, "radii", k], length));
+  return [...radii, field(drawing, "tension", [...path, "tension"], unitless(drawing, [...path, "tension"], force)), backlash];
 }
 
 /** The unit beside a number that has none of its own. */

@@ -118,7 +118,7 @@ function drawTies(context: CanvasRenderingContext2D, view: View, drawing: Drawin
     } else {
       const radii = tie.radii.map((radius) => radius * Math.abs(view.scale[0]));
       if (radii.every(Number.isFinite)) [from, to].forEach((at, k) => drawWheel(context, at, radii[k] ?? 0, tie.type === "gear"));
-      if (tie.type === "belt") drawSpans(context, from, to, radii[0] ?? 0);
+      if (tie.type === "belt") drawSpans(context, from, to, [radii[0] ?? 0, radii[1] ?? 0]);
     }
     context.restore();
   }
@@ -132,14 +132,17 @@ function drawWheel(context: CanvasRenderingContext2D, at: Point, radius: number,
   context.setLineDash([]);
 }
 
-function drawSpans(context: CanvasRenderingContext2D, from: Point, to: Point, radius: number): void {
+/** Both spans: from where a belt leaves one pulley to where it meets the other, by the angle that the difference of the radii turns them. */
+function drawSpans(context: CanvasRenderingContext2D, from: Point, to: Point, radii: [number, number]): void {
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  if (!(length > 0) || !Number.isFinite(radius)) return;
-  const across: Point = [(-(to[1] - from[1]) / length) * radius, ((to[0] - from[0]) / length) * radius];
+  const cosine = (radii[0] - radii[1]) / length;
+  if (!(Math.abs(cosine) <= 1)) return;
+  const along = Math.atan2(to[1] - from[1], to[0] - from[0]);
   for (const side of [1, -1]) {
+    const turn = along + side * Math.acos(cosine);
     context.beginPath();
-    context.moveTo(from[0] + side * across[0], from[1] + side * across[1]);
-    context.lineTo(to[0] + side * across[0], to[1] + side * across[1]);
+    context.moveTo(from[0] + radii[0] * Math.cos(turn), from[1] + radii[0] * Math.sin(turn));
+    context.lineTo(to[0] + radii[1] * Math.cos(turn), to[1] + radii[1] * Math.sin(turn));
     context.stroke();
   }
 }
