@@ -117,7 +117,13 @@ void check_mesh(const Mechanism& m, const Joint& gear) {
       const Flat u = {(*axis)[0], (*axis)[1]};
       const double length = std::hypot(u[0], u[1]);
       const double differ = ((*b)[0] - (*a)[0]) * u[0] / length + ((*b)[1] - (*a)[1]) * u[1] / length;
-      const double size = std::hypot((*a)[0], (*a)[1]) + std::hypot((*b)[0], (*b)[1]);
+      const auto step_of = [&](PointIndex centre) {
+        const Flat p = place(*before, centre), q = place(*after, centre);
+        return std::hypot(q[0] - p[0], q[1] - p[1]);
+      };
+      // Where a wheel rolls on one that stands the teeth stand still, and the centre does not.
+      const double size = std::hypot((*a)[0], (*a)[1]) + std::hypot((*b)[0], (*b)[1]) + step_of(gear.meshing->first) +
+                          (gear.meshing->second ? step_of(*gear.meshing->second) : 0);
       if (std::abs(differ) > apart * size + 1e-12 * length)
         throw core::InputError(
             gear.where,

@@ -320,7 +320,7 @@ void check_axes(const Mechanism& mechanism) {
                                : joint.axes.size() == 2  ? (i == 0 ? joint.from : joint.to)
                                : joint.from == ground    ? joint.from
                                                          : joint.to;
-      if (sampled && holder == ground && greatest - least > 1e-9)
+      if (sampled && holder == ground && !joint.meshing && greatest - least > 1e-9)
         throw InputError(joint.where,
                          name + " of joint " + joint.name + " is fixed in the ground, but turns over the workspace",
                          "write a direction that stands still");

@@ -213,6 +213,13 @@ Number centre_distance(const Mechanism& mechanism, const Mapping& mapping, const
 
 bool is_gear(const Value& value) { return value.is_map() && value.node.has("gear"); }
 
+std::optional<std::array<Rational, 2>> teeth_of(const Mechanism& mechanism, const Entry& mesh) {
+  if (!is_gear(mesh.value)) return std::array<Rational, 2>{belt_ratio(mechanism, mesh), -1};
+  const WrittenGear gear(mechanism, mesh);
+  if (gear.is_rack()) return std::nullopt;
+  return std::array<Rational, 2>{gear.first_teeth(), gear.second_teeth()};
+}
+
 void read_gear_points(Mechanism& mechanism, const Value& joints) {
   for (const Entry& entry : gears_among(joints)) {
     check_label(entry.key, entry.where, "a joint");

@@ -173,6 +173,8 @@ void read_gear_points(Mechanism& mechanism, const Value& joints);
 bool is_gear(const Value& value);
 /// The joint of a gear whose points are read.
 Joint read_gear(const Mechanism& mechanism, const Entry& entry);
+/// What the turns of both wheels, from their carrier, sum up to 0 with; of a belt over two radii; none of a rack.
+std::optional<std::array<Rational, 2>> teeth_of(const Mechanism& mechanism, const Entry& mesh);
 /// Frames of wheels and pulleys that turn with another one, whose frame is known: frames have the names of the links.
 void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints);
 /// A point of a gear or a belt, which has the joint's name or is made of it. Throws where another one has the name.

@@ -39,10 +39,16 @@ Node points_of(const FoundConstruction& found, const Drawing& drawing, const cor
   return Node::map(std::move(pairs), where);
 }
 
-Node joints_of(const Node& joints, const std::vector<std::size_t>& written,
-               const std::map<JointIndex, std::vector<std::string>>& axes) {
+Node joints_of(const Node& joints, const std::vector<std::size_t>& written, const FoundConstruction& found) {
   std::vector<Node::Pair> pairs = joints.pairs();
-  for (const auto& [index, texts] : axes) {
+  for (const auto& [place, distance] : found.distances) {
+    Node& gear = pairs[place].second;
+    if (gear.has("distance")) continue;
+    std::vector<Node::Pair> keys = gear.pairs();
+    keys.emplace_back(Node::scalar("distance", gear.where()), Node::scalar(distance, gear.where()));
+    gear = Node::map(std::move(keys), gear.where());
+  }
+  for (const auto& [index, texts] : found.axes) {
     Node& joint = pairs[written[static_cast<std::size_t>(index)]].second;
     std::vector<Node::Pair> keys = joint.pairs();
     for (auto& [key, content] : keys) {
@@ -92,7 +98,7 @@ Assembled assemble(const Value& document, const std::vector<Override>& overrides
     } else if (name == "links") {
       pairs.emplace_back(key, plain.links);
     } else if (name == "joints") {
-      pairs.emplace_back(key, joints_of(content, drawing.written, found.axes));
+      pairs.emplace_back(key, joints_of(content, drawing.written, found));
     } else if (name == "frames") {
       has_frames = true;
       pairs.emplace_back(key, merged(content, found.frames, content.where()));

@@ -77,13 +77,15 @@ class LoopClosure {
   /// What slides along the ground stays on its line, what turns about an axis in its plane.
   void add_guide(const Joint& joint) {
     if ((joint.from != ground && joint.to != ground) || joint.axes.empty()) return;
+    const bool in_slot = is_slot(d_.mechanism, joint);
+    if (in_slot && joint.from != ground) return;
     const LinkIndex link = joint.from == ground ? joint.to : joint.from;
     const auto u = sample_vector(d_.mechanism, joint.axes.front(), spread_poses(d_.mechanism, 1).front());
     if (!u || link == ground) return;
     // Given lengths move the other points of a block across its guide.
     const bool is_drawn = d_.lengths[static_cast<std::size_t>(link)].empty();
     std::vector<PointAt> across;
-    if (joint.type == JointType::prismatic) {
+    if (joint.type == JointType::prismatic || in_slot) {
       if (!d_.is_spatial())
         across = {{-(*u)[1], (*u)[0], 0}};
       else
@@ -95,7 +97,7 @@ class LoopClosure {
       const double size = std::hypot(v[0], v[1], v[2]);
       if (!(size > 0)) continue;
       for (const PointIndex point : d_.link(link).points)
-        if (point == joint.at || is_drawn || joint.type == JointType::revolute)
+        if (point == joint.at || (is_drawn && !in_slot) || joint.type == JointType::revolute)
           kept_.push_back({link, static_cast<std::size_t>(point), static_cast<std::size_t>(point), 0,
                            PointAt{v[0] / size, v[1] / size, v[2] / size}});
     }

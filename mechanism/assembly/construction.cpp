@@ -217,7 +217,8 @@ std::optional<Amounts> Construction::drawn_axis(JointIndex joint, std::size_t wh
 
 bool Construction::axis_stays(JointIndex joint, std::size_t which) const {
   const Joint& own = d_.joint(joint);
-  return !points_of(own.axes.at(which)).empty() || own.from == ground || own.to == ground;
+  const bool stands = own.from == ground || (own.to == ground && !is_slot(d_.mechanism, own));
+  return stands || !points_of(own.axes.at(which)).empty();
 }
 
 std::vector<LinkIndex> Construction::open_links() const {

@@ -26,6 +26,7 @@ struct FoundConstruction {
   std::vector<WrittenPoint> points;
   std::map<JointIndex, std::vector<std::string>> axes;  ///< of joints whose axes are written anew
   std::vector<WrittenPoint> frames;
+  std::map<std::size_t, std::string> distances;  ///< of gears on links that move, by their places in the file
 };
 
 /// A point that has its construction.

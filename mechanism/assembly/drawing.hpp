@@ -53,6 +53,15 @@ struct DrawnCoordinate {
   std::string order;  ///< of a turn: "zyx"
 };
 
+/// Two wheels, a wheel and a rack, or two pulleys: with `teeth`,
+///     teeth[0] (turn of from - turn of carrier) + teeth[1] (turn of to - turn of carrier) = 0.
+struct DrawnMesh {
+  Joint joint;
+  std::size_t written = 0;                            ///< its place in the file
+  std::optional<std::array<Rational, 2>> teeth = {};  ///< none of a rack; of a belt its ratio and -1
+  LinkIndex carrier = ground;                         ///< has both centres
+};
+
 struct Drawing {
   /// The posture: every point has its coordinates there, and every joint the axes that are drawn.
   Mechanism mechanism;
@@ -64,6 +73,8 @@ struct Drawing {
   std::vector<std::vector<Node>> axes;  ///< as written, one list a joint
   std::vector<std::size_t> written;     ///< of each joint its place in the file: cables hold nothing, and are left out
   std::vector<bool> cabled;             ///< of each link whether a cable pulls at it
+  std::size_t cables = 0;               ///< each may do what a motor does
+  std::vector<DrawnMesh> meshes;        ///< gears and belts, which are no joints of `mechanism` here
   Rational unit = 1;                    ///< of the file's lengths, m
   double size = 1;                      ///< of the drawing, m
 
@@ -86,6 +97,10 @@ Drawing read_drawing(const Value& document, const std::vector<Override>& overrid
 
 /// Points that stand still whatever moves.
 std::vector<bool> fixed_points(const Drawing& drawing);
+
+/// The link, or the ground, that has both centres of a gear or belt; of a rack the ground. Throws core::InputError
+/// where none has.
+LinkIndex carrier_of(const Drawing& drawing, const Joint& mesh);
 
 /// "AB, BC and CD".
 std::string listed(const std::vector<std::string>& names);

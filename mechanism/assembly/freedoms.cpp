@@ -107,6 +107,7 @@ class Freedoms {
     m_.gravity.clear();
     m_.springs.clear();
     m_.end_effector_link = ground;
+    for (const DrawnMesh& mesh : drawing.meshes) m_.joints.push_back(mesh.joint);
     for (std::size_t p = 0; p < m_.points.size() && p < d_.points.size(); ++p) {
       ExplicitPoint form;
       for (std::size_t i = 0; i < dimension(m_); ++i)
@@ -121,6 +122,7 @@ class Freedoms {
     for (const auto& place : sample_points(m_, pose_)) places_.push_back(place.value_or(PointAt{}));
     if (auto columns = reactions_at(m_, pose_)) {
       for (const BorneReaction& own : *columns) (own.motor ? motors_ : passive_).push_back(own);
+      hold_turning_of_points();
       known_ = true;
     }
   }
@@ -148,11 +150,12 @@ class Freedoms {
   void braced(std::vector<std::string>& rods, std::vector<std::string>& joints) const {
     std::set<JointIndex> own;
     for (const std::size_t c : dependence_of(balances_of(m_, passive_, places_)).columns) own.insert(passive_[c].joint);
-    for (const JointIndex j : own) joints.push_back(d_.joint(j).name);
+    const auto joint_at = [&](JointIndex j) -> const Joint& { return m_.joints[static_cast<std::size_t>(j)]; };
+    for (const JointIndex j : own) joints.push_back(joint_at(j).name);
     for (std::size_t l = 0; l < m_.links.size(); ++l) {
       const auto link = static_cast<LinkIndex>(l);
       const bool touched = std::any_of(
-          own.begin(), own.end(), [&](JointIndex j) { return d_.joint(j).from == link || d_.joint(j).to == link; });
+          own.begin(), own.end(), [&](JointIndex j) { return joint_at(j).from == link || joint_at(j).to == link; });
       if (touched && is_rod(m_, link)) rods.push_back(m_.links[l].name);
     }
   }
@@ -221,6 +224,21 @@ class Freedoms {
     for (std::size_t p = 0; p < d_.points.size(); ++p)
       if (d_.points[p].held)
         for (std::size_t i = 0; i < dimension(m_); ++i) hold(static_cast<PointIndex>(p), i);
+  }
+
+  /// A point mass on cables does not turn: no balance of its couples is asked for.
+  void hold_turning_of_points() {
+    for (std::size_t l = 0; l < m_.links.size(); ++l) {
+      const auto link = static_cast<LinkIndex>(l);
+      const bool joined = std::any_of(m_.joints.begin(), m_.joints.end(),
+                                      [&](const Joint& joint) { return joint.from == link || joint.to == link; });
+      if (!d_.cabled[l] || joined || m_.links[l].points.size() != 1) continue;
+      for (std::size_t i = d_.is_spatial() ? 0 : 2; i < 3; ++i) {
+        BorneReaction own{0, false, ground, link, m_.links[l].points.front(), {}, {}};
+        own.couple[i] = 1;
+        passive_.push_back(own);
+      }
+    }
   }
 
   static PointAt unit(const PointAt& v) {
@@ -295,7 +313,8 @@ std::vector<bool> fixed_points(const Drawing& d) {
   }
   for (const Joint& joint : d.mechanism.joints) {
     if (joint.from != ground && joint.to != ground) continue;
-    if (!traits(joint).slides) fixed[static_cast<std::size_t>(joint.at)] = true;
+    const bool pin_stands = is_slot(d.mechanism, joint) && joint.to == ground;
+    if (!traits(joint).slides || pin_stands) fixed[static_cast<std::size_t>(joint.at)] = true;
     if (!d.is_spatial() || joint.type != JointType::revolute) continue;
     // What lies on the axis of a crank stands still with it.
     const auto axis = sample_vector(d.mechanism, joint.axes.front(), spread_poses(d.mechanism, 1).front());
@@ -316,6 +335,23 @@ std::vector<bool> fixed_points(const Drawing& d) {
                              [&](PointIndex base) { return fixed[static_cast<std::size_t>(base)]; });
   }
   return fixed;
+}
+
+LinkIndex carrier_of(const Drawing& d, const Joint& mesh) {
+  if (!mesh.meshing->second) return ground;
+  const PointIndex first = mesh.meshing->first, second = *mesh.meshing->second;
+  const std::vector<bool> fixed = fixed_points(d);
+  if (fixed[static_cast<std::size_t>(first)] && fixed[static_cast<std::size_t>(second)]) return ground;
+  for (std::size_t l = 0; l < d.mechanism.links.size(); ++l) {
+    const auto link = static_cast<LinkIndex>(l);
+    const std::vector<PointIndex>& points = d.link(link).points;
+    const auto has = [&](PointIndex point) { return std::find(points.begin(), points.end(), point) != points.end(); };
+    if (link != mesh.from && link != mesh.to && has(first) && has(second)) return link;
+  }
+  throw InputError(mesh.where,
+                   "no link holds both centres of " + to_string(mesh.type) + " " + mesh.name + ", " + d.name(first) +
+                       " and " + d.name(second),
+                   "pin both wheels to one carrier, a link or the ground");
 }
 
 void check_drawing(const Drawing& d) {
@@ -367,7 +403,7 @@ void check_drawing(const Drawing& d) {
     throw InputError({d.mechanism.file}, "motors " + listed(names) + " work against each other: " + counts(d, freedoms),
                      "leave out one of them (actuated: false), or give it a known effort (actuated: {effort: 0})");
   }
-  if (freedoms.motors() < freedoms.mobility()) {
+  if (freedoms.motors() + d.cables < freedoms.mobility()) {
     const std::vector<LinkIndex> undriven = freedoms.undriven();
     throw InputError(
         place_of(d, undriven),

@@ -17,6 +17,7 @@ FoundConstruction PartByPart::run() {
   while (turn_one()) {
   }
   for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) write_axes(static_cast<JointIndex>(j));
+  write_distances();
   return std::move(found_);
 }
 

@@ -31,6 +31,8 @@ class PartByPart : public Construction {
   virtual bool put_on_link(PointIndex point) = 0;
   virtual bool put_where_loci_meet(PointIndex point) = 0;
   virtual void write_axes(JointIndex joint) = 0;
+  /// Of centres of gears, which other files have to give.
+  virtual void write_distances() {}
   /// Points that close together; false where none do.
   virtual bool put_group() { return false; }
 

@@ -107,12 +107,21 @@ class PlanarConstruction : public PlanarGroups {
         comment);
   }
 
+  /// Of gears whose centres move: what the drawing says.
+  void write_distances() override {
+    for (const DrawnMesh& mesh : d_.meshes)
+      if (!mesh.joint.axes.empty() && mesh.joint.meshing->second && mesh.carrier != ground)
+        found_.distances[mesh.written] =
+            shape(mesh.carrier).distance(mesh.joint.meshing->first, *mesh.joint.meshing->second).text();
+  }
+
   // --- axes
 
   void write_axes(JointIndex index) override {
     const Joint& joint = d_.joint(index);
     if (joint.axes.empty() || axis_stays(index)) return;
-    const LinkIndex link = orientation(joint.from) != nullptr ? joint.from : joint.to;
+    const bool carried = is_slot(d_.mechanism, joint) || orientation(joint.from) != nullptr;
+    const LinkIndex link = carried ? joint.from : joint.to;
     const auto axis = drawn_axis(index);
     if (orientation(link) == nullptr || !axis)
       throw core::InputError(

@@ -120,6 +120,7 @@ void PlanarGroups::add_known_guides(Parts& parts) {
       if (const auto link = static_cast<LinkIndex>(l);
           has_point(link, own.first) && orientation(link) != nullptr && known_points(link).empty())
         add_lines(link, own.first, all);
+    add_slots(own.first, all);
     for (const Stroke& stroke : strokes_at(own.first)) add_leg(stroke, own.first, all);
     for (std::size_t axis = 0; axis < 2; ++axis)
       if (const DrawnCoordinate* c = place_coordinate(own.first, axis)) add_coordinate_line(own.first, axis, *c, all);
@@ -137,11 +138,14 @@ void PlanarGroups::add_moving_guides(std::vector<Held>& held) const {
   const double close = 1e-12 * d_.size / core::to_double(d_.unit);
   for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) {
     const Joint& joint = d_.mechanism.joints[j];
-    if (!traits(joint).slides || joint.from == ground || joint.to == ground) continue;
+    const bool in_slot = is_slot(d_.mechanism, joint);
+    if (!traits(joint).slides || joint.from == ground || (joint.to == ground && !in_slot)) continue;
     const auto axis = drawn_axis(static_cast<JointIndex>(j));
-    if (!axis) continue;
-    if (orientation(joint.from) != nullptr || orientation(joint.to) != nullptr || !d_.at(joint.at).is_exact) continue;
-    for (const LinkIndex guide : {joint.from, joint.to}) {
+    if (!axis || !d_.at(joint.at).is_exact) continue;
+    if (orientation(joint.from) != nullptr || (!in_slot && orientation(joint.to) != nullptr)) continue;
+    std::vector<LinkIndex> guides = {joint.from};
+    if (!in_slot) guides.push_back(joint.to);
+    for (const LinkIndex guide : guides) {
       std::vector<PointIndex> on_line;
       for (const PointIndex p : d_.link(guide).points)
         if (p != joint.at && d_.at(p).is_exact &&

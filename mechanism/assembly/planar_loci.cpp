@@ -17,6 +17,7 @@ std::vector<Locus> PlanarLoci::loci(PointIndex point, int depth) {
       if (depth == 0) add_translated(link, point, all);
     }
   }
+  add_slots(point, all);
   for (const Stroke& own : strokes_at(point)) add_leg(own, point, all);
   for (std::size_t axis = 0; axis < 2; ++axis)
     if (const DrawnCoordinate* own = place_coordinate(point, axis)) add_coordinate_line(point, axis, *own, all);
@@ -86,6 +87,51 @@ void PlanarLoci::add_lines(LinkIndex link, PointIndex point, std::vector<Locus>&
     };
     all.push_back(std::move(line));
   }
+}
+
+void PlanarLoci::add_slots(PointIndex point, std::vector<Locus>& all) {
+  for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j)
+    if (is_slot(d_.mechanism, d_.mechanism.joints[j]))
+      if (auto line = line_of_slot(static_cast<JointIndex>(j), point)) all.push_back(std::move(*line));
+}
+
+std::optional<Locus> PlanarLoci::line_of_slot(JointIndex index, PointIndex point) {
+  const Joint& joint = d_.joint(index);
+  const LinkIndex carrier = joint.from;
+  const auto axis = drawn_axis(index);
+  if (!axis || !d_.at(joint.at).is_exact || orientation(carrier) == nullptr) return std::nullopt;
+  Locus line;
+  line.source = "slot " + joint.name;
+  if (joint.at == point) {
+    if (!is_placed(carrier)) return std::nullopt;
+    line.link = joint.to;
+    line.base = [this, carrier, point, axis = *axis, name = joint.name] {
+      return base_of_line(carrier, point, axis, name);
+    };
+  } else {
+    if (carrier == ground || !has_point(carrier, point) || !known_points(carrier).empty() || !is_known(joint.at))
+      return std::nullopt;
+    if (!shape(carrier).is_drawn() || !d_.at(point).is_exact) return std::nullopt;
+    line.link = carrier;
+    line.base = [this, carrier, point, pin = joint.at, axis = *axis] {
+      const Amounts way = d_.at(point).at - d_.at(pin).at;
+      const Amounts beside = way - (dot(way, axis) / dot(axis, axis)) * axis;
+      const bool on_line = size_of(beside) * core::to_double(d_.unit) <= 1e-12 * d_.size;
+      return on_line ? handle(pin) : beside_pin(carrier, pin, beside, point);
+    };
+  }
+  line.way = turned_in_posture(carrier, *axis);
+  line.along = axis_text(index, carrier, *axis);
+  return line;
+}
+
+PlanarLoci::Handle PlanarLoci::beside_pin(LinkIndex carrier, PointIndex pin, const Amounts& beside, PointIndex point) {
+  std::optional<WrittenVector> place;
+  const Node form = form_at(handle(pin), image(carrier, beside), place);
+  std::array<double, 3> posture = d_.place(pin);
+  for (std::size_t i = 0; i < 2; ++i) posture[i] += beside[i].value() * core::to_double(d_.unit);
+  return put_extra(d_.name(pin) + "_" + d_.name(point), form, posture, "carried along by " + d_.link(carrier).name,
+                   std::move(place));
 }
 
 std::array<double, 2> PlanarLoci::turned_in_posture(LinkIndex guide, const Amounts& axis) const {

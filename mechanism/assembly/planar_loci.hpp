@@ -36,6 +36,11 @@ class PlanarLoci : public PlanarTurning {
   void add_coordinate_line(PointIndex point, std::size_t axis, const DrawnCoordinate& own, std::vector<Locus>& all);
   /// Lines along the guides of a link that turns as a known one does.
   void add_lines(LinkIndex link, PointIndex point, std::vector<Locus>& all);
+  /// The line of a slot: of its pin in a known link, or of a point of a link that a known pin guides.
+  void add_slots(PointIndex point, std::vector<Locus>& all);
+  std::optional<Locus> line_of_slot(JointIndex index, PointIndex point);
+  /// A point of a carrier that is at this way from a pin.
+  Handle beside_pin(LinkIndex carrier, PointIndex pin, const Amounts& beside, PointIndex point);
   std::array<double, 2> turned_in_posture(LinkIndex guide, const Amounts& axis) const;
   std::string axis_text(JointIndex joint, LinkIndex guide, const Amounts& axis);
   /// What keeps a point of a link that does not turn on its own, for another one.

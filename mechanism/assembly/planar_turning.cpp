@@ -7,11 +7,58 @@
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
+namespace {
+
+/// As complex numbers.
+Amounts turned_product(const Amounts& a, const Amounts& b) {
+  const Amount minus = a[1] * b[1];
+  return {a[0] * b[0] - minus, a[0] * b[1] + a[1] * b[0], {}};
+}
+
+/// A direction to a whole power; of another power, which nothing uses, the direction itself.
+Amounts complex_power(const Amounts& direction, const Rational& power) {
+  Amounts result = {Amount(Rational(1)), {}, {}};
+  if (direction[1].is_zero() && direction[0].value() > 0) return result;
+  const Amounts factor = power < 0 ? Amounts{direction[0], -direction[1], {}} : direction;
+  for (Rational k = 0; power.get_den() == 1 && k < abs(power); ++k) result = turned_product(result, factor);
+  return result;
+}
+
+void add_angle(SumOfAngles& sum, const std::string& name, const Rational& times) {
+  for (auto& [other, own] : sum)
+    if (other == name) {
+      own += times;
+      return;
+    }
+  sum.emplace_back(name, times);
+}
+
+std::string angle_text(const SumOfAngles& angle) {
+  Terms terms;
+  for (const auto& [name, times] : angle)
+    if (times != 0) terms.push_back({Amount(times), name});
+  return text_of(terms);
+}
+
+void point_along_angle(Orientation& own) {
+  const std::string angle = angle_text(*own.angle);
+  if (angle == "0") {
+    own.first = constant_vector(Amounts{Amount(Rational(1)), {}, {}});
+    own.second = constant_vector(Amounts{Amount(), Amount(Rational(1)), {}});
+    return;
+  }
+  own.first.components[0].push_back({Amount(Rational(1)), "cos(" + angle + ")"});
+  own.first.components[1].push_back({Amount(Rational(1)), "sin(" + angle + ")"});
+  own.second = left_of(own.first);
+}
+
+}  // namespace
 
 PlanarTurning::PlanarTurning(const Drawing& drawing)
     : PartByPart(drawing), orientations_(drawing.mechanism.links.size()) {
   ground_.first = constant_vector(Amounts{one_, Amount(), Amount()});
   ground_.second = constant_vector(Amounts{Amount(), one_, Amount()});
+  ground_.angle.emplace();
 }
 
 const Orientation* PlanarTurning::orientation(LinkIndex link) const {
@@ -20,14 +67,16 @@ const Orientation* PlanarTurning::orientation(LinkIndex link) const {
   return own ? &*own : nullptr;
 }
 
-bool PlanarTurning::slides(const Joint& joint, LinkIndex link) { return traits(joint).slides && joins(joint, link); }
+bool PlanarTurning::slides(const Joint& joint, LinkIndex link) const {
+  return is_guide(d_.mechanism, joint) && joins(joint, link);
+}
 
 bool PlanarTurning::turn(LinkIndex link) {
   for (const DrawnCoordinate& own : d_.coordinates)
     if (own.kind == DrawnCoordinate::Kind::direction && (own.link == link || own.other == link) &&
         orient_by_angle(link, own))
       return true;
-  return orient_by_points(link) || orient_by_guide(link) || orient_by_way(link);
+  return orient_by_points(link) || orient_by_guide(link) || orient_by_way(link) || orient_by_wheels(link);
 }
 
 std::array<Amount, 2> PlanarTurning::parts(const Amounts& v, const Amounts& reference, bool over_square) {
@@ -50,10 +99,12 @@ WrittenVector PlanarTurning::image(const Orientation& own, const Amounts& v, con
   return result;
 }
 WrittenVector PlanarTurning::image_of_shape(LinkIndex link, const Amounts& v) {
+  refuse_part_of_angle(link);
   return image(*orientation(link), v, orientation(link)->reference);
 }
 
 WrittenVector PlanarTurning::image(LinkIndex link, const Amounts& drawn) {
+  refuse_part_of_angle(link);
   return image(*orientation(link), drawn, orientation(link)->drawn);
 }
 
@@ -99,14 +150,12 @@ bool PlanarTurning::orient_by_angle(LinkIndex link, const DrawnCoordinate& c) {
   Orientation own;
   own.reference = *own_pointer;
   own.drawn = shape(link).is_drawn() ? own.reference : drawn_pointer(link);
-  const bool from_x =
-      other == ground || (!base->angle.empty() && base->reference[0].text() == (*base_pointer)[0].text() &&
-                          base->reference[1].text() == (*base_pointer)[1].text());
+  const bool from_x = base->angle && base->reference[0].text() == (*base_pointer)[0].text() &&
+                      base->reference[1].text() == (*base_pointer)[1].text();
   if (from_x) {
-    own.angle = other == ground ? (forward ? c.name : "-" + c.name) : base->angle + (forward ? " + " : " - ") + c.name;
-    own.first.components[0].push_back({one_, "cos(" + own.angle + ")"});
-    own.first.components[1].push_back({one_, "sin(" + own.angle + ")"});
-    own.second = left_of(own.first);
+    own.angle = base->angle;
+    add_angle(*own.angle, c.name, forward ? 1 : -1);
+    point_along_angle(own);
   } else {
     const Amount over = one_ / length(*base_pointer);
     const WrittenVector ahead = image_of_shape(other, over * *base_pointer),
@@ -134,70 +183,136 @@ bool PlanarTurning::orient_by_points(LinkIndex link) {
   return true;
 }
 
-/// What slides on a link turns with it.
+/// What slides on a link turns with it, and so does a pulley of the same size with the other, or a wheel in a ring.
 bool PlanarTurning::orient_by_guide(LinkIndex link) {
-  for (const Joint& joint : d_.mechanism.joints) {
-    if (!slides(joint, link)) continue;
-    const LinkIndex guide = other_of(joint, link);
-    const Orientation* base = orientation(guide);
-    if (base == nullptr) continue;
-    Orientation own = *base;
-    own.reference = own.drawn;
-    if (!shape(link).is_drawn()) {
-      const Amounts direction = (one_ / length(drawn_pointer(link))) * drawn_pointer(link);
-      Orientation turned;
-      turned.reference = *pointer(link);
-      turned.drawn = drawn_pointer(link);
-      turned.first = image(guide, direction);
-      turned.second = image(guide, left(direction));
-      own = std::move(turned);
-    }
-    orientations_[static_cast<std::size_t>(link)] = std::move(own);
-    return true;
-  }
+  for (const Joint& joint : d_.mechanism.joints)
+    if (slides(joint, link) && orient_as(link, other_of(joint, link))) return true;
+  for (const DrawnMesh& mesh : d_.meshes)
+    if (mesh.teeth && (*mesh.teeth)[0] == -(*mesh.teeth)[1] && joins(mesh.joint, link) &&
+        orient_as(link, other_of(mesh.joint, link)))
+      return true;
   return false;
 }
 
-/// Two links, each with one known point, and a guide between them along the way from the one to the other.
-bool PlanarTurning::orient_by_way(LinkIndex link) {
-  for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j) {
-    const Joint& joint = d_.mechanism.joints[j];
-    if (!slides(joint, link) || joint.from == ground || joint.to == ground) continue;
-    const std::vector<PointIndex> here = known_points(link), there = known_points(other_of(joint, link));
-    if (here.empty() || there.empty() || !is_apart(here[0], there[0])) continue;
-    if (!shape(joint.from).is_drawn() || !shape(joint.to).is_drawn()) continue;
-    const auto axis = drawn_axis(static_cast<JointIndex>(j));
-    if (!axis) continue;
-    const Amounts way = d_.at(there[0]).at - d_.at(here[0]).at;
-    const double beside = cross(*axis, way)[2].value() / length(*axis).value();
-    Orientation own;
-    own.from = handle(here[0]);
-    own.to = handle(there[0]);
-    if (std::abs(beside) * core::to_double(d_.unit) <= 1e-12 * d_.size) {
-      own.means = Means::way;
-      own.reference = own.drawn = way;
-    } else {
-      // The guide passes beside the pins: its foot F below the first one has a right angle in it.
-      const Amount part = cross(*axis, way)[2] / dot(*axis, *axis);
-      const Amounts foot = part * left(*axis);
-      std::array<double, 3> place = known(own.from).posture;
-      for (std::size_t i = 0; i < 2; ++i) place[i] += foot[i].value() * core::to_double(d_.unit);
-      const auto &p = known(own.from).posture, &q = known(own.to).posture;
-      const double turn = (q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0]);
-      const std::string side = turn > 0 ? "left" : "right";
-      own.to = put_extra(
-          joint.name + "_foot",
-          map({{"foot", list({known(own.from).name, known(own.to).name})},
-               {"length", text(length(foot).text())},
-               {"side", text(side)}}),
-          place, "the guide of " + joint.name + " passes " + length(foot).text() + " beside " + known(own.from).name);
-      own.means = Means::points;
-      own.reference = own.drawn = foot;
-    }
-    orientations_[static_cast<std::size_t>(link)] = std::move(own);
-    return true;
+bool PlanarTurning::orient_as(LinkIndex link, LinkIndex guide) {
+  const Orientation* base = orientation(guide);
+  if (base == nullptr) return false;
+  Orientation own = *base;
+  own.reference = own.drawn;
+  if (!shape(link).is_drawn()) {
+    const Amounts direction = (one_ / length(drawn_pointer(link))) * drawn_pointer(link);
+    Orientation turned;
+    turned.reference = *pointer(link);
+    turned.drawn = drawn_pointer(link);
+    turned.first = image(guide, direction);
+    turned.second = image(guide, left(direction));
+    own = std::move(turned);
   }
+  orientations_[static_cast<std::size_t>(link)] = std::move(own);
+  return true;
+}
+
+/// Two links, each with one known point, and a guide between them along the way from the one to the other; or a link
+/// with one known point and a slot along the way to a known pin.
+bool PlanarTurning::orient_by_way(LinkIndex link) {
+  for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j)
+    if (auto own = by_way(link, static_cast<JointIndex>(j))) {
+      orientations_[static_cast<std::size_t>(link)] = std::move(own);
+      return true;
+    }
   return false;
+}
+
+std::optional<Orientation> PlanarTurning::by_way(LinkIndex link, JointIndex index) {
+  const Joint& joint = d_.joint(index);
+  const bool in_slot = is_slot(d_.mechanism, joint) && joint.from == link && is_known(joint.at);
+  if (!in_slot && (!slides(joint, link) || joint.from == ground || joint.to == ground)) return std::nullopt;
+  const std::vector<PointIndex> here = known_points(link);
+  const std::vector<PointIndex> there =
+      in_slot ? std::vector<PointIndex>{joint.at} : known_points(other_of(joint, link));
+  if (here.empty() || there.empty() || !is_apart(here[0], there[0])) return std::nullopt;
+  if (!shape(link).is_drawn() || (!in_slot && !shape(other_of(joint, link)).is_drawn())) return std::nullopt;
+  const auto axis = drawn_axis(index);
+  if (!axis || !d_.at(here[0]).is_exact || !d_.at(there[0]).is_exact) return std::nullopt;
+  Orientation own;
+  own.from = handle(here[0]);
+  own.to = handle(there[0]);
+  own.means = Means::way;
+  own.reference = own.drawn = d_.at(there[0]).at - d_.at(here[0]).at;
+  const double beside = mechanism::cross(*axis, own.reference)[2].value() / length(*axis).value();
+  if (std::abs(beside) * core::to_double(d_.unit) <= 1e-12 * d_.size) return own;
+  return beside_way(own, joint, *axis);
+}
+
+/// The guide passes beside the pins: its foot F below the first one has a right angle in it.
+Orientation PlanarTurning::beside_way(const Orientation& along, const Joint& joint, const Amounts& axis) {
+  Orientation own = along;
+  const Amount part = mechanism::cross(axis, along.reference)[2] / dot(axis, axis);
+  const Amounts foot = part * left(axis);
+  std::array<double, 3> place = known(own.from).posture;
+  for (std::size_t i = 0; i < 2; ++i) place[i] += foot[i].value() * core::to_double(d_.unit);
+  const auto &p = known(own.from).posture, &q = known(own.to).posture;
+  const double turn = (q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0]);
+  own.to = put_extra(
+      joint.name + "_foot",
+      map({{"foot", list({known(own.from).name, known(own.to).name})},
+           {"length", text(length(foot).text())},
+           {"side", text(turn > 0 ? "left" : "right")}}),
+      place, "the guide of " + joint.name + " passes " + length(foot).text() + " beside " + known(own.from).name);
+  own.means = Means::points;
+  own.reference = own.drawn = foot;
+  return own;
+}
+
+bool PlanarTurning::orient_by_wheels(LinkIndex link) {
+  return std::any_of(d_.meshes.begin(), d_.meshes.end(),
+                     [&](const DrawnMesh& mesh) { return mesh.teeth && orient_by_teeth(link, mesh); });
+}
+
+/// A wheel, or the carrier of two, by what the other two of these are turned by (DrawnMesh). Of the direction in which
+/// the drawing has the link where the sum of angles is 0: the product of theirs as complex numbers.
+bool PlanarTurning::orient_by_teeth(LinkIndex link, const DrawnMesh& mesh) {
+  const std::array<Rational, 2>& teeth = *mesh.teeth;
+  const std::array<std::pair<LinkIndex, Rational>, 3> parts = {
+      {{mesh.joint.from, teeth[0]}, {mesh.joint.to, teeth[1]}, {mesh.carrier, -teeth[0] - teeth[1]}}};
+  const auto own_part = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == link; });
+  if (own_part == parts.end() || own_part->second == 0) return false;
+  Orientation own;
+  own.angle.emplace();
+  own.drawn = Amounts{one_, {}, {}};
+  for (const auto& [other, weight] : parts) {
+    if (other == link || other == ground || weight == 0) continue;
+    const Orientation* base = orientation(other);
+    if (base == nullptr || !base->angle || base->means != Means::vectors) return false;
+    const Rational ratio = -weight / own_part->second;
+    for (const auto& [name, times] : *base->angle) add_angle(*own.angle, name, ratio * times);
+    own.drawn = turned_product(own.drawn, complex_power(base->drawn, ratio));
+  }
+  own.reference = own.drawn;
+  if (!shape(link).is_drawn()) {
+    const Amounts was = drawn_pointer(link);
+    own.reference = turned_product(turned_product(own.drawn, *pointer(link)), {was[0], -was[1], {}});
+  }
+  point_along_angle(own);
+  orientations_[static_cast<std::size_t>(link)] = std::move(own);
+  return true;
+}
+
+/// Only whole multiples of an angle have a cosine and a sine that are polynomials in its own.
+void PlanarTurning::refuse_part_of_angle(LinkIndex link) const {
+  const Orientation& own = *orientation(link);
+  if (!own.angle) return;
+  for (const auto& [name, times] : *own.angle) {
+    if (times.get_den() == 1) continue;
+    const bool is_slow = abs(times.get_num()) == 1;
+    const auto c = std::find_if(d_.coordinates.begin(), d_.coordinates.end(),
+                                [&, own_name = name](const DrawnCoordinate& one) { return one.name == own_name; });
+    throw core::InputError(c == d_.coordinates.end() ? core::SourcePosition{d_.mechanism.file} : c->where,
+                           "coordinate " + name + " turns link " + d_.name_of(link) + " by " + times.get_str() +
+                               " of its angle, whose cos and sin are no polynomials of those of the angle",
+                           "make the angle of the wheel that turns less the coordinate: {angle: [0, 360 deg], of: " +
+                               (is_slow ? d_.name_of(link) : "its link") + "}");
+  }
 }
 
 }  // namespace clearloci::mechanism

@@ -2,9 +2,17 @@
 // Private to mechanism/.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "mechanism/assembly/part_by_part.hpp"
 
 namespace clearloci::mechanism {
+
+/// Coordinates, each times a number.
+using SumOfAngles = std::vector<std::pair<std::string, Rational>>;
 
 /// How a link is turned: where a vector of the drawing is in a pose.
 struct Orientation {
@@ -18,7 +26,8 @@ struct Orientation {
   Amounts reference = {Amount(core::Rational(1)), {}, {}}, drawn = reference;
   WrittenVector first, second;  ///< unit vectors, of `vectors`
   int from = -1, to = -1;       ///< handles, of `points` and `way`
-  std::string angle;            ///< where `first` is (cos angle, sin angle)
+  /// Of coordinates, where `first` is (cos, sin) of their sum, each times its number.
+  std::optional<SumOfAngles> angle = {};
 };
 
 class PlanarTurning : public PartByPart {
@@ -36,7 +45,8 @@ class PlanarTurning : public PartByPart {
 
   /// Null where it is not known.
   const Orientation* orientation(LinkIndex link) const;
-  static bool slides(const Joint& joint, LinkIndex link);
+  /// In a guide, with which it turns.
+  bool slides(const Joint& joint, LinkIndex link) const;
   static Amounts left(const Amounts& v) { return {-v[1], v[0], {}}; }
   /// v by its parts along a reference and to its left, each over `length` of the reference where `over_square`.
   static std::array<Amount, 2> parts(const Amounts& v, const Amounts& reference, bool over_square);
@@ -50,6 +60,12 @@ class PlanarTurning : public PartByPart {
   bool orient_by_points(LinkIndex link);
   bool orient_by_guide(LinkIndex link);
   bool orient_by_way(LinkIndex link);
+  std::optional<Orientation> by_way(LinkIndex link, JointIndex index);
+  Orientation beside_way(const Orientation& along, const Joint& joint, const Amounts& axis);
+  bool orient_as(LinkIndex link, LinkIndex guide);
+  bool orient_by_wheels(LinkIndex link);
+  bool orient_by_teeth(LinkIndex link, const DrawnMesh& mesh);
+  void refuse_part_of_angle(LinkIndex link) const;
 
   Orientation ground_;
   std::vector<std::optional<Orientation>> orientations_;

@@ -32,21 +32,6 @@ void add_words(const Node& node, std::set<std::string>& words) {
   for (const auto& [key, content] : node.pairs()) add_words(content, words);
 }
 
-/// A drawing has no constructions for them.
-void refuse_slots(const Value& joints) {
-  for (const Entry& entry : entries(joints)) {
-    if (!entry.value.is_map()) continue;
-    if (entry.value.node.has("slot"))
-      throw InputError(
-          entry.where, "joint " + entry.key + " is a slot, which a drawing cannot have",
-          "write the points as constructions, or a small link: revolute at the pin, prismatic along the slot");
-    for (const char* type : {"gear", "belt"})
-      if (entry.value.node.has(type))
-        throw InputError(entry.where, "joint " + entry.key + " is a " + type + ", which a drawing cannot have",
-                         "write the points as constructions");
-  }
-}
-
 class DrawingReader {
  public:
   DrawingReader(const Value& document, const std::vector<Override>& overrides, PlainSections& plain)
@@ -63,9 +48,10 @@ class DrawingReader {
     read_workspace(m, {plain_.workspace, "'workspace'", plain_.workspace.where(), "workspace"});
     read_points();
     read_links();
-    refuse_slots(required("joints"));
+    read_gear_points(m, required("joints"));
+    read_belt_points(m, required("joints"));
     read_joints(m, required("joints"));
-    leave_cables_out();
+    set_cables_and_meshes_apart();
     check_size();
     place_axes();
     coordinates_->resolve();
@@ -295,21 +281,38 @@ class DrawingReader {
     return result;
   }
 
-  void leave_cables_out() {
+  /// Cables hold nothing, and wheels hold no point of each other.
+  void set_cables_and_meshes_apart() {
     Mechanism& m = result_.mechanism;
     result_.cabled.assign(m.links.size(), false);
+    const std::vector<Entry> written = entries(required("joints"));
     std::vector<Joint> kept;
     for (std::size_t j = 0; j < m.joints.size(); ++j) {
       Joint& joint = m.joints[j];
+      if (joint.meshing) {
+        result_.meshes.push_back({std::move(joint), j, teeth_of(m, written.at(j))});
+        continue;
+      }
       if (!is_cable(joint)) {
         result_.written.push_back(j);
         kept.push_back(std::move(joint));
         continue;
       }
+      ++result_.cables;
       for (const LinkIndex link : {joint.from, joint.to})
         if (link != ground) result_.cabled[static_cast<std::size_t>(link)] = true;
     }
     m.joints = std::move(kept);
+    for (DrawnMesh& mesh : result_.meshes) {
+      mesh.carrier = carrier_of(result_, mesh.joint);
+      refuse_phase(written[mesh.written]);
+    }
+  }
+
+  void refuse_phase(const Entry& gear) const {
+    if (!gear.value.node.has("phase") || section("frames")) return;
+    throw InputError(gear.where, "joint " + gear.key + " has a phase, but the drawing says how its wheels are turned",
+                     "leave the phase out");
   }
 
   /// Axes as they are written, for the file that is made of the drawing.

@@ -26,6 +26,8 @@ struct SpaceLocus {
   std::string axis;   ///< of a circle, along a line
   Amounts direction;  ///< the same as drawn
   std::string source;
+  std::optional<PointIndex> centre = {};  ///< of a sphere of a constant radius
+  Amount length = {};                     ///< that radius
 };
 
 class SpatialConstruction : public SpatialTurning {
@@ -129,7 +131,44 @@ class SpatialConstruction : public SpatialTurning {
     own.base = [this, base = bases[0]] { return handle(base); };
     own.radius = shape(link).distance(bases[0], point).text();
     own.source = d_.link(link).name;
+    own.centre = bases[0];
+    own.length = shape(link).distance(bases[0], point);
     all.push_back(std::move(own));
+  }
+
+  /// Of two points that keep their distance: it, and nothing of others.
+  std::optional<Amount> constant_distance(PointIndex a, PointIndex b) const {
+    if (!d_.at(a).is_exact || !d_.at(b).is_exact || !is_apart(a, b)) return std::nullopt;
+    if (fixed_[static_cast<std::size_t>(a)] && fixed_[static_cast<std::size_t>(b)])
+      return mechanism::length(d_.at(b).at - d_.at(a).at);
+    for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
+      if (const auto link = static_cast<LinkIndex>(l); has_point(link, a) && has_point(link, b))
+        return shape(link).distance(a, b);
+    return std::nullopt;
+  }
+
+  /// Where two spheres meet whose centres A and B keep their distance d: a circle about A + t (B - A), with
+  ///     t = (r_A^2 - r_B^2 + d^2)/(2 d^2),   radius^2 = r_A^2 - t^2 d^2
+  std::optional<SpaceLocus> circle_of(const SpaceLocus& first, const SpaceLocus& second) {
+    if (!first.centre || !second.centre) return std::nullopt;
+    const PointIndex a = *first.centre, b = *second.centre;
+    const auto distance = constant_distance(a, b);
+    if (!distance) return std::nullopt;
+    const Amount square = *distance * *distance, own = first.length * first.length;
+    const Amount t = (own - second.length * second.length + square) / (square + square);
+    const Amount left = own - t * t * square;
+    if (!(left.value() > close * square.value())) return std::nullopt;
+    const std::string p = known(handle(a)).name, q = known(handle(b)).name;
+    SpaceLocus circle;
+    circle.kind = Kind::circle;
+    circle.source = first.source + " and " + second.source;
+    circle.direction = d_.at(b).at - d_.at(a).at;
+    circle.axis = q + " - " + p;
+    circle.radius = square_root(left).text();
+    circle.base = [this, a, p, q, t, way = t * circle.direction] {
+      return t.is_zero() ? handle(a) : shifted(a, t * way_between(p, q), way);
+    };
+    return circle;
   }
 
   /// About the axis of a hinge on a known link, or about two known points of the link.
@@ -224,6 +263,19 @@ class SpatialConstruction : public SpatialTurning {
     for (const SpaceLocus& first : all)
       for (const SpaceLocus& second : all)
         if (first.kind != Kind::sphere && second.source != first.source && meet(point, first, second)) return true;
+    return put_where_spheres_meet(point, all);
+  }
+
+  /// At given distances from three points, of which two keep theirs.
+  bool put_where_spheres_meet(PointIndex point, const std::vector<SpaceLocus>& all) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t k = i + 1; k < all.size(); ++k) {
+        const bool apart = all[i].source != all[k].source;
+        const auto circle = apart ? circle_of(all[i], all[k]) : std::nullopt;
+        for (const SpaceLocus& third : all)
+          if (circle && third.source != all[i].source && third.source != all[k].source && meet(point, *circle, third))
+            return true;
+      }
     return false;
   }
 

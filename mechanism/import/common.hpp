@@ -1,7 +1,9 @@
 // What all formats have in common on the way from a source to the drawn form. Private to mechanism/.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,17 @@ void merge_rigid(Source& source);
 
 /// Where all links move in parallel planes: turns the source into a planar one, x and y in the plane.
 void go_planar(Source& source);
+
+/// The link, or the ground, that has both centres of two wheels; nothing where none has.
+std::optional<int> carrier_of(const Source& source, const SourceMesh& mesh);
+/// Whole numbers in this ratio, the smaller 20 at least. Throws core::InputError, which calls it `what`, where none
+/// below 1000 come near.
+std::array<long, 2> teeth_of(double first, double second, const std::string& what, const std::string& file, int line);
+/// Joints that follow others become gears, or belts where both turn alike. Throws core::InputError that names the joint
+/// where the axes are not parallel, or no link has both.
+void mesh_followers(Source& source, const std::string& file);
+/// Throws core::InputError that names wheels without a carrier, or of one link.
+void check_meshes(const Source& source, const std::string& file);
 
 /// Motors for a source that names none: guides with a range, joints of the ground, others, until nothing moves with all
 /// of them held.

@@ -94,13 +94,15 @@ void Drawing::make_places() {
     }
   for (const SourceSpring& spring : s_.springs)
     for (std::size_t i = 0; i < 2; ++i) place_of(spring.links[i], spring.at[i], spring.name + "_end");
+  for (const SourceMesh& mesh : s_.meshes)
+    for (std::size_t i = 0; i < 2; ++i) place_of(mesh.links[i], mesh.at[i], mesh.name + "_centre");
   for (const SourceJoint& joint : s_.joints)
     if (!joint.dropped && joint.actuated && !slides(joint) && s_.planar)
       for (const int link : {joint.from, joint.to}) give_direction(link, joint);
 }
 
 void Drawing::turn_to_links(SourceJoint& joint) {
-  if (joint.to != ground_link) return;
+  if (joint.to != ground_link || joint.kind == SourceKind::slot) return;
   std::swap(joint.from, joint.to);
   std::swap(joint.on_from, joint.on_to);
   joint.along.reset();
@@ -122,7 +124,8 @@ void Drawing::give_direction(int link, const SourceJoint& joint) {
 }
 
 PlaceIndex Drawing::slider_place(const SourceJoint& joint) {
-  if (joint.half_length) return place_of(joint.to, joint.at(), joint.name);
+  if (joint.half_length || joint.kind == SourceKind::slot)
+    return place_of(joint.to, joint.at(), joint.point.empty() ? joint.name : joint.point);
   const auto& own = order_[joint.to];
   if (own.empty()) return place_of(joint.to, joint.at(), joint.name);
   return *std::min_element(own.begin(), own.end(), [&](PlaceIndex p, PlaceIndex q) {

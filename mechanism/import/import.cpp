@@ -51,7 +51,7 @@ void check_size(const imports::Source& source, const std::string& file, std::siz
 }
 
 /// Links that no joint joins to anything.
-void leave_out_loose(imports::Source& source) {
+void leave_out_loose(imports::Source& source, const std::string& file) {
   std::vector<std::string> names;
   for (std::size_t l = 0; l < source.links.size(); ++l) {
     const auto link = static_cast<int>(l);
@@ -59,6 +59,11 @@ void leave_out_loose(imports::Source& source) {
     if (std::any_of(source.joints.begin(), source.joints.end(),
                     [&](const auto& joint) { return !joint.dropped && (joint.from == link || joint.to == link); }))
       continue;
+    for (const imports::SourceMesh& mesh : source.meshes)
+      if (mesh.links[0] == link || mesh.links[1] == link)
+        throw InputError({file, mesh.line},
+                         "wheel " + source.links[l].name + " of " + mesh.name + " turns about nothing",
+                         "pin its centre to the ground or to a link");
     names.push_back(source.links[l].name);
     source.links[l].dropped = true;
     std::erase_if(source.points, [&](const auto& point) { return point.link == link; });
@@ -97,9 +102,11 @@ Imported import_text(const std::string& text, const std::string& file, const Imp
   imports::close_posture(source, file);
   imports::merge_welds(source);
   imports::merge_rigid(source);
-  leave_out_loose(source);
+  leave_out_loose(source, file);
   imports::go_planar(source);
   imports::merge_rigid(source);
+  imports::mesh_followers(source, file);
+  imports::check_meshes(source, file);
   imports::choose_motors(source);
   Imported result;
   result.text = imports::write_drawn(source, file, clearance);

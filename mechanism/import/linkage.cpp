@@ -137,9 +137,6 @@ class Reader {
       drawings_.push_back("link " + name);
       return;
     }
-    if (gear)
-      throw InputError({file_, at.line}, "link " + name + " is a gear or a wheel of a chain, which have no part here",
-                       "replace it by a crank, or take it out");
     if (own.empty()) {
       s_.note("link " + name + " has no connectors and was left out");
       return;
@@ -148,12 +145,13 @@ class Reader {
       add_actuator(at, name, own, stroke, cpm);
       return;
     }
-    if (own.size() == 1 && fastened.empty() && to_link == -2 && to_connector == -2) {
+    if (own.size() == 1 && fastened.empty() && to_link == -2 && to_connector == -2 && !gear) {
       lone_.push_back(name);
       return;
     }
     const int index = add_link(name, at.line, own);
     by_id_.emplace(id, index);
+    if (gear) wheels_.push_back({id, index, at.line, connectors_[static_cast<std::size_t>(own.front())].at});
     for (const int c : fastened)
       if (!connectors_[static_cast<std::size_t>(c)].drawing) attach(index, c);
     if (to_link != -2) fastened_links_.emplace_back(index, to_link);
@@ -201,8 +199,6 @@ class Reader {
     guide.range = cpm < 0 ? std::array<double, 2>{-reach, 0.0} : std::array<double, 2>{0.0, reach};
     guide.speed = cpm / 60 * 2 * reach * s_.metres();
   }
-
-  static void ratios(const XmlElement& at) { at.take_whole(); }  // of gears, which are refused
 
   // --- what is connected
 
@@ -305,17 +301,68 @@ class Reader {
     s_.note("connectors " + p.pin->name + " and " + q.pin->name + " run in one slot: one guide, which bears at both");
   }
 
-  /// A block without mass on the pin.
   void slot(const Slot& own) {
     const Connector& c = *own.pin;
-    const int block = static_cast<int>(s_.links.size());
-    s_.links.push_back({"block_" + c.name, c.line, 0, {}, {}, false, true});
-    SourceJoint& pin = add_joint(c, SourceKind::revolute, own.follower, block, {0, 0, 1});
-    pin.name = c.name + "_pin";
-    pin.point = c.name;
-    SourceJoint& guide = add_joint(c, SourceKind::prismatic, own.carrier, block, own.b->at - own.a->at);
-    guide.name = c.name + "_slot";
-    guide.along = std::pair{own.a->at, own.b->at};
+    if (own.carrier == own.follower) {
+      s_.note("the slot of connector " + c.name + " is on the ground, as its pin is: it was left out");
+      return;
+    }
+    SourceJoint& slot = add_joint(c, SourceKind::slot, own.carrier, own.follower, own.b->at - own.a->at);
+    slot.name = c.name + "_slot";
+    slot.point = c.name;
+    slot.along = std::pair{own.a->at, own.b->at};
+  }
+
+  // --- gears and chains
+
+  void ratios(const XmlElement& at) {
+    for (const XmlElement* own : at.all("ratio")) ratio(*own);
+    for (const Wheel& wheel : wheels_)
+      if (!wheel.turns)
+        s_.note("gear " + s_.links[static_cast<std::size_t>(wheel.link)].name + " has no other one and is a link here");
+  }
+
+  void ratio(const XmlElement& at) {
+    const std::string type = at.get("type", "gears");
+    for (const char* word : {"sizetype", "sizeasradius", "radius"}) (void)at.get(word);
+    SourceMesh mesh;
+    mesh.line = at.line;
+    mesh.belt = type.starts_with("chain") || type.starts_with("belt");
+    const std::string what = mesh.belt ? "chain" : "gear";
+    if (!mesh.belt && !type.starts_with("gear"))
+      throw InputError({file_, at.line}, "a ratio is of type '" + type + "'", "use gears or a chain");
+    const std::vector<const XmlElement*> both = at.all("link");
+    if (both.size() != 2)
+      throw InputError({file_, at.line}, "a ratio is of " + std::to_string(both.size()) + " links", "name two gears");
+    std::array<double, 2> sizes{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      Wheel& own = wheel_named(*both[i]);
+      sizes[i] = number(*both[i], "size", 1);
+      mesh.links[i] = own.link;
+      mesh.at[i] = own.centre;
+      own.turns = true;
+    }
+    mesh.name = what + "_" + s_.links[static_cast<std::size_t>(mesh.links[0])].name + "_" +
+                s_.links[static_cast<std::size_t>(mesh.links[1])].name;
+    if (!(sizes[0] > 0) || !(sizes[1] > 0))
+      throw InputError({file_, at.line}, mesh.name + " has a size that is not positive", "correct it in Linkage");
+    const bool same = std::abs(sizes[0] - sizes[1]) <= 1e-9 * sizes[0];
+    if (!mesh.belt || !same) mesh.teeth = teeth_of(sizes[0], sizes[1], mesh.name, file_, at.line);
+    s_.meshes.push_back(std::move(mesh));
+  }
+
+  struct Wheel {
+    int id = 0, link = ground_link, line = 0;
+    Vec centre{};
+    bool turns = false;
+  };
+  Wheel& wheel_named(const XmlElement& at) {
+    const int id = whole(at, "id", -1);
+    const auto found = std::find_if(wheels_.begin(), wheels_.end(), [&](const Wheel& own) { return own.id == id; });
+    if (found == wheels_.end())
+      throw InputError({file_, at.line}, "a ratio is of link " + std::to_string(id) + ", which is no gear",
+                       "save the file in Linkage again");
+    return *found;
   }
 
   void fasten() {
@@ -358,6 +405,7 @@ class Reader {
   std::map<int, int> by_id_;
   std::vector<std::pair<int, int>> fastened_links_, fastened_connectors_;
   std::vector<std::string> drawings_, lone_;
+  std::vector<Wheel> wheels_;
 };
 
 }  // namespace

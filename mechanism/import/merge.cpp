@@ -77,6 +77,9 @@ void merge_links(Source& source, int into, int from) {
   for (SourceSpring& spring : source.springs)
     for (int& link : spring.links)
       if (link == from) link = into;
+  for (SourceMesh& mesh : source.meshes)
+    for (int& link : mesh.links)
+      if (link == from) link = into;
   source.links[static_cast<std::size_t>(from)].dropped = true;
 }
 
@@ -230,6 +233,17 @@ bool join_braced(Source& source, double size) {
   return false;
 }
 
+/// A wheel, or a link of a joint that follows or leads another one.
+bool is_meshed(const Source& source, int link) {
+  const auto joins = [&](std::size_t joint) {
+    return source.joints[joint].from == link || source.joints[joint].to == link;
+  };
+  return std::any_of(source.meshes.begin(), source.meshes.end(),
+                     [&](const SourceMesh& mesh) { return mesh.links[0] == link || mesh.links[1] == link; }) ||
+         std::any_of(source.followers.begin(), source.followers.end(),
+                     [&](const SourceFollower& own) { return joins(own.joint) || joins(own.leader); });
+}
+
 /// A link between two pins of one axis that has nothing else, such as a bush: its own turn changes nothing, and it is
 /// fixed to one of its neighbours. True where there was one.
 bool join_idle(Source& source, double size) {
@@ -250,7 +264,7 @@ bool join_idle(Source& source, double size) {
                        std::any_of(source.springs.begin(), source.springs.end(), [&](const SourceSpring& spring) {
                          return spring.links[0] == link || spring.links[1] == link;
                        });
-    if (!on_axis || borne || (a.actuated && b.actuated)) continue;
+    if (!on_axis || borne || is_meshed(source, link) || (a.actuated && b.actuated)) continue;
     const SourceJoint& gone = a.actuated ? b : a;
     const int into = gone.from == link ? gone.to : gone.from;
     source.note(link_words(source, link) + " turns idly between pins " + a.name + " and " + b.name +

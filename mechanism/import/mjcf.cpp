@@ -21,6 +21,14 @@ struct TreeJoint {
   std::string name, type;
   std::vector<int> joints;  ///< of the source
   double reference = 0;
+  double value = 0;  ///< in the posture, from that of the model
+};
+
+/// A joint that follows another one of the tree: value = constant + slope value of the leader.
+struct TreeFollower {
+  std::size_t joint = 0, leader = 0;
+  double constant = 0, slope = 1;
+  int line = 0;
 };
 
 struct Body {
@@ -51,6 +59,7 @@ class Reader : private MjcfSettings {
       if (!used_sites_.contains(name) && bodies_[static_cast<std::size_t>(site.first)].link != ground_link)
         s_.points.push_back({name, bodies_[static_cast<std::size_t>(site.first)].link, site.second.at, true});
     for (const XmlElement* own : root_.all("keyframe")) keyframe(*own);
+    for (const TreeFollower& own : followers_) follow(own);
     if (const auto left = unread(root_); !left.empty()) {
       std::string text;
       for (const std::string& word : left) text += (text.empty() ? "" : ", ") + word;
@@ -248,70 +257,6 @@ class Reader : private MjcfSettings {
     (void)at;
   }
 
-  /// Adds the mass of a shape, uniform. False where it has none that is known.
-  bool shape(const XmlElement& at, const Pose& pose, const std::string& childclass, SourceLink& link) const {
-    const std::string type = value(at, "type", childclass).value_or("sphere");
-    std::vector<double> size;
-    if (const auto text = value(at, "size", childclass)) size = numbers(at, "size", *text, 1, 3);
-    Pose frame = pose * pose_of(at, childclass);
-    double half = size.size() > 1 ? size[1] : 0;
-    if (const auto text = value(at, "fromto", childclass)) {
-      const auto v = numbers(at, "fromto", *text, 6, 6);
-      const Vec a = pose * Vec{v[0], v[1], v[2]}, b = pose * Vec{v[3], v[4], v[5]};
-      frame = {frame_along(unit(b - a)), 0.5 * (a + b)};
-      half = distance(a, b) / 2;
-    }
-    const double r = size.empty() ? 0 : std::abs(size[0]), pi = std::numbers::pi;
-    double volume = 0;
-    Tensor unit_inertia;  // of mass 1
-    const auto box = [](double x, double y, double z) {
-      return Tensor{(y * y + z * z) / 3, (x * x + z * z) / 3, (x * x + y * y) / 3, 0, 0, 0};
-    };
-    if (type == "sphere") {
-      volume = 4 * pi / 3 * r * r * r;
-      unit_inertia = {0.4 * r * r, 0.4 * r * r, 0.4 * r * r, 0, 0, 0};
-    } else if (type == "box" && (size.size() == 3 || (size.size() > 1 && at.has("fromto")))) {
-      const double y = size.size() == 3 ? size[1] : r, z = size.size() == 3 ? size[2] : half;
-      volume = 8 * r * y * z;
-      unit_inertia = box(r, y, z);
-    } else if (type == "ellipsoid" && size.size() == 3) {
-      volume = 4 * pi / 3 * size[0] * size[1] * size[2];
-      const auto q = [&](std::size_t i, std::size_t j) { return (size[i] * size[i] + size[j] * size[j]) / 5; };
-      unit_inertia = {q(1, 2), q(0, 2), q(0, 1), 0, 0, 0};
-    } else if (type == "cylinder" || type == "capsule") {
-      const double barrel = pi * r * r * 2 * half, across = r * r / 4 + half * half / 3;
-      volume = barrel;
-      unit_inertia = {across, across, r * r / 2, 0, 0, 0};
-      if (type == "capsule") {
-        // Two half balls at the ends: of mass m_s in all, with 0.4 r² each about its own centre, shifted by h and 3r/8.
-        const double ball = 4 * pi / 3 * r * r * r, whole = barrel + ball, m_b = whole > 0 ? barrel / whole : 0,
-                     m_s = 1 - m_b;
-        const double ends = 0.4 * r * r + half * half + 0.75 * half * r;
-        unit_inertia = {
-            m_b * across + m_s * ends, m_b * across + m_s * ends, m_b * r * r / 2 + m_s * 0.4 * r * r, 0, 0, 0};
-        volume = whole;
-      }
-    } else {
-      return false;
-    }
-    double mass = 0;
-    if (const auto text = value(at, "mass", childclass))
-      mass = numbers(at, "mass", *text, 1, 1).front();
-    else
-      mass = volume * numbers(at, "density", value(at, "density", childclass).value_or("1000"), 1, 1).front();
-    if (!(mass > 0)) return mass == 0;
-    Tensor own = turned(frame.turned, unit_inertia);
-    own = {mass * own.xx, mass * own.yy, mass * own.zz, mass * own.xy, mass * own.xz, mass * own.yz};
-    const Vec before = link.centre.value_or(frame.at);
-    const double sum = link.mass + mass;
-    const Vec centre = (1 / sum) * (link.mass * before + mass * frame.at);
-    link.inertia = link.inertia.value_or(Tensor{}) + point_inertia(link.mass, before - centre) + own +
-                   point_inertia(mass, frame.at - centre);
-    link.mass = sum;
-    link.centre = centre;
-    return true;
-  }
-
   // --- loops, motors, posture
 
   const Body& body_named(const XmlElement& at, const std::string& name) const {
@@ -331,12 +276,12 @@ class Reader : private MjcfSettings {
         child.take_whole();
         continue;
       }
+      if (child.name == "joint") {
+        joint_equality(child, name);
+        continue;
+      }
       if (child.name != "connect" && child.name != "weld")
-        refuse(
-            child, "equality " + name + " is a <" + child.name + ">",
-            child.name == "joint"
-                ? "joints that follow each other, as by gears, have no part here: close the loop that makes them follow"
-                : "use connect or weld");
+        refuse(child, "equality " + name + " is a <" + child.name + ">", "use connect, weld or joint");
       SourceJoint joint;
       joint.name = name;
       joint.line = child.line;
@@ -379,6 +324,51 @@ class Reader : private MjcfSettings {
     }
   }
 
+  std::size_t hinge_named(const XmlElement& at, const std::string& equality, const std::string& name) const {
+    const auto found = std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& own) { return own.name == name; });
+    if (found == tree_.end())
+      refuse(at, "equality " + equality + " names joint '" + name + "', which is not there", "correct the name");
+    if (s_.joints[static_cast<std::size_t>(found->joints.front())].kind != SourceKind::revolute)
+      refuse(at, "equality " + equality + " is of joint " + name + ", which is no hinge alone", "tie two hinges");
+    return static_cast<std::size_t>(found - tree_.begin());
+  }
+
+  /// A hinge whose angle is a constant, or one plus a multiple of that of another hinge.
+  void joint_equality(const XmlElement& at, const std::string& name) {
+    std::vector<double> c = numbers(at, "polycoef", at.get("polycoef", "0 1 0 0 0"), 1, 5);
+    c.resize(5);
+    const std::size_t joint = hinge_named(at, name, at.get("joint1", ""));
+    if (!at.has("joint2")) {
+      followers_.push_back({joint, joint, c[0], 0, at.line});
+      return;
+    }
+    if (c[2] != 0 || c[3] != 0 || c[4] != 0 || c[1] == 0)
+      refuse(at, "equality " + name + " is of two joints in no constant ratio (polycoef)",
+             "write 0 for the coefficients of second to fourth order");
+    followers_.push_back({joint, hinge_named(at, name, at.get("joint2", "")), c[0], c[1], at.line});
+  }
+
+  /// Turns what follows to where it has to be in the posture.
+  void follow(const TreeFollower& own) {
+    TreeJoint& joint = tree_[own.joint];
+    const auto index = static_cast<std::size_t>(joint.joints.front());
+    const double off = own.constant + own.slope * tree_[own.leader].value - joint.value;
+    if (std::abs(off) > 1e-12) {
+      const SourceJoint pin = s_.joints[index];
+      for (const int link : below(pin.to)) move_link(s_, link, pin.at(), {}, turn(pin.axis(), off));
+      joint.value += off;
+      s_.note("joint " + joint.name + " was turned by " + shortest_decimal(off, 1e-9) + " rad to where it follows");
+    }
+    if (own.joint == own.leader) {
+      SourceJoint& held = s_.joints[index];
+      held.kind = SourceKind::fixed;
+      held.actuated = false;
+      held.on_to.frame = held.on_from.frame;
+      return;
+    }
+    s_.followers.push_back({index, static_cast<std::size_t>(tree_[own.leader].joints.front()), own.slope, own.line});
+  }
+
   void actuators(const XmlElement& at) {
     std::vector<std::string> others;
     for (const XmlElement& child : at.children) {
@@ -413,7 +403,7 @@ class Reader : private MjcfSettings {
     const auto q = numbers(*key, "qpos", *text, wanted, wanted);
     s_.note("the posture is that of keyframe " + key->get("name", "1"));
     std::size_t at_q = 0;
-    for (const TreeJoint& own : tree_) {
+    for (TreeJoint& own : tree_) {
       const SourceJoint joint = s_.joints[static_cast<std::size_t>(own.joints.front())];
       Rotation r;
       Vec shift{};
@@ -423,6 +413,7 @@ class Reader : private MjcfSettings {
         at_q += 4;
       } else {
         const double value = q[at_q++] - own.reference;
+        own.value = value;
         if (own.type == "slide")
           shift = value * joint.axis();
         else
@@ -460,6 +451,7 @@ class Reader : private MjcfSettings {
   Source s_;
   std::vector<Body> bodies_;
   std::vector<TreeJoint> tree_;
+  std::vector<TreeFollower> followers_;
   std::map<std::string, std::pair<int, Pose>> sites_;
   std::set<std::string> used_sites_;
   std::vector<std::string> without_mass_;

@@ -113,4 +113,68 @@ Rotation MjcfSettings::orientation(const XmlElement& at, const std::string& chil
 Pose MjcfSettings::pose_of(const XmlElement& at, const std::string& childclass) const {
   return {orientation(at, childclass), vector(at, "pos", {}, childclass)};
 }
+bool MjcfSettings::shape(const XmlElement& at, const Pose& pose, const std::string& childclass,
+                         SourceLink& link) const {
+  const std::string type = value(at, "type", childclass).value_or("sphere");
+  std::vector<double> size;
+  if (const auto text = value(at, "size", childclass)) size = numbers(at, "size", *text, 1, 3);
+  Pose frame = pose * pose_of(at, childclass);
+  double half = size.size() > 1 ? size[1] : 0;
+  if (const auto text = value(at, "fromto", childclass)) {
+    const auto v = numbers(at, "fromto", *text, 6, 6);
+    const Vec a = pose * Vec{v[0], v[1], v[2]}, b = pose * Vec{v[3], v[4], v[5]};
+    frame = {frame_along(unit(b - a)), 0.5 * (a + b)};
+    half = distance(a, b) / 2;
+  }
+  const double r = size.empty() ? 0 : std::abs(size[0]), pi = std::numbers::pi;
+  double volume = 0;
+  Tensor unit_inertia;  // of mass 1
+  const auto box = [](double x, double y, double z) {
+    return Tensor{(y * y + z * z) / 3, (x * x + z * z) / 3, (x * x + y * y) / 3, 0, 0, 0};
+  };
+  if (type == "sphere") {
+    volume = 4 * pi / 3 * r * r * r;
+    unit_inertia = {0.4 * r * r, 0.4 * r * r, 0.4 * r * r, 0, 0, 0};
+  } else if (type == "box" && (size.size() == 3 || (size.size() > 1 && at.has("fromto")))) {
+    const double y = size.size() == 3 ? size[1] : r, z = size.size() == 3 ? size[2] : half;
+    volume = 8 * r * y * z;
+    unit_inertia = box(r, y, z);
+  } else if (type == "ellipsoid" && size.size() == 3) {
+    volume = 4 * pi / 3 * size[0] * size[1] * size[2];
+    const auto q = [&](std::size_t i, std::size_t j) { return (size[i] * size[i] + size[j] * size[j]) / 5; };
+    unit_inertia = {q(1, 2), q(0, 2), q(0, 1), 0, 0, 0};
+  } else if (type == "cylinder" || type == "capsule") {
+    const double barrel = pi * r * r * 2 * half, across = r * r / 4 + half * half / 3;
+    volume = barrel;
+    unit_inertia = {across, across, r * r / 2, 0, 0, 0};
+    if (type == "capsule") {
+      // Two half balls at the ends: of mass m_s in all, with 0.4 r² each about its own centre, shifted by h and 3r/8.
+      const double ball = 4 * pi / 3 * r * r * r, whole = barrel + ball, m_b = whole > 0 ? barrel / whole : 0,
+                   m_s = 1 - m_b;
+      const double ends = 0.4 * r * r + half * half + 0.75 * half * r;
+      unit_inertia = {
+          m_b * across + m_s * ends, m_b * across + m_s * ends, m_b * r * r / 2 + m_s * 0.4 * r * r, 0, 0, 0};
+      volume = whole;
+    }
+  } else {
+    return false;
+  }
+  double mass = 0;
+  if (const auto text = value(at, "mass", childclass))
+    mass = numbers(at, "mass", *text, 1, 1).front();
+  else
+    mass = volume * numbers(at, "density", value(at, "density", childclass).value_or("1000"), 1, 1).front();
+  if (!(mass > 0)) return mass == 0;
+  Tensor own = turned(frame.turned, unit_inertia);
+  own = {mass * own.xx, mass * own.yy, mass * own.zz, mass * own.xy, mass * own.xz, mass * own.yz};
+  const Vec before = link.centre.value_or(frame.at);
+  const double sum = link.mass + mass;
+  const Vec centre = (1 / sum) * (link.mass * before + mass * frame.at);
+  link.inertia = link.inertia.value_or(Tensor{}) + point_inertia(link.mass, before - centre) + own +
+                 point_inertia(mass, frame.at - centre);
+  link.mass = sum;
+  link.centre = centre;
+  return true;
+}
+
 }  // namespace clearloci::mechanism::imports

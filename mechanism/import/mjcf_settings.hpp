@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/import/geometry.hpp"
+#include "mechanism/import/source.hpp"
 #include "mechanism/import/xml.hpp"
 
 namespace clearloci::mechanism::imports {
@@ -33,6 +33,9 @@ class MjcfSettings {
   double angle(double v) const { return degrees_ ? v * std::numbers::pi / 180 : v; }
   Rotation orientation(const XmlElement& at, const std::string& childclass) const;
   Pose pose_of(const XmlElement& at, const std::string& childclass) const;
+
+  /// Adds the mass of a shape, uniform. False where it has none that is known.
+  bool shape(const XmlElement& at, const Pose& pose, const std::string& childclass, SourceLink& link) const;
 
   std::string file_;
   bool degrees_ = true, limits_by_range_ = true;

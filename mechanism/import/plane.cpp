@@ -127,6 +127,11 @@ void go_planar(Source& source) {
       at = back * at;
       at[2] = 0;
     }
+  for (SourceMesh& mesh : source.meshes)
+    for (Vec& at : mesh.at) {
+      at = back * at;
+      at[2] = 0;
+    }
   if (source.gravity) {
     source.gravity = back * *source.gravity;
     across = across || std::abs((*source.gravity)[2]) > 1e-9 * norm(*source.gravity);
@@ -152,7 +157,7 @@ void choose_motors(Source& source) {
   for (int turn = 0; turn < 3; ++turn)
     for (SourceJoint& joint : source.joints) {
       if (held.rank() >= columns) break;
-      const bool may = joint.kind == SourceKind::revolute || joint.slides();
+      const bool may = joint.kind == SourceKind::revolute || (joint.slides() && joint.kind != SourceKind::slot);
       if (joint.dropped || joint.actuated || !may) continue;
       if (order(joint) != turn) continue;
       if (!held.add(motor_row(source, joint))) continue;

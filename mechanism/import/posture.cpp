@@ -48,7 +48,13 @@ class Constraints {
     const bool meets =
         j.kind == Kind::revolute || j.kind == Kind::spherical || j.kind == Kind::universal || j.kind == Kind::fixed;
     if (meets) add_meeting(j, values, rows);
-    if (j.kind == Kind::prismatic || j.kind == Kind::cylindrical) add_line(j, values, rows);
+    if (j.slides()) add_line(j, values, rows);
+    if (j.kind == Kind::slot) {
+      // It is in the plane, and one of x and y across that.
+      const bool x = std::abs(j.on_from.frame.x[2]) > std::abs(j.on_from.frame.y[2]);
+      const auto normal = [&](const JointSide& side) { return x ? &side.frame.x : &side.frame.y; };
+      add_parallel(j, {normal(j.on_from)}, {normal(j.on_to)}, values, rows);
+    }
     if (j.kind == Kind::revolute || j.kind == Kind::cylindrical)
       add_parallel(j, {&j.on_from.frame.z}, {&j.on_to.frame.z}, values, rows);
     if (j.kind == Kind::prismatic || j.kind == Kind::fixed)
@@ -292,6 +298,9 @@ void hang(Source& source, const SourceJoint& joint, bool to_is_placed, double si
     case SourceKind::cylindrical:
       target = turn(target.z, angle) * target;
       break;
+    case SourceKind::slot:
+      target = turn({0, 0, 1}, angle) * target;
+      break;
     case SourceKind::prismatic:
     case SourceKind::fixed:
       break;
@@ -381,6 +390,9 @@ void move_link(Source& source, int link, const Vec& centre, const Vec& shift, co
   for (SourceSpring& spring : source.springs)
     for (std::size_t i = 0; i < 2; ++i)
       if (spring.links[i] == link) place_of(spring.at[i]);
+  for (SourceMesh& mesh : source.meshes)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (mesh.links[i] == link) place_of(mesh.at[i]);
   SourceLink& own = source.links[static_cast<std::size_t>(link)];
   if (own.centre) place_of(*own.centre);
   if (own.inertia) own.inertia = imports::turned(r, *own.inertia);
@@ -410,6 +422,20 @@ Rows constraint_rows(const Source& source) {
   Rows rows;
   for (const SourceJoint& joint : source.joints)
     if (!joint.dropped) constraints.add(joint, values, &rows);
+  for (const SourceMesh& mesh : source.meshes) {
+    const auto carrier = carrier_of(source, mesh);
+    if (!carrier) continue;
+    const double first = static_cast<double>(mesh.teeth[0]),
+                 second = (mesh.belt ? -1 : 1) * static_cast<double>(mesh.teeth[1]);
+    std::vector<double> row(constraints.columns());
+    const auto add = [&](int link, double weight) {
+      if (link != ground_link) row[freedoms * static_cast<std::size_t>(link) + freedoms - 1] += weight;
+    };
+    add(mesh.links[0], first);
+    add(mesh.links[1], second);
+    add(*carrier, -first - second);
+    rows.push_back(std::move(row));
+  }
   return rows;
 }
 
@@ -421,8 +447,7 @@ std::vector<double> motor_row(const Source& source, const SourceJoint& joint) {
     const int link = from ? joint.from : joint.to;
     if (link == ground_link) continue;
     for (std::size_t f = 0; f < freedoms; ++f) {
-      const bool slides = joint.kind == SourceKind::prismatic || joint.kind == SourceKind::cylindrical;
-      const double along = slides ? dot(z, constraints.moved(link, joint.at(), f)) : f < 3 ? 0 : z[f - 3];
+      const double along = joint.slides() ? dot(z, constraints.moved(link, joint.at(), f)) : f < 3 ? 0 : z[f - 3];
       row[freedoms * static_cast<std::size_t>(link) + f] += from ? -along : along;
     }
   }

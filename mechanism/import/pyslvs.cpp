@@ -178,11 +178,9 @@ class Reader {
       for (std::size_t i = 1; i < links.size(); ++i) add(own, SourceKind::prismatic, base, links[i], at, axis);
       return;
     }
-    const int block = static_cast<int>(s_.links.size());
-    s_.links.push_back({"block_" + own, 0, 0, {}, {}, false, true});
-    for (std::size_t i = 1; i < links.size(); ++i)
-      add(own + "_pin", SourceKind::revolute, links[i], block, at, {0, 0, 1}).point = own;
-    add(own + "_slot", SourceKind::prismatic, base, block, at, axis);
+    for (std::size_t i = 2; i < links.size(); ++i)
+      add(own + "_pin", SourceKind::revolute, links[1], links[i], at, {0, 0, 1}).point = own;
+    add(own + "_slot", SourceKind::slot, base, links[1], at, axis).point = own;
     if (links.size() > 2) shared_.push_back(own);
   }
 

@@ -33,7 +33,8 @@ class Reader {
     for (const XmlElement* own : model.all("link")) link(*own);
     if (s_.links.empty())
       throw InputError({file_, model.line}, "the model has no links", "name an SDF file of a mechanism");
-    for (const XmlElement* own : model.all("joint")) joint(*own);
+    for (const XmlElement* own : model.all("joint")) own->get("type", "") == "gearbox" ? gearbox(*own) : joint(*own);
+    couple();
     ground();
     if (const auto left = unread(root_); !left.empty()) {
       std::string text;
@@ -235,15 +236,94 @@ class Reader {
     return pose.turned * v;
   }
 
-  void refuse_mimic(const XmlElement& at, const std::string& joint) const {
+  double number_in(const XmlElement& at, const char* child, double otherwise) const {
+    const XmlElement* own = at.first(child);
+    return own == nullptr ? otherwise : number(*own);
+  }
+
+  /// value = multiplier (value of the leader - reference) + offset, by which joints are placed at 0.
+  void mimic(const XmlElement& at, const std::string& joint) {
     std::vector<const XmlElement*> places = {&at};
-    for (const char* axis : {"axis", "axis2"})
-      if (const XmlElement* own = at.first(axis)) places.push_back(own);
+    if (const XmlElement* own = at.first("axis")) places.push_back(own);
     for (const XmlElement* place : places)
+      for (const char* word : {"mimic", "drake:mimic"}) {
+        const XmlElement* own = place->first(word);
+        if (own == nullptr) continue;
+        const auto attribute = [&](const char* name, double otherwise) {
+          const auto text = own->get(name);
+          return text ? numbers_of(*text, *own, name, file_, 1, 1).front() : otherwise;
+        };
+        (void)own->get("axis");
+        const double multiplier = attribute("gear_ratio", number_in(*own, "multiplier", 1)),
+                     offset = attribute("offset", number_in(*own, "offset", 0)) -
+                              multiplier * number_in(*own, "reference", 0);
+        if (multiplier == 0 || std::abs(offset) > 1e-12)
+          refuse(*own, "joint " + joint + " follows another one (mimic) by 0, or is not where it follows with all at 0",
+                 "place its links where they follow, with offset and reference 0");
+        followers_.push_back({own, s_.joints.size(), own->get("joint", ""), multiplier});
+      }
+    if (const XmlElement* second = at.first("axis2"))
       for (const char* word : {"mimic", "drake:mimic"})
-        if (const XmlElement* own = place->first(word))
-          refuse(*own, "joint " + joint + " follows another one (mimic), as by a gear",
-                 "close the loop that makes it follow, or fix the joint");
+        if (const XmlElement* own = second->first(word))
+          refuse(*own, "the second axis of joint " + joint + " follows another joint (mimic)", "take it out");
+  }
+
+  struct NamedFollower {
+    const XmlElement* at;
+    std::size_t joint;
+    std::string leader;
+    double multiplier;
+  };
+  struct Gearbox {
+    const XmlElement* at;
+    int parent, child, body;
+    double ratio;
+    Vec first, second;  ///< axes of parent and child
+  };
+
+  void gearbox(const XmlElement& at) {
+    const std::string name = at.get("name", "");
+    const Pose pose = pose_of(name, at);
+    const XmlElement *axis = at.first("axis"), *second = at.first("axis2");
+    const std::string body = word(at, "gearbox_reference_body");
+    if (axis == nullptr || body.empty())
+      refuse(at, "gearbox " + name + " has no <axis> or no <gearbox_reference_body>", "write both");
+    const Vec first = axis_of(*axis, pose);
+    const std::string link = link_of(body, at);
+    gearboxes_.push_back({&at, side_of(at, "parent"), side_of(at, "child"),
+                          link == "world" ? ground_link : index_.at(link), number_in(at, "gearbox_ratio", 1), first,
+                          second == nullptr ? first : axis_of(*second, pose)});
+  }
+
+  /// The pin of a wheel on the reference body, and whether it turns as the axis says.
+  std::pair<std::size_t, double> pin_of(const Gearbox& own, int wheel, const Vec& axis) const {
+    for (std::size_t j = 0; j < s_.joints.size(); ++j) {
+      const SourceJoint& joint = s_.joints[j];
+      const bool forward = joint.from == own.body && joint.to == wheel;
+      if (joint.kind != SourceKind::revolute || (!forward && (joint.to != own.body || joint.from != wheel))) continue;
+      return {j, (forward ? 1.0 : -1.0) * (dot(joint.axis(), axis) < 0 ? -1 : 1)};
+    }
+    refuse(*own.at,
+           "gearbox " + own.at->get("name", "") + " joins " + link_words(s_, wheel) +
+               ", which has no revolute joint with " + link_words(s_, own.body) + ", its reference body",
+           "add that joint");
+  }
+
+  void couple() {
+    for (const NamedFollower& own : followers_) {
+      const auto leader = std::find_if(s_.joints.begin(), s_.joints.end(),
+                                       [&](const SourceJoint& joint) { return joint.name == own.leader; });
+      if (leader == s_.joints.end())
+        refuse(*own.at, "<mimic> names joint '" + own.leader + "', which is not there", "correct the name");
+      s_.followers.push_back(
+          {own.joint, static_cast<std::size_t>(leader - s_.joints.begin()), own.multiplier, own.at->line});
+    }
+    for (const Gearbox& own : gearboxes_) {
+      if (own.ratio == 0) refuse(*own.at, "gearbox " + own.at->get("name", "") + " has a ratio of 0", "correct it");
+      const auto [leader, sense] = pin_of(own, own.parent, own.first);
+      const auto [follower, other] = pin_of(own, own.child, own.second);
+      s_.followers.push_back({follower, leader, -own.ratio * sense * other, own.at->line});
+    }
   }
 
   void joint(const XmlElement& at) {
@@ -259,7 +339,7 @@ class Reader {
       refuse(at, "joint " + own.name + " is of type '" + type + "'",
              "use revolute, continuous, prismatic, ball, universal or fixed");
     own.kind = kind->second;
-    refuse_mimic(at, own.name);
+    mimic(at, own.name);
     own.from = side_of(at, "parent");
     own.to = side_of(at, "child");
     if (own.from == own.to) refuse(at, "joint " + own.name + " joins a link to itself", "name two links");
@@ -320,6 +400,8 @@ class Reader {
   std::map<std::string, Entity> entities_;
   std::map<std::string, int> index_;
   std::set<std::string> motors_;
+  std::vector<NamedFollower> followers_;
+  std::vector<Gearbox> gearboxes_;
 };
 
 }  // namespace

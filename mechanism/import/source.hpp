@@ -33,7 +33,7 @@ struct SourcePoint {
   bool traced = false;  ///< the source draws its path
 };
 
-enum class SourceKind { revolute, prismatic, spherical, universal, cylindrical, fixed };
+enum class SourceKind { revolute, prismatic, spherical, universal, cylindrical, fixed, slot };
 
 /// A joint as one of its links has it: z of the frame is the axis.
 struct JointSide {
@@ -54,11 +54,13 @@ struct SourceJoint {
   bool range_is_distance = false;              ///< of a guide: the range is that of the way between its two sides
   bool either_way = false;                     ///< a leg between balls: no sense of its axis is meant
   std::optional<double> speed;                 ///< rad/s or m/s
-  std::optional<std::pair<Vec, Vec>> along;    ///< of a prismatic joint: two places of `from` on its guide
+  std::optional<std::pair<Vec, Vec>> along;    ///< of a guide or slot: two places of `from` on it
   std::optional<double> half_length;           ///< of a guide
   bool dropped = false;
 
-  bool slides() const { return kind == SourceKind::prismatic || kind == SourceKind::cylindrical; }
+  bool slides() const {
+    return kind == SourceKind::prismatic || kind == SourceKind::cylindrical || kind == SourceKind::slot;
+  }
   /// Of a guide the place on what slides: the sides of all others meet.
   const Vec& at() const { return slides() ? on_to.at : on_from.at; }
   const Vec& axis() const { return on_from.frame.z; }
@@ -81,6 +83,25 @@ struct SourceSpring {
   double stiffness = 0, free_length = 0;
 };
 
+/// Two wheels, each with its centre, in a plane; or two pulleys, whose radii have the ratio of `teeth`. From what has
+/// both centres they turn by
+///     teeth[0] turn[0] + teeth[1] turn[1] = 0,   teeth[0] turn[0] = teeth[1] turn[1] of pulleys
+struct SourceMesh {
+  std::string name;
+  int line = 0;
+  std::array<int, 2> links{ground_link, ground_link};
+  std::array<Vec, 2> at{};
+  std::array<long, 2> teeth{1, 1};  ///< the second of a ring is negative
+  bool belt = false;
+};
+
+/// A joint whose angle is `ratio` times that of another one, but for a number.
+struct SourceFollower {
+  std::size_t joint = 0, leader = 0;  ///< of Source::joints
+  double ratio = 1;
+  int line = 0;
+};
+
 struct Source {
   std::string format;  ///< "PMKS+"
   std::string name;
@@ -93,6 +114,8 @@ struct Source {
   std::vector<SourceJoint> joints;
   std::vector<SourceLoad> loads;
   std::vector<SourceSpring> springs;
+  std::vector<SourceMesh> meshes;
+  std::vector<SourceFollower> followers;
   std::optional<Vec> gravity;
   std::vector<std::string> notes;  ///< what was interpreted, and what was left out
 

@@ -25,6 +25,8 @@ struct Branch {
   Vec axis{1, 0, 0};
   std::optional<std::array<double, 2>> limits;
   bool motor = false;
+  std::string leader = {};  ///< of a joint that follows: value = multiplier value of the leader + offset
+  double multiplier = 1, offset = 0;
 };
 
 class Reader {
@@ -122,9 +124,11 @@ class Reader {
     if (std::find(types.begin(), types.end(), own.type) == types.end())
       throw InputError({given_.file, at.line}, "joint " + own.name + " is of type '" + own.type + "'",
                        "use revolute, continuous, prismatic or fixed");
-    if (at.first("mimic") != nullptr)
-      throw InputError({given_.file, at.line}, "joint " + own.name + " follows another one (mimic), as by a gear",
-                       "close the loop that makes it follow, or fix the joint");
+    if (const XmlElement* mimic = at.first("mimic"); mimic != nullptr && own.type != "fixed") {
+      own.leader = mimic->get("joint", "");
+      own.multiplier = number(*mimic, "multiplier", 1);
+      own.offset = number(*mimic, "offset", 0);
+    }
     const XmlElement *parent = at.first("parent"), *child = at.first("child");
     if (parent == nullptr || child == nullptr)
       throw InputError({given_.file, at.line}, "joint " + own.name + " has no parent or no child", "name both links");
@@ -158,6 +162,26 @@ class Reader {
     }
   }
 
+  static bool turns(const Branch& own) { return own.type == "revolute" || own.type == "continuous"; }
+
+  std::size_t branch_named(const std::string& name, const Branch& follower) const {
+    const auto found =
+        std::find_if(branches_.begin(), branches_.end(), [&](const Branch& own) { return own.name == name; });
+    if (found == branches_.end() || found->type == "fixed")
+      throw InputError({given_.file, follower.line},
+                       "joint " + follower.name + " follows joint '" + name + "' (mimic), which is no joint that moves",
+                       "correct the name");
+    return static_cast<std::size_t>(found - branches_.begin());
+  }
+
+  /// In the posture: 0 but for what follows with an offset.
+  double value_of(const Branch& own, std::size_t depth = 0) const {
+    if (own.leader.empty()) return 0;
+    if (depth > branches_.size())
+      throw InputError({given_.file, own.line}, "joint " + own.name + " follows itself (mimic)", "name another joint");
+    return own.multiplier * value_of(branches_[branch_named(own.leader, own)], depth + 1) + own.offset;
+  }
+
   void place_links() {
     std::vector<bool> is_child(s_.links.size());
     for (const Branch& own : branches_) {
@@ -187,6 +211,8 @@ class Reader {
                    child = static_cast<std::size_t>(index_.at(own.child));
         if (!placed[parent] || placed[child]) continue;
         poses_[child] = poses_[parent] * own.origin;
+        if (const double value = value_of(own); value != 0 && turns(own))
+          poses_[child] = poses_[child] * Pose{turn(unit(own.axis), value), {}};
         placed[child] = more = true;
       }
     }
@@ -216,8 +242,17 @@ class Reader {
       SourceJoint& joint = add_joint(s_, own.name, own.line, kinds.at(own.type), source_link(own.parent),
                                      source_link(own.child), pose.at, pose.turned * own.axis);
       joint.range = own.limits;
+      if (const double value = value_of(own); joint.range && value != 0)
+        joint.range = std::array<double, 2>{(*joint.range)[0] - value, (*joint.range)[1] - value};
       joint.actuated = own.motor && joint.kind != SourceKind::fixed;
     }
+    for (std::size_t j = 0; j < branches_.size(); ++j)
+      if (const Branch& own = branches_[j]; !own.leader.empty()) {
+        if (own.multiplier == 0)
+          throw InputError({given_.file, own.line}, "joint " + own.name + " follows another one by 0 (mimic)",
+                           "fix the joint");
+        s_.followers.push_back({j, branch_named(own.leader, own), own.multiplier, own.line});
+      }
     s_.links[static_cast<std::size_t>(base_)].dropped = true;
   }
 

@@ -28,7 +28,7 @@ class Writer : private Drawing {
     name_links();
     make_places();
     put_on_guides();
-    const std::string links = links_text(), joints = joints_text();
+    const std::string links = links_text(), joints = joints_text() + meshes_text();
     const std::string loads = loads_text(), springs = springs_text();
     const std::string workspace = workspace_text(), effector = effector_text();
     const std::string default_load = loads.empty() && springs.empty() && !has_weight() ? default_load_text() : "";
@@ -159,19 +159,53 @@ class Writer : private Drawing {
       guide_without = guide_without || s_.planar;
       return "";
     }
+    if (joint.kind == SourceKind::slot) return ", clearance: {gap: " + clearance_ + "}";
     return ", clearance: {radial: " + clearance_ + "}";
+  }
+
+  /// Gears and belts: of what the source does not say, teeth of usual shape and a tension.
+  std::string meshes_text() {
+    std::string text;
+    std::vector<std::string> gears, belts;
+    for (const SourceMesh& mesh : s_.meshes) {
+      // The pitch point of a gear has the name of the joint.
+      std::string name = plain_name(mesh.name, "W");
+      while (used_joint_names_.contains(name) || point_names_.contains(name)) name += "_mesh";
+      used_joint_names_.insert(name);
+      point_names_.insert(name);
+      const auto pair = [](const std::string& a, const std::string& b) { return "[" + a + ", " + b + "]"; };
+      const auto centre = [&](std::size_t i) { return places_[*found(mesh.links[i], mesh.at[i])].name; };
+      text += "  " + name + ": {" + (mesh.belt ? "belt: " : "gear: ") +
+              pair(link_name(mesh.links[0]), link_name(mesh.links[1])) + ", centres: " + pair(centre(0), centre(1));
+      if (mesh.belt) {
+        // Whole multiples of one decimal, so that the ratio is exact.
+        const core::Rational one = core::rational_from_decimal(
+            number(0.5 * distance(mesh.at[0], mesh.at[1]) / static_cast<double>(mesh.teeth[0] + mesh.teeth[1])));
+        text += ", radii: " + pair(exact_decimal(mesh.teeth[0] * one), exact_decimal(mesh.teeth[1] * one)) +
+                ", tension: 100 N}\n";
+      } else {
+        text += ", teeth: " + pair(std::to_string(mesh.teeth[0]), std::to_string(mesh.teeth[1])) + "}\n";
+      }
+      (mesh.belt ? belts : gears).push_back(name);
+    }
+    if (!gears.empty())
+      s_.note("of the wheels of " + enumerated(gears) +
+              " the source says the ratio alone: teeth of 20 deg and their numbers were chosen; replace them by yours");
+    if (!belts.empty())
+      s_.note("of the belts " + enumerated(belts) +
+              " the source says the ratio alone: radii and a tension of 100 N were chosen; replace them by yours");
+    return text;
   }
 
   std::string joints_text() {
     std::string text;
-    std::set<std::string> used;
+    std::set<std::string>& used = used_joint_names_;
     std::vector<std::string> chosen;
     bool guide_without = false;
-    static const std::map<SourceKind, std::string> types = {{SourceKind::revolute, "revolute"},
-                                                            {SourceKind::prismatic, "prismatic"},
-                                                            {SourceKind::spherical, "spherical"},
-                                                            {SourceKind::universal, "universal"},
-                                                            {SourceKind::cylindrical, "cylindrical"}};
+    static const std::map<SourceKind, std::string> types = {
+        {SourceKind::revolute, "revolute"},       {SourceKind::prismatic, "prismatic"},
+        {SourceKind::spherical, "spherical"},     {SourceKind::universal, "universal"},
+        {SourceKind::cylindrical, "cylindrical"}, {SourceKind::slot, "slot"}};
     joint_names_.assign(s_.joints.size(), "");
     axes_.assign(s_.joints.size(), Vec{});
     for (std::size_t j = 0; j < s_.joints.size(); ++j) {
@@ -237,11 +271,14 @@ class Writer : private Drawing {
     const SourceJoint& joint = s_.joints[j];
     const std::string name = unused("theta" + number_of_turn, point_names_);
     const bool reversed = joint.to == ground_link;
-    const int link = reversed ? joint.from : joint.to, base = reversed ? ground_link : joint.from;
+    const int base = reversed ? ground_link : joint.from;
+    int link = reversed ? joint.from : joint.to;
+    double turned = 1;
+    if (base == ground_link && s_.planar) slow_down(link, turned);
     const double start = s_.planar ? direction_of(link) - direction_of(base) : 0;
     std::string low = s_.planar ? "0" : "-180 deg", high = s_.planar ? "360 deg" : "180 deg";
     if (joint.range) {
-      const double sign = reversed ? -1 : 1;
+      const double sign = (reversed ? -1 : 1) * turned;
       const double from = start + std::min(sign * (*joint.range)[0], sign * (*joint.range)[1]),
                    to = start + std::max(sign * (*joint.range)[0], sign * (*joint.range)[1]);
       if (to - from < 2 * std::numbers::pi) {
@@ -251,6 +288,47 @@ class Writer : private Drawing {
     }
     const std::string of = base == ground_link ? link_name(link) : "[" + link_name(base) + ", " + link_name(link) + "]";
     return "  " + name + ": {angle: [" + low + ", " + high + "], of: " + of + "}\n";
+  }
+
+  /// Turns of wheels on the ground, by that of one of them.
+  std::map<int, double> turns_with(int link) const {
+    std::map<int, double> turns = {{link, 1}};
+    for (bool more = true; more;) {
+      more = false;
+      for (const SourceMesh& mesh : s_.meshes) {
+        if (carrier_of(s_, mesh) != ground_link) continue;
+        const double forward =
+            (mesh.belt ? 1 : -1) * static_cast<double>(mesh.teeth[0]) / static_cast<double>(mesh.teeth[1]);
+        for (const std::size_t i : {0U, 1U}) {
+          const auto known = turns.find(mesh.links[i]);
+          if (known == turns.end() || turns.contains(mesh.links[1 - i])) continue;
+          turns[mesh.links[1 - i]] = known->second * (i == 0 ? forward : 1 / forward);
+          more = true;
+        }
+      }
+    }
+    return turns;
+  }
+
+  /// Only whole multiples of an angle are polynomials in its cosine and sine: of wheels that turn with each other the
+  /// coordinate is the angle of one by which all that have a direction turn wholly.
+  void slow_down(int& link, double& turned) {
+    const std::map<int, double> turns = turns_with(link);
+    const auto has_direction = [&](int own) {
+      const auto points = order_.find(own);
+      return points != order_.end() && points->second.size() > 1;
+    };
+    const auto turns_all = [&](const std::pair<const int, double>& one) {
+      return has_direction(one.first) && std::all_of(turns.begin(), turns.end(), [&](const auto& other) {
+               const double ratio = other.second / one.second;
+               return !has_direction(other.first) || std::abs(ratio - std::round(ratio)) < 1e-9;
+             });
+    };
+    if (turns_all({link, 1.0})) return;
+    const auto slow = std::find_if(turns.begin(), turns.end(), turns_all);
+    if (slow == turns.end()) return;
+    link = slow->first;
+    turned = slow->second;
   }
 
   std::string stroke_text(std::size_t j, const std::string& number_of_stroke) {
@@ -278,10 +356,13 @@ class Writer : private Drawing {
 
   bool is_still(PlaceIndex p) const { return places_[p].links.contains(ground_link); }
 
+  /// By a motor, or by teeth.
   bool is_driven(int link) const {
-    return std::any_of(s_.joints.begin(), s_.joints.end(), [&](const SourceJoint& joint) {
-      return !joint.dropped && joint.actuated && (joint.from == link || joint.to == link);
-    });
+    const auto meshes = [&](const SourceMesh& mesh) { return mesh.links[0] == link || mesh.links[1] == link; };
+    return std::any_of(s_.meshes.begin(), s_.meshes.end(), meshes) ||
+           std::any_of(s_.joints.begin(), s_.joints.end(), [&](const SourceJoint& joint) {
+             return !joint.dropped && joint.actuated && (joint.from == link || joint.to == link);
+           });
   }
   bool has_driven(PlaceIndex p) const {
     const auto& links = places_[p].links;
@@ -373,6 +454,7 @@ class Writer : private Drawing {
 
   std::string file_, clearance_;
   std::vector<std::string> joint_names_;
+  std::set<std::string> used_joint_names_;
   std::vector<Vec> axes_;  ///< as written
   std::pair<int, PlaceIndex> effector_{ground_link, 0};
 };

@@ -70,7 +70,7 @@ class Documented(InOwnFolder):
     def test_drawings_are_constructed(self):
         text = page("drawn-form.md")
         drawings = re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-        self.assertEqual(len(drawings), 6)
+        self.assertEqual(len(drawings), 8)
         for number, drawing in enumerate(drawings):
             with self.subTest(drawing.splitlines()[0]):
                 model = self.folder / f"drawing{number}.yaml"

@@ -66,8 +66,8 @@ class Imports(InOwnFolder):
 
     def test_what_cannot_be_read_is_one_line(self):
         for name, named in [
-            ("linkage/gears.linkage2", "gear"), ("linkage/curved_slot.linkage2", "slot"), ("mjcf/free_body.xml", "freejoint"),
-            ("mjcf/joint_equality.xml", "<joint>"), ("urdf/mimic.urdf", "mimic"), ("sdf/screw.sdf", "screw"),
+            ("linkage/curved_slot.linkage2", "slot"), ("mjcf/free_body.xml", "freejoint"),
+            ("mjcf/curved_equality.xml", "polycoef"), ("urdf/mimic_across.urdf", "follows"), ("sdf/screw.sdf", "screw"),
         ]:
             for command in ("import", "loci", "equations"):
                 refused = self.run_program(command, FILES / name, status=2)

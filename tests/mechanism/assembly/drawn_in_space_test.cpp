@@ -198,5 +198,34 @@ TEST(DrawnInSpace, PlacesAThirdPointAboutAnAxis) {
   }
 }
 
+/// Two rods of constant lengths from the ground, and a leg whose motor says how long it is: of a point at given
+/// distances from three others, of which two keep theirs.
+TEST(DrawnInSpace, PutsAPointWhereThreeSpheresMeet) {
+  const std::string text =
+      "format: 1\nspace: spatial\nunits: {length: mm}\nworkspace: {s: {stroke: [150, 260], of: S}}\n"
+      "drawn: {A: [0, 0, 0], B: [200, 0, 0], C: [80, 300, 20], P: [90, 120, 60]}\n"
+      "links:\n  a: {points: [A, P]}\n  b: {points: [B, P]}\n  cylinder: {points: [C]}\n  rod: {points: [P]}\n"
+      "joints:\n  A: {universal: [ground, a], at: A, axes: [[0, 0, 1], 'cross([0, 0, 1], P - A)']}\n  B: {spherical: "
+      "[ground, b], at: B}\n"
+      "  Q: {spherical: [a, b], at: P}\n  C: {universal: [ground, cylinder], at: C, axes: [[1, 0, 0], 'cross([1, 0, "
+      "0], P - C)']}\n"
+      "  S: {prismatic: [cylinder, rod], at: P, axis: [C, P], actuated: true}\n  R: {spherical: [a, rod], at: P}\n"
+      "end_effector: {link: a, at: P}\nloads: [{link: a, at: P, force: [0, 0, -10]}]\n";
+  const Mechanism m = parse_mechanism(text, "drawing.yaml");
+  const auto written = constructed_text(text, "drawing.yaml").text;
+  EXPECT_NE(written.find("P: {dyad: [A_foot, C]"), std::string::npos) << written;
+  const double drawn = std::hypot(10, 180, 40);
+  const auto start = places_at(m, {drawn / 1000});
+  ASSERT_TRUE(start);
+  EXPECT_LT(apart(start->at("P"), {0.09, 0.12, 0.06}), 1e-12);
+  for (const double s : {0.17, 0.18, 0.2, 0.22}) {
+    const auto at = places_at(m, {s});
+    ASSERT_TRUE(at) << s;
+    EXPECT_NEAR(apart(at->at("P"), at->at("A")), std::hypot(0.09, 0.12, 0.06), 1e-12);
+    EXPECT_NEAR(apart(at->at("P"), at->at("B")), std::hypot(0.11, 0.12, 0.06), 1e-12);
+    EXPECT_NEAR(apart(at->at("P"), at->at("C")), s, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace clearloci::mechanism

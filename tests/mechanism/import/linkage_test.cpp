@@ -35,16 +35,23 @@ TEST(Linkage, TakesADrawnConnectorForTheEndEffector) {
   EXPECT_NE(own.text.find("end_effector: {link: L1, at: C4}"), std::string::npos);
 }
 
-TEST(Linkage, PutsASliderOnABlock) {
+TEST(Linkage, PutsASliderInASlot) {
   const Imported own = imported("linkage/slot.linkage2");
-  EXPECT_EQ(section(own, "joints").at("C1_slot"), "{prismatic: [L1, block_C1], at: C1, axis: [C2, C3]}");
-  EXPECT_EQ(section(own, "links").at("block_C1"), "{points: [C1]}");
+  EXPECT_EQ(section(own, "joints").at("C1_slot"),
+            "{slot: [L1, L0], at: C1, axis: [C2, C3], clearance: {gap: 20e-6 m}}");
+  EXPECT_EQ(section(own, "links").size(), 2U);
+}
+
+TEST(Linkage, FindsThePinOfASlotOnTheGround) {
+  const Imported own = imported("linkage/pin_stands_in_a_slot.linkage2");
+  EXPECT_EQ(section(own, "joints").at("C3_slot").substr(0, 24), "{slot: [L1, ground], at:");
 }
 
 /// A link between two anchors is the ground; a slot in it has a direction in numbers.
 TEST(Linkage, FindsASlotInTheGround) {
   const Imported own = imported("linkage/slot_in_the_ground.linkage2");
-  EXPECT_EQ(section(own, "joints").at("C2_slot"), "{prismatic: [ground, block_C2], at: C2, axis: [1, 0]}");
+  EXPECT_EQ(section(own, "joints").at("C2_slot"),
+            "{slot: [ground, L1], at: C2, axis: [1, 0], clearance: {gap: 20e-6 m}}");
   EXPECT_TRUE(has_note(own, "the ground and link L2 are one"));
   EXPECT_TRUE(has_note(imported("linkage/link_between_anchors.linkage2"), "the ground and link L3 are one"));
 }
@@ -82,6 +89,80 @@ TEST(Linkage, MergesWhatIsFastenedAndWhatIsBraced) {
   EXPECT_EQ(section(braced, "links").at("L1"), "{points: [C1, C2, C4]}");
   EXPECT_EQ(section(braced, "links").size(), 3U);
   EXPECT_TRUE(has_note(braced, "brace them"));
+}
+
+/// Sizes 1 and 2: the first wheel, which the motor drives, turns by -2 of the angle of the second.
+TEST(Linkage, MeshesGears) {
+  const Imported own = imported("linkage/gears.linkage2");
+  EXPECT_EQ(section(own, "joints").at("gear_L0_L1"), "{gear: [L0, L1], centres: [C0, C1], teeth: [20, 40]}");
+  EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
+  EXPECT_TRUE(has_note(own, "the source says the ratio alone"));
+  const Mechanism m = mechanism_of(own);
+  const double inch = 0.0254, start = std::atan2(1.25, -1), small = std::atan2(2, 1.5), turned = 0.35;
+  const auto at = sample_points(m, {start + turned});
+  int found = 0;
+  for (std::size_t p = 0; p < m.points.size(); ++p) {
+    const auto is_at = [&](double x, double y) {
+      ++found;
+      EXPECT_NEAR((*at[p])[0], x * inch, 1e-12) << m.points[p].name;
+      EXPECT_NEAR((*at[p])[1], y * inch, 1e-12) << m.points[p].name;
+    };
+    const double long_crank = std::hypot(1, 1.25);
+    if (m.points[p].name == "C2") is_at(2.5 * std::cos(small - 2 * turned), 2.5 * std::sin(small - 2 * turned));
+    if (m.points[p].name == "C3")
+      is_at(6 + long_crank * std::cos(start + turned), long_crank * std::sin(start + turned));
+  }
+  EXPECT_EQ(found, 2);
+}
+
+TEST(Linkage, MakesABeltOfAChainOfOneSize) {
+  const Imported own = imported("linkage/chain.linkage2");
+  EXPECT_EQ(section(own, "joints").at("chain_L0_L1"),
+            "{belt: [L0, L1], centres: [C0, C1], radii: [1.5, 1.5], tension: 100 N}");
+  EXPECT_TRUE(has_note(own, "a tension of 100 N were chosen"));
+}
+
+/// Sizes 1 and 3: the first wheel turns by 3 of the angle of the second.
+TEST(Linkage, MakesABeltOfAChainOfTwoSizes) {
+  const Imported own = imported("linkage/chain_of_two_sizes.linkage2");
+  EXPECT_EQ(section(own, "joints").at("chain_L0_L1"),
+            "{belt: [L0, L1], centres: [C0, C1], radii: [0.75, 2.25], tension: 100 N}");
+  EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
+  const Mechanism m = mechanism_of(own);
+  const double start = std::atan2(1.25, -1), small = std::atan2(2, 1.5), turned = 0.35;
+  const auto at = sample_points(m, {start + turned});
+  for (std::size_t p = 0; p < m.points.size(); ++p)
+    if (m.points[p].name == "C2") {
+      EXPECT_NEAR((*at[p])[0] / 0.0254, 2.5 * std::cos(small + 3 * turned), 1e-10);
+      EXPECT_NEAR((*at[p])[1] / 0.0254, 2.5 * std::sin(small + 3 * turned), 1e-10);
+    }
+}
+
+TEST(Linkage, RollsAPlanetOnAWheelThatStands) {
+  const Imported own = imported("linkage/planet.linkage2");
+  EXPECT_EQ(section(own, "joints").at("gear_L1_L2"), "{gear: [ground, L2], centres: [C0, C1], teeth: [40, 20]}");
+  // The arm from its 36.87 deg on by a: the planet turns by 3 a.
+  const Mechanism m = mechanism_of(own);
+  const double inch = 0.0254, start = std::atan2(3, 4), turned = 0.4;
+  const auto at = sample_points(m, {start + turned});
+  for (std::size_t p = 0; p < m.points.size(); ++p)
+    if (m.points[p].name == "C2") {
+      EXPECT_NEAR((*at[p])[0] / inch, 5 * std::cos(start + turned) + 2.5 * std::cos(start + 3 * turned), 1e-12);
+      EXPECT_NEAR((*at[p])[1] / inch, 5 * std::sin(start + turned) + 2.5 * std::sin(start + 3 * turned), 1e-12);
+    }
+}
+
+TEST(Linkage, RefusesWheelsByName) {
+  const auto with = [](const std::string& what, const std::string& instead) {
+    std::string text = bytes_of(path_of("linkage/gears.linkage2"));
+    text.replace(text.find(what), what.size(), instead);
+    return refusal_of(text);
+  };
+  EXPECT_NE(with("size=\"2\"", "size=\"0\"").find("gear_L0_L1 has a size that is not positive"), std::string::npos);
+  EXPECT_NE(with("size=\"2\"", "size=\"1.41421356\"").find("the ratio of gear_L0_L1"), std::string::npos);
+  EXPECT_NE(with("<link id=\"1\" size", "<link id=\"4\" size").find("a ratio is of link 4, which is no gear"),
+            std::string::npos);
+  EXPECT_NE(with("type=\"gears\"", "type=\"worm\"").find("a ratio is of type 'worm'"), std::string::npos);
 }
 
 TEST(Linkage, RefusesWhatIsNoXml) {

@@ -262,14 +262,98 @@ TEST(Sdf, RefusesByName) {
             std::string::npos);
 }
 
-/// Wherever it stands: in an axis since SDF 1.11, in the joint in the words of one program.
-TEST(Sdf, RefusesJointsThatFollowOthers) {
+/// Wherever it stands: in an axis since SDF 1.11, in the joint in the words of one program. B turns about another link.
+TEST(Sdf, RefusesJointsThatCannotFollow) {
   const std::string text = bytes_of(path_of("sdf/four_bar_1_6.sdf"));
   for (const std::string place : {"</axis>", "</joint>"}) {
     std::string own = text;
-    own.insert(own.find(place), place == "</axis>" ? "<mimic joint='B'/>" : "<drake:mimic joint='B'/>");
-    EXPECT_NE(refusal_of(own).find("follows another one (mimic)"), std::string::npos) << own;
+    own.insert(own.find(place), place == "</axis>" ? "<mimic joint='C'/>" : "<drake:mimic joint='C'/>");
+    EXPECT_NE(refusal_of(own).find("joint A follows joint C, but no link has both"), std::string::npos)
+        << refusal_of(own);
   }
+}
+
+/// Where a point is when the drawn angle of `link`, by which the coordinate is named, has changed.
+std::array<double, 3> moved(const Imported& own, const std::string& point, const std::string& link, double turned) {
+  const Mechanism m = mechanism_of(own);
+  const auto drawn = places(own);
+  double start = 0;
+  for (const Link& one : m.links) {
+    if (one.name != link) continue;
+    const auto &p = drawn.at(m.points[static_cast<std::size_t>(one.points[0])].name),
+               &q = drawn.at(m.points[static_cast<std::size_t>(one.points[1])].name);
+    start = std::atan2(q[1] - p[1], q[0] - p[0]);
+  }
+  const auto at = sample_points(m, {start + turned});
+  for (std::size_t p = 0; p < m.points.size(); ++p)
+    if (m.points[p].name == point && at[p]) return *at[p];
+  ADD_FAILURE() << point;
+  return {};
+}
+
+/// A joint about one axis that turns with another one by a ratio: the tip, from its place in the posture on.
+void expect_turned(const Imported& own, const std::string& tip, const std::vector<double>& pin,
+                   const std::vector<double>& start, const std::string& link, double ratio) {
+  const double turned = 0.37, x = start[0] - pin[0], y = start[1] - pin[1];
+  const double c = std::cos(ratio * turned), s = std::sin(ratio * turned);
+  const auto at = moved(own, tip, link, turned);
+  EXPECT_NEAR(at[0], pin[0] + c * x - s * y, 1e-9);
+  EXPECT_NEAR(at[1], pin[1] + s * x + c * y, 1e-9);
+}
+
+/// The axes are opposite, so that fingers of a ratio of 1 turn apart.
+TEST(Mjcf, TurnsJointsThatFollow) {
+  const Imported own = imported("mjcf/joint_equality.xml");
+  EXPECT_EQ(section(own, "joints").at("R_follows"), "{gear: [right, left], centres: [R, L], teeth: [20, 20]}");
+  EXPECT_TRUE(has_note(own, "joint R follows joint L: a pair of gears stands for what joins"));
+  expect_turned(own, "right_tip", {0.02, 0}, {0.05, 0.08}, "left", -1);
+  // R = 0.1 - 2 L about -z: turned to -0.1 rad first, and by twice the angle from then on.
+  const Imported offset = imported("mjcf/joint_equality_with_offset.xml");
+  const double c = std::cos(0.1), s = std::sin(-0.1);
+  const std::vector<double> start = {0.02 + c * 0.03 - s * 0.08, s * 0.03 + c * 0.08};
+  EXPECT_LT(apart(places(offset).at("right_tip"), start), 1e-9);
+  EXPECT_EQ(section(offset, "joints").at("R_follows"), "{gear: [right, left], centres: [R, L], teeth: [20, -40]}");
+}
+
+TEST(Mjcf, HoldsAJointThatFollowsNothing) {
+  const Imported own = imported("mjcf/joint_held.xml");
+  EXPECT_EQ(section(own, "joints").size(), 1U);
+  const double tip_x = 0.03 + 0.05 * std::cos(0.5), tip_y = 0.04 + 0.05 * std::sin(0.5);
+  EXPECT_LT(apart(places(own).at("tip"), {tip_x, tip_y}), 1e-9);
+}
+
+TEST(Urdf, TurnsJointsThatFollow) {
+  expect_turned(imported("urdf/mimic.urdf"), "tip", {0.1, 0}, {0.1, 0.08}, "left", -1);
+  const Imported own = imported("urdf/mimic_with_offset.urdf");
+  EXPECT_EQ(section(own, "joints").at("r_follows"), "{gear: [right, left], centres: [r, l], teeth: [20, -60]}");
+  expect_turned(own, "tip", {0.1, 0}, {0.1 - 0.08 * std::sin(0.5), 0.08 * std::cos(0.5)}, "left", 3);
+}
+
+/// rp follows l, which no link has with it; it turns against r on the right finger, which follows l too. Pads that turn
+/// back by what their fingers turn keep their direction.
+TEST(Urdf, TurnsJointsThatFollowByWayOfOthers) {
+  const Imported own = imported("urdf/mimic_by_another.urdf");
+  EXPECT_TRUE(has_note(own, "joint rp follows joint r: a belt stands for what joins"));
+  EXPECT_TRUE(has_note(own, "joint lp follows joint l: a belt stands for what joins"));
+  const double turned = 0.37, c = std::cos(-turned), s = std::sin(-turned);
+  const auto at = moved(own, "tip", "left", turned);
+  EXPECT_NEAR(at[0], 0.03 + c * 0.02 - s * 0.06 - 0.01, 1e-9);
+  EXPECT_NEAR(at[1], s * 0.02 + c * 0.06 + 0.03, 1e-9);
+}
+
+/// theta_2 = -theta_1 / 2: the motor's wheel turns twice as fast, and the coordinate is the other one's angle.
+TEST(Sdf, ReadsGearboxesAndJointsThatFollow) {
+  const Imported own = imported("sdf/gearbox.sdf");
+  EXPECT_EQ(section(own, "joints").at("B_follows"), "{gear: [large, small], centres: [B, A], teeth: [40, 20]}");
+  EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: large}");
+  expect_turned(own, "C", {0, 0}, {0.03, 0.04}, "large", -2);
+  const Imported fingers = imported("sdf/mimic_1_11.sdf");
+  expect_turned(fingers, "G_right", {0.06, 0}, {0.08, 0.09}, "left", -1);
+  std::string other = bytes_of(path_of("sdf/gearbox.sdf"));
+  other.replace(other.find("body>world"), 10, "body>small");
+  EXPECT_NE(refusal_of(other).find("gearbox G joins link small, which has no revolute joint with link small"),
+            std::string::npos)
+      << refusal_of(other);
 }
 
 TEST(Mjcf, RefusesAFreeJointWithoutAName) {

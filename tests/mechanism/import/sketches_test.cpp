@@ -30,7 +30,7 @@ TEST(Dxf, RefusesWhatIsBroken) {
 
 TEST(Pyslvs, ReadsPinsSlotsAndGuides) {
   EXPECT_EQ(section(imported("pyslvs/pin_in_a_slot.txt"), "joints").at("P2_slot"),
-            "{prismatic: [ground, block_P2], at: P2, axis: [1, 0]}");
+            "{slot: [ground, L2], at: P2, axis: [1, 0], clearance: {gap: 20e-6 m}}");
   EXPECT_EQ(section(imported("pyslvs/guide.txt"), "joints").at("P3"), "{prismatic: [L3, L2], at: P1, axis: [-1, 1]}");
   EXPECT_NE(imported("pyslvs/crank_rocker.txt").text.find("end_effector: {link: L2, at: P3}"), std::string::npos);
 }

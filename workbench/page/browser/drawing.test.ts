@@ -262,6 +262,56 @@ describe("another program's file", () => {
     await expect.poll(() => legend(page), { timeout: 30_000 }).toBeGreaterThan(0);
   });
 
+  it("with a slot is edited along it, saved, and opened again", async () => {
+    const page = await start();
+    await opened(page, "linkage/slot.linkage2");
+    const sheet = new Sheet(page);
+    const imported = await sheet.file();
+    expect(imported).toContain("C1_slot: {slot: [L1, L0], at: C1, axis: [C2, C3]");
+    await expect.poll(() => legend(page)).toBeGreaterThan(0);
+    await sheet.press("Draw");
+    await sheet.take("select");
+    await sheet.drag([127, 101.6], [150, 120]); // the end of the lever, from (5, 4) in: the pin leaves its slot
+    expect((await sheet.said())[0]).toBe("");
+    await page.getByRole("button", { name: "Undo" }).click();
+    await rest(page);
+    expect(await sheet.file()).toBe(imported);
+    await shot(page, "imported-slot");
+    await sheet.click([25.4, 50.8]); // the pin in the slot
+    const gap = page.locator(".on-element").getByLabel("C1_slot gap", { exact: true });
+    await gap.fill("0.002");
+    await gap.press("Enter");
+    await rest(page);
+    expect(await sheet.said()).toEqual(["", ""]);
+    const text = await saved(page);
+    expect(text).toContain("axis: [C2, C3], clearance: {gap: 0.002}}");
+    await give(page, "saved.yaml", text);
+    expect(await sheet.file()).toBe(text);
+    await expect.poll(() => legend(page), { timeout: 30_000 }).toBeGreaterThan(0);
+  });
+
+  it("with gears shows their pitch circles, whose teeth are typed", async () => {
+    const page = await start();
+    await opened(page, "linkage/gears.linkage2");
+    const sheet = new Sheet(page);
+    await expect.poll(() => legend(page)).toBeGreaterThan(0);
+    await sheet.press("Draw");
+    await sheet.take("select");
+    await sheet.click([152.4, -101.6]); // on the rim of the second wheel, 4 in below its centre
+    await page.getByLabel("teeth of L0", { exact: true }).fill("25");
+    await page.getByLabel("teeth of L0", { exact: true }).press("Enter");
+    await rest(page);
+    const [words, element] = await sheet.said();
+    expect(words).toContain("turns link L0 by -8/5 of its angle");
+    expect(element).not.toBe("");
+    await shot(page, "imported-gears");
+    await page.getByLabel("teeth of L1", { exact: true }).fill("75");
+    await page.getByLabel("teeth of L1", { exact: true }).press("Enter");
+    await rest(page);
+    expect(await sheet.said()).toEqual(["", ""]);
+    expect(await saved(page)).toContain("teeth: [25, 75]}");
+  });
+
   it("that cannot be read is refused by name, and the last mechanism stays", async () => {
     const page = await start({ width: 400, height: 844 });
     await opened(page, "pmks/six_bar.txt");
@@ -269,8 +319,8 @@ describe("another program's file", () => {
     await expect.poll(() => legend(page), { timeout: 30_000 }).toBeGreaterThan(0);
     await shot(page, "imported-narrow");
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(400);
-    await opened(page, "linkage/gears.linkage2");
-    await expect.poll(() => page.locator(".said").textContent()).toContain("gear");
+    await opened(page, "linkage/curved_slot.linkage2");
+    await expect.poll(() => page.locator(".said").textContent()).toContain("slides along an arc");
     expect(await page.locator("h1").textContent()).toBe("PMKS+");
   });
 });
@@ -363,5 +413,10 @@ describe("a file", () => {
     await shot(sheet.page, "drawing-narrow");
     expect(await sheet.page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(400);
     expect(await sheet.file()).toContain("  AC: {points: [A, C]}\n");
+    await sheet.take("gear");
+    await sheet.drag([0, 0], [150, 0]);
+    await shot(sheet.page, "drawing-narrow-gear");
+    expect(await sheet.file()).toContain("  W: {gear: [AC, wheel], centres: [A, B], teeth: [20, 20]}\n");
+    expect(await sheet.page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(400);
   });
 });

@@ -9,15 +9,15 @@ import type { Workbench } from "./workbench";
 
 const shown: [file: string, title: string, words: string][] = [
   ["five_bar.yaml", "Five-bar", "Two motors place a point in the plane. On the curves a pin loses contact with its hole."],
-  ["four_bar.yaml", "Four-bar", "One crank: the angles of its cycle at which a reaction changes its sign."],
   ["slider_crank.yaml", "Slider-crank", "A piston and its crank: clearance in the pins and in the guide."],
-  ["three_rrr.yaml", "3-RRR platform", "Three cranks carry a platform that keeps its orientation."],
-  ["prrrp.yaml", "Two sliders", "Two carriages on a rail place a point: a fast pick-and-place machine."],
-  ["rprpr.yaml", "Two cylinders", "Two struts push a point; their backlash is considered, too."],
-  ["watt_six_bar.yaml", "Watt six-bar", "Two four-bars, one behind the other."],
-  ["toggle_press.yaml", "Toggle press", "A small force at the crank causes a large one at the ram."],
+  ["geared_five_bar.yaml", "Geared five-bar", "One motor, two wheels: where the force between the teeth vanishes, they change flanks."],
+  ["scara_belt.yaml", "Arm with a belt", "Both motors on the ground: where the belt carries nothing, its backlash is crossed."],
+  ["scissor_lift.yaml", "Scissor lift", "Pins in slots change sides as the load moves across the table."],
+  ["cables/hanging.yaml", "Camera on two cables", "Cables only pull: the zone in which both bear as much as they may."],
+  ["five_bar_antagonistic.yaml", "Preloaded five-bar", "A third motor presses leg against leg, so that the joints stay loaded."],
   ["klann_leg.yaml", "Klann leg", "A walking leg: where in its step each pin loses contact."],
-  ["excavator.yaml", "Excavator", "Boom and arm on cylinders, with their weights."],
+  ["toggle_press.yaml", "Toggle press", "A small force at the crank causes a large one at the ram."],
+  ["three_rrr.yaml", "3-RRR platform", "Three cranks carry a platform that keeps its orientation."],
   ["gough_stewart.yaml", "Gough–Stewart platform", "Six struts in space: surfaces on which the force in a strut vanishes."],
   ["delta.yaml", "Delta robot", "Three arms in space, for picking: its loci are surfaces."],
 ];

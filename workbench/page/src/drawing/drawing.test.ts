@@ -118,6 +118,44 @@ loads:
     sheet.use("free", [25, 450]).use("free", [250, 600]);
     expect(sheet.drawing.coordinates.map((one) => [one.name, one.kind, one.of])).toEqual([["x", "place", "D"], ["y", "place", "D"]]);
   });
+  it("has slots, gears, belts and cables", () => {
+    const yoke = new Sheet().use("ground", [0, 0]).use("link", [0, 0], [60, 80]).use("link", [60, 200], [60, -60]).use("slot", [60, 80], [60, 150]).use("slider", [60, -20], [160, -20]);
+    expect(yoke.lines).toEqual(expect.arrayContaining(["  SB: {slot: [CD, AB], at: B, axis: [C, D]}", "  CD: {points: [C, D, E]}"]));
+    const track = new Sheet().use("ground", [0, 0]).use("link", [0, 0], [60, 80]).use("link", [60, 80], [300, 0]).use("slot", [300, 0], [400, 0]);
+    expect(track.lines).toContain("  SC: {slot: [ground, BC], at: C, axis: [1, 0]}");
+    const geared = fiveBar().use("gear", [0, 0], [500, 0]);
+    expect(geared.lines).toContain("  W: {gear: [AC, BE], centres: [A, B], teeth: [20, 20]}");
+    expect(geared.drawing.ties[0]?.radii.map((one) => Math.round(one * 1e6))).toEqual([250000, 250000]);
+    // A second one between the same centres, and what would join a wheel to itself, is none.
+    const { text } = geared.drawing;
+    geared.use("gear", [500, 0], [0, 0]).use("belt", [0, 0], [500, 0]).use("gear", [0, 0], [0, 0]).use("gear", [-100, 150], [500, 0]);
+    expect(geared.drawing.text).toBe(text);
+    // Where nothing turns yet: a wheel on each of two new pins; about a pin that stands, of a carrier, the ground's wheel.
+    const bare = new Sheet().use("gear", [0, 0], [120, 0]);
+    expect(bare.lines).toEqual(expect.arrayContaining(["  wheel: {points: [A]}", "  B: {revolute: [ground, wheel_2], at: B}", "  W: {gear: [wheel, wheel_2], centres: [A, B], teeth: [20, 20]}"]));
+    const planet = new Sheet().use("ground", [0, 0]).use("link", [0, 0], [120, 0]).use("link", [120, 0], [180, 0]).use("gear", [0, 0], [120, 0]);
+    expect(planet.lines).toContain("  W: {gear: [ground, BC], centres: [A, B], teeth: [20, 20]}");
+    const belt = new Sheet().use("ground", [0, 0]).use("link", [0, 0], [200, 0]).use("link", [200, 0], [300, 0]).use("belt", [0, 0], [200, 0]);
+    expect(belt.lines).toContain("  T: {belt: [ground, BC], centres: [A, B], radii: [50, 50], tension: 100 N}");
+    const cable = fiveBar().use("cable", [250, 600], [900, 900]).use("ground", [250, 900]).use("cable", [250, 600], [250, 900]);
+    expect(cable.lines).toContain("  K: {cable: [CD, ground], at: [D, F], tension: [0 N, 1000 N]}");
+  });
+  it("shows and changes the numbers of slots, gears, belts and cables", () => {
+    const { drawing } = fiveBar().use("gear", [0, 0], [500, 0]);
+    const gear: Element = { kind: "joint", name: "W" };
+    expect(elementAt(drawing, [0.25, 0.0001], pixel)).toEqual(gear); // where both rims touch
+    expect(fieldsOf(drawing, gear).map((one) => one.label)).toEqual(["teeth of AC", "teeth of BE", "backlash"]);
+    const typedIn = drawingOf(fieldsOf(drawing, gear)[0]?.write("40") ?? "");
+    expect(typedIn.text).toContain("teeth: [40, 20]}");
+    expect(typedIn.ties[0]?.radii.map((one) => Math.round(one * 1e6))).toEqual([333333, 166667]);
+    expect(rename(drawing, "link", "AC", "wheel")).toContain("{gear: [wheel, BE], centres: [A, B]");
+    expect(rename(drawing, "point", "A", "O")).toContain("{gear: [AC, BE], centres: [O, B]");
+    expect(drawingOf(removeElement(drawing, { kind: "link", name: "AC" }) ?? "").ties).toEqual([]);
+    expect(removeElement(drawing, gear)).toBe(fiveBar().drawing.text);
+    const belt = new Sheet().use("belt", [0, 0], [200, 0]).drawing;
+    const [radius] = fieldsOf(belt, { kind: "joint", name: "T" });
+    expect(radius?.write("30")).toContain("radii: [30, 50], tension: 100 N}");
+  });
   it("does nothing where there is nothing to do", () => {
     const sheet = fiveBar();
     const { text } = sheet.drawing;
@@ -296,6 +334,11 @@ describe("any hand", () => {
         expect(points).toContain(joint.at);
         // A joint is at a point of its links; a guide on a link runs by it.
         if (joint.type === "revolute") for (const end of [joint.from, joint.to]) if (end !== "ground") expect(drawing.links.find((one) => one.name === end)?.points).toContain(joint.at);
+      }
+      for (const tie of drawing.ties) {
+        expect(links).toEqual(expect.arrayContaining([tie.from, tie.to]));
+        expect(tie.from).not.toBe(tie.to);
+        expect(points).toEqual(expect.arrayContaining(tie.ends));
       }
       for (const load of drawing.loads) expect(drawing.links.find((one) => one.name === load.link)?.points).toContain(load.at);
       for (const spring of drawing.springs) expect(points).toEqual(expect.arrayContaining(spring.at));

@@ -30,6 +30,17 @@ export interface DrawnJoint {
   axis: Point | undefined;
   actuated: boolean;
 }
+/** What joins two links at two points: a gear or a belt about its wheels' centres, a cable between its ends. */
+export interface DrawnTie {
+  name: string;
+  type: TieType;
+  from: string;
+  to: string;
+  ends: [string, string];
+  /** Of wheels their pitch circles, in m. */
+  radii: [number, number];
+}
+export type TieType = "gear" | "belt" | "cable";
 export interface DrawnLoad {
   link: string;
   at: string;
@@ -63,6 +74,7 @@ export interface Drawing {
   points: DrawnPoint[];
   links: DrawnLink[];
   joints: DrawnJoint[];
+  ties: DrawnTie[];
   loads: DrawnLoad[];
   springs: DrawnSpring[];
   coordinates: DrawnCoordinate[];
@@ -144,6 +156,7 @@ export function drawingOf(text: string, posture: Record<string, number[]> = {}):
     points,
     links,
     joints,
+    ties: reader.names(["joints"]).flatMap((name) => tieOf(reader, name, metres, placeOf) ?? []),
     loads: reader.items(["loads"]).map((k) => ({ link: reader.word(["loads", k, "link"]) ?? "", at: reader.word(["loads", k, "at"]) ?? "", force: reader.place(reader.words(["loads", k, "force"]), newtons) })),
     springs: reader.items(["springs"]).map((k) => ({ links: reader.words(["springs", k, "links"]) ?? [], at: reader.words(["springs", k, "at"]) ?? [], joint: reader.word(["springs", k, "joint"]) })),
     coordinates: coordinatesOf(reader, joints, metres),
@@ -165,7 +178,7 @@ function pointsOf(reader: Reader, metres: number, posture: Record<string, number
 
 function jointOf(reader: Reader, name: string, placeOf: (name: string) => Point | undefined): DrawnJoint | undefined {
   const path = ["joints", name];
-  const type = reader.names(path).find((key) => ["revolute", "prismatic", "universal", "spherical", "cylindrical"].includes(key));
+  const type = reader.names(path).find((key) => ["revolute", "prismatic", "universal", "spherical", "cylindrical", "slot"].includes(key));
   const [from, to] = (type && reader.words([...path, type])) ?? [];
   if (!type || from === undefined || to === undefined) return undefined;
   const axis = reader.words([...path, "axis"]);
@@ -173,6 +186,21 @@ function jointOf(reader: Reader, name: string, placeOf: (name: string) => Point 
   const direction = tail && tip ? ([tip[0] - tail[0], tip[1] - tail[1]] as Point) : reader.place(axis, 1);
   const actuated = reader.node([...path, "actuated"]);
   return { name, type, from, to, at: reader.word([...path, "at"]) ?? "", axis: direction, actuated: isMap(actuated) || (isScalar(actuated) && actuated.value === "true") };
+}
+
+function tieOf(reader: Reader, name: string, metres: number, placeOf: (name: string) => Point | undefined): DrawnTie | undefined {
+  const path = ["joints", name];
+  const type = (["gear", "belt", "cable"] as const).find((one) => reader.node([...path, one]) !== undefined);
+  if (!type) return undefined;
+  const [from, to] = reader.words([...path, type]) ?? [];
+  const [a, b] = reader.words([...path, type === "cable" ? "at" : "centres"]) ?? [];
+  if (from === undefined || to === undefined || a === undefined || b === undefined) return undefined;
+  const [p, q] = [placeOf(a), placeOf(b)];
+  const sizes = (reader.words([...path, type === "gear" ? "teeth" : "radii"]) ?? []).map((word) => reader.number(word, type === "gear" ? 1 : metres));
+  const [first = NaN, second = NaN] = sizes;
+  // The teeth share the way between the centres; a ring, of a negative number, is around its pinion.
+  const tooth = p && q ? Math.hypot(q[0] - p[0], q[1] - p[1]) / Math.abs(first + second) : NaN;
+  return { name, type, from, to, ends: [a, b], radii: type === "gear" ? [Math.abs(first) * tooth, Math.abs(second) * tooth] : [Math.abs(first), Math.abs(second)] };
 }
 
 function coordinatesOf(reader: Reader, joints: DrawnJoint[], metres: number): DrawnCoordinate[] {
@@ -200,7 +228,7 @@ export const placeOf = (drawing: Drawing, point: string): Point | undefined => d
 /** Whether all of the mechanism stands here; of copies of a pattern and of points without a name only the program knows. */
 export function isWhole(drawing: Drawing): boolean {
   const known = new Set(drawing.points.flatMap((one) => (one.at ? [one.name] : [])));
-  return !/^repeat:/m.test(drawing.text) && drawing.links.every((link) => link.points.length > 0 && link.points.every((name) => known.has(name))) && drawing.joints.every((joint) => known.has(joint.at) && (joint.type !== "prismatic" || joint.axis !== undefined));
+  return !/^repeat:/m.test(drawing.text) && drawing.links.every((link) => link.points.length > 0 && link.points.every((name) => known.has(name))) && drawing.joints.every((joint) => known.has(joint.at) && (!["prismatic", "slot"].includes(joint.type) || joint.axis !== undefined));
 }
 
 export const carriers = (drawing: Drawing, point: string): DrawnLink[] => drawing.links.filter((link) => link.points.includes(point));

@@ -2,8 +2,8 @@
 // is nothing to do.
 import type { Point } from "../data/answers";
 import { appendItem, insertEntry, nodeAt, parseFile, removeAt, setValue, slotOf } from "../data/file_text";
-import { carriers, drawingOf, isGround, placeOf, type Drawing } from "./drawing";
-import { nextJoint, nextLink, nextPoint } from "./names";
+import { carriers, drawingOf, isGround, placeOf, type Drawing, type TieType } from "./drawing";
+import { nextJoint, nextLink, nextPoint, nextTie } from "./names";
 
 /** A place that was pointed at: a point that is there, or a new one, perhaps on a link. */
 export interface Spot {
@@ -132,7 +132,7 @@ export function addPinAt(drawing: Drawing, spot: Spot, under: string[]): Edit {
 /** The links that joints at this point hold together with one of them. */
 function joinedAt(drawing: Drawing, point: string, link: string): Set<string> {
   const found = new Set([link]);
-  const joints = drawing.joints.filter((one) => one.at === point);
+  const joints = drawing.joints.filter((one) => one.at === point && one.type !== "slot");
   for (let grown = true; grown;) {
     grown = false;
     for (const joint of joints) {
@@ -160,6 +160,44 @@ export function addSlider(drawing: Drawing, point: string, along: Along): Edit {
   const [blocked, block] = addLinkOf(drawing, [point], "block");
   const made = addPin(blocked, point, holder.name, block);
   return insertEntry(made.text, ["joints"], nextJoint(made, `S${point}`), `{prismatic: [${guide.name}, ${block}], at: ${point}, axis: ${pair(guide.axis)}}`);
+}
+
+/** A point of a link that runs in a slot of the ground, or along another link. */
+export function addSlot(drawing: Drawing, point: string, along: Along): Edit {
+  const holder = carriers(drawing, point)[0];
+  const guide = guideOf(drawing, along);
+  if (!holder || !guide || isGround(drawing, point) || carriers(drawing, point).some((one) => one.name === guide.name)) return undefined;
+  const placed = withPlace(drawing, point);
+  return insertEntry(placed.text, ["joints"], nextJoint(placed, `S${point}`), `{slot: [${guide.name}, ${holder.name}], at: ${point}, axis: ${pair(guide.axis)}}`);
+}
+
+/** What turns about a centre of two: the link that is pinned there and has not both; where nothing does, the ground if that is still and the other is not, or else a new wheel. */
+function wheelAt(drawing: Drawing, point: string, other: string): [Drawing, string] {
+  const own = carriers(drawing, point).find((one) => !one.points.includes(other) && drawing.joints.some((joint) => joint.type === "revolute" && joint.at === point && [joint.from, joint.to].includes(one.name)));
+  if (own) return [drawing, own.name];
+  if (isGround(drawing, point) && !isGround(drawing, other)) return [drawing, "ground"];
+  const [made, name] = addLinkOf(drawing, [point], "wheel");
+  const holder = carriers(drawing, point)[0];
+  return [addPin(made, point, isGround(drawing, point) ? "ground" : (holder?.name ?? "ground"), name), name];
+}
+
+/** Two wheels with teeth, or two pulleys with a belt, about two centres: points that are there, or new pins of the ground. */
+export function addWheels(drawing: Drawing, type: "gear" | "belt", from: Spot, to: Spot): Edit {
+  if ([from, to].some((spot) => spot.point === undefined && spot.link !== undefined)) return undefined;
+  if (from.point === to.point && (from.point !== undefined || from.texts.join() === to.texts.join())) return undefined;
+  const [one, a] = withPoint(drawing, from);
+  const [two, b] = withPoint(one, to);
+  const [three, first] = wheelAt(two, a, b);
+  const [four, second] = wheelAt(three, b, a);
+  const [p, q] = [placeOf(four, a), placeOf(four, b)];
+  if (first === second || !p || !q || four.ties.some((tie) => tie.type !== "cable" && tie.ends.includes(a) && tie.ends.includes(b))) return undefined;
+  const radius = near(Math.hypot(q[0] - p[0], q[1] - p[1]) / four.metres / 4);
+  return addTie(four, type, [first, second], [a, b], type === "gear" ? "teeth: [20, 20]" : `radii: [${radius}, ${radius}], tension: 100 N`);
+}
+
+function addTie(drawing: Drawing, type: TieType, links: [string, string], ends: [string, string], rest: string): string {
+  const name = nextTie(drawing, type === "gear" ? "W" : type === "belt" ? "T" : "K");
+  return insertEntry(drawing.text, ["joints"], name, `{${type}: ${pair(links)}, ${type === "cable" ? "at" : "centres"}: ${pair(ends)}, ${rest}}`);
 }
 
 /** A link that slides itself, and does not turn on its guide: along a direction of the ground, or along another link. */
@@ -238,16 +276,30 @@ export function removeCoordinate(drawing: Drawing, name: string): Drawing {
   return drawing.coordinates.some((one) => one.name === name && one.range !== undefined) ? again(drawing, removeAt(drawing.text, ["workspace", name])) : drawing;
 }
 
-/** A spring between two points of different links, or the ground. */
-export function addSpring(drawing: Drawing, from: string, to: string): Edit {
+/** Links of which two points are, other ones as far as there are. */
+function linksBetween(drawing: Drawing, from: string, to: string): [string, string] | undefined {
   if (from === to || [from, to].every((point) => isGround(drawing, point))) return undefined;
   const linkOf = (point: string): string => (isGround(drawing, point) ? "ground" : carriers(drawing, point)[0]?.name ?? "ground");
   const others = (point: string, not: string): string => carriers(drawing, point).find((one) => one.name !== not)?.name ?? linkOf(point);
   const first = linkOf(from);
   const second = linkOf(to) === first ? others(to, first) : linkOf(to);
-  if (first === second) return undefined;
+  return first === second ? undefined : [first, second];
+}
+
+/** A spring between two points of different links, or the ground. */
+export function addSpring(drawing: Drawing, from: string, to: string): Edit {
+  const links = linksBetween(drawing, from, to);
+  if (!links) return undefined;
   const placed = again(drawing, withPlace(withPlace(drawing, from), to).text);
-  return appendItem(placed.text, ["springs"], `{links: [${first}, ${second}], at: [${from}, ${to}], stiffness: 1000 N/m, free_length: 0}`);
+  return appendItem(placed.text, ["springs"], `{links: ${pair(links)}, at: [${from}, ${to}], stiffness: 1000 N/m, free_length: 0}`);
+}
+
+/** A cable between two points of different links, or the ground: it pulls. */
+export function addCable(drawing: Drawing, from: string, to: string): Edit {
+  const links = linksBetween(drawing, from, to);
+  if (!links || drawing.ties.some((tie) => tie.type === "cable" && tie.ends.includes(from) && tie.ends.includes(to))) return undefined;
+  const placed = again(drawing, withPlace(withPlace(drawing, from), to).text);
+  return addTie(placed, "cable", links, [from, to], "tension: [0 N, 1000 N]");
 }
 
 /** The link on which a load at this point acts: the end effector's, else the last that was drawn there. */

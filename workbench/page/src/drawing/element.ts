@@ -48,7 +48,7 @@ export function isThere(drawing: Drawing, element: Element): boolean {
     case "link":
       return drawing.links.some((one) => one.name === element.name);
     case "joint":
-      return drawing.joints.some((one) => one.name === element.name);
+      return [...drawing.joints, ...drawing.ties].some((one) => one.name === element.name);
     case "coordinate":
       return drawing.coordinates.some((one) => one.name === element.name);
     case "load":
@@ -73,7 +73,7 @@ export function placeOfElement(drawing: Drawing, element: Element): Point | unde
     case "link":
       return middle((drawing.links.find((one) => one.name === element.name)?.points ?? []).map(at));
     case "joint":
-      return at(drawing.joints.find((one) => one.name === element.name)?.at ?? "");
+      return at(drawing.joints.find((one) => one.name === element.name)?.at ?? "") ?? middle((drawing.ties.find((one) => one.name === element.name)?.ends ?? []).map(at));
     case "load":
       return at(drawing.loads[element.index]?.at ?? "");
     case "spring":

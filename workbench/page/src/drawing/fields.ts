@@ -1,7 +1,7 @@
 // What is typed on the thing itself: of every element its numbers, and what becomes of them.
 import { removeAt, setValue, typed, wordAt, type ValuePath } from "../data/file_text";
 import { shortNumber } from "../data/exact";
-import { carriers, placeOf, type Drawing, type DrawnJoint } from "./drawing";
+import { carriers, placeOf, type Drawing, type DrawnJoint, type DrawnTie } from "./drawing";
 import { again, setMass, toggleMotor, writtenCoordinates, type Edit } from "./edit";
 import type { Element } from "./element";
 import { removeElement } from "./remove";
@@ -44,7 +44,8 @@ export function fieldsOf(drawing: Drawing, element: Element): Field[] {
       return linkFields(drawing, element.name, length);
     case "joint": {
       const joint = drawing.joints.find((one) => one.name === element.name);
-      return joint ? jointFields(drawing, joint, length) : [];
+      const tie = drawing.ties.find((one) => one.name === element.name);
+      return joint ? jointFields(drawing, joint, length) : tie ? tieFields(drawing, tie, length, force) : [];
     }
     case "load":
       return ["fx", "fy"].map((label, axis) => field(drawing, label, ["loads", element.index, "force", axis], force));
@@ -65,6 +66,7 @@ function pointFields(drawing: Drawing, name: string, length: string): Field[] {
 export function jointFields(drawing: Drawing, joint: DrawnJoint, length: string): Field[] {
   const path = ["joints", joint.name, "clearance"];
   if (joint.type === "prismatic") return joint.actuated ? [field(drawing, `${joint.name} axial clearance`, [...path, "axial"], length, "none")] : [field(drawing, `${joint.name} gap`, [...path, "gap"], length, "none")];
+  if (joint.type === "slot") return [field(drawing, `${joint.name} gap`, [...path, "gap"], length, "none")];
   const fit = wordAt(drawing.text, [...path, "fit"]);
   const radial = field(drawing, `${joint.name} clearance`, [...path, "radial"], length, "none, or H7/g6 12");
   if (fit !== undefined) radial.text = `${fit} ${wordAt(drawing.text, [...path, "diameter"]) ?? ""}`;
@@ -77,6 +79,18 @@ export function jointFields(drawing: Drawing, joint: DrawnJoint, length: string)
   };
   return [radial];
 }
+
+function tieFields(drawing: Drawing, tie: DrawnTie, length: string, force: string): Field[] {
+  const path = ["joints", tie.name];
+  if (tie.type === "cable") return ["least tension", "most tension"].map((label, k) => field(drawing, label, [...path, "tension", k], unitless(drawing, [...path, "tension", k], force)));
+  const backlash = field(drawing, "backlash", [...path, "clearance", "backlash"], length, "none");
+  if (tie.type === "gear") return [...[tie.from, tie.to].map((wheel, k) => field(drawing, `teeth of ${wheel}`, [...path, "teeth", k], "")), backlash];
+  const radii = [tie.from, tie.to].map((pulley, k) => field(drawing, `radius of ${pulley}`, [...path, "radii", k], length));
+  return [...radii, field(drawing, "tension", [...path, "tension"], unitless(drawing, [...path, "tension"], force)), backlash];
+}
+
+/** The unit beside a number that has none of its own. */
+const unitless = (drawing: Drawing, path: ValuePath, unit: string): string => (/[A-Za-z]/.test(wordAt(drawing.text, path) ?? "") ? "" : unit);
 
 function linkFields(drawing: Drawing, name: string, length: string): Field[] {
   const link = drawing.links.find((one) => one.name === name);
@@ -129,6 +143,10 @@ export function titleOf(drawing: Drawing, element: Element): string {
       return `Load at ${drawing.loads[element.index]?.at ?? ""} on ${drawing.loads[element.index]?.link ?? ""}`;
     case "spring":
       return `Spring ${drawing.springs[element.index]?.at.join("–") ?? ""}`;
+    case "joint": {
+      const tie = drawing.ties.find((one) => one.name === element.name);
+      return tie ? `${tie.type[0]?.toUpperCase() ?? ""}${tie.type.slice(1)} ${tie.name} (${tie.from}–${tie.to})` : `Joint ${element.name}`;
+    }
     default:
       return `${element.kind[0]?.toUpperCase() ?? ""}${element.kind.slice(1)} ${element.name}`;
   }

@@ -109,10 +109,10 @@ export function strokeAlong(drawing: Drawing, own: DrawnCoordinate, to: Point, p
 export function guideOf(drawing: Drawing, name: string): { from: Point; to: Point; rail: boolean } | undefined {
   const joint = drawing.joints.find((one) => one.name === name);
   const at = joint && placeOf(drawing, joint.at);
-  if (!at || !joint.axis || joint.type !== "prismatic") return undefined;
+  if (!at || !joint.axis || !["prismatic", "slot"].includes(joint.type)) return undefined;
   const holder = drawing.links.find((one) => one.name === joint.from);
   const first = placeOf(drawing, holder?.points[0] ?? "");
-  if (holder?.points.length === 1 && first && holder.points[0] !== joint.at) return { from: first, to: at, rail: false };
+  if (joint.type === "prismatic" && holder?.points.length === 1 && first && holder.points[0] !== joint.at) return { from: first, to: at, rail: false };
   const half = (0.22 * sizeOf(drawing)) / Math.hypot(...joint.axis);
   return { from: [at[0] - half * joint.axis[0], at[1] - half * joint.axis[1]], to: [at[0] + half * joint.axis[0], at[1] + half * joint.axis[1]], rail: true };
 }
@@ -135,8 +135,14 @@ export function elementAt(drawing: Drawing, at: Point, pixel: number): Element |
     const line = guideOf(drawing, one.name);
     return line && on(line.from, line.to);
   });
+  const tie = drawing.ties.find((one) => {
+    const [a, b] = one.ends.map((name) => placeOf(drawing, name));
+    const rim = one.type === "cable" ? [] : [a, b].map((centre, k) => Math.abs(away(centre) - one.radii[k as 0 | 1] / pixel));
+    return (one.type === "cable" && on(a, b)) || rim.some((gap) => gap <= 6);
+  });
   const link = drawing.links.filter((one) => sides(drawing, one.points).some(([a, b]) => on(a, b))).at(-1);
   if (link) return { kind: "link", name: link.name };
+  if (tie) return { kind: "joint", name: tie.name };
   return guide && { kind: "joint", name: guide.name };
 }
 

@@ -17,7 +17,7 @@ export function missingIn(drawing: Drawing): Missing | undefined {
   const loose = links.find((link) => !joints.some((joint) => joint.from === link.name || joint.to === link.name));
   if (loose) return { words: `Link ${loose.name} has no joint: begin or end a link at one of its points`, element: { kind: "link", name: loose.name } };
   if (!joints.some((joint) => joint.from === "ground" || joint.to === "ground")) return { words: "No link is connected to the ground: put a ground pin at the end of one", ...(links[0] ? { element: { kind: "link", name: links[0].name } } : {}) };
-  if (!joints.some((joint) => joint.actuated)) return { words: "No motor: put one at a joint", ...(joints[0] ? { element: { kind: "joint", name: (joints.find((joint) => joint.from === "ground") ?? joints[0]).name } } : {}) };
+  if (!joints.some((joint) => joint.actuated) && !drawing.ties.some((tie) => tie.type === "cable")) return { words: "No motor: put one at a joint", ...(joints[0] ? { element: { kind: "joint", name: (joints.find((joint) => joint.from === "ground") ?? joints[0]).name } } : {}) };
   if (!drawing.endEffector) {
     const free = points.find((point) => !isGround(drawing, point.name));
     return { words: "No end effector: draw a force at its point, or mark it with the tool End effector", ...(free ? { element: { kind: "point", name: free.name } } : {}) };

@@ -11,7 +11,7 @@ export function firstFree(taken: Iterable<string>, name: (k: number) => string):
 
 /** "E", "P" and the like are free for points where no joint or coordinate is called so. */
 export function nextPoint(drawing: Drawing): string {
-  const taken = [...drawing.points, ...drawing.joints, ...drawing.links, ...drawing.coordinates, ...drawing.parameters].map((one) => one.name);
+  const taken = [...drawing.points, ...drawing.joints, ...drawing.ties, ...drawing.links, ...drawing.coordinates, ...drawing.parameters].map((one) => one.name);
   return firstFree(taken, (k) => String.fromCharCode(65 + (k % 26)) + (k < 26 ? "" : String(Math.floor(k / 26))));
 }
 
@@ -21,7 +21,13 @@ export function nextLink(drawing: Drawing, wanted: string): string {
 }
 
 export function nextJoint(drawing: Drawing, wanted: string): string {
-  return firstFree(drawing.joints.map((one) => one.name), (k) => (k === 0 ? wanted : `${wanted}_${k + 1}`));
+  return firstFree([...drawing.joints, ...drawing.ties].map((one) => one.name), (k) => (k === 0 ? wanted : `${wanted}_${k + 1}`));
+}
+
+/** The pitch point of a gear has its name. */
+export function nextTie(drawing: Drawing, wanted: string): string {
+  const taken = [...drawing.joints, ...drawing.ties, ...drawing.points, ...drawing.coordinates, ...drawing.parameters].map((one) => one.name);
+  return firstFree(taken, (k) => (k === 0 ? wanted : `${wanted}_${k + 1}`));
 }
 
 export function nextCoordinate(drawing: Drawing, wanted: string[]): string {

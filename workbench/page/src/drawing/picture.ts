@@ -13,7 +13,7 @@ import { sides } from "./snap";
 export function sketchOf(drawing: Drawing): Sketch {
   const pins = drawing.joints.flatMap((joint) => {
     const at = placeOf(drawing, joint.at);
-    return at && joint.type !== "prismatic" ? [{ name: joint.at, at, on_ground: joint.from === "ground" || joint.to === "ground", actuated: joint.actuated }] : [];
+    return at && joint.type !== "prismatic" ? [{ name: joint.at, at, on_ground: (joint.from === "ground" && joint.type !== "slot") || joint.to === "ground", actuated: joint.actuated }] : [];
   });
   const waiting = drawing.points.flatMap((point) => (point.at && carriers(drawing, point.name).length === 0 ? [{ name: point.name, at: point.at, on_ground: true, actuated: false }] : []));
   const slides = drawing.joints.flatMap((joint) => guideOf(drawing, joint.name) ?? []);
@@ -34,7 +34,12 @@ export function sketchOf(drawing: Drawing): Sketch {
 /** Every place that is to be seen, in m. */
 export function extentOf(drawing: Drawing): Point[] {
   const box = boxOf(drawing);
-  return [...drawing.points.flatMap((one) => (one.at ? [one.at] : [])), ...(box ? [box.low, box.high] : [])].filter((at) => at.every(Number.isFinite));
+  const rims = drawing.ties.filter((tie) => tie.type !== "cable").flatMap((tie) => tie.ends.flatMap((name, k): Point[] => {
+    const at = placeOf(drawing, name);
+    const radius = tie.radii[k as 0 | 1];
+    return at ? [[at[0] - radius, at[1] - radius], [at[0] + radius, at[1] + radius]] : [];
+  }));
+  return [...drawing.points.flatMap((one) => (one.at ? [one.at] : [])), ...rims, ...(box ? [box.low, box.high] : [])].filter((at) => at.every(Number.isFinite));
 }
 
 function ring(context: CanvasRenderingContext2D, at: Point, radius: number, stroke: string, fill?: string): void {
@@ -61,7 +66,7 @@ function drawBlocks(context: CanvasRenderingContext2D, view: View, drawing: Draw
   for (const joint of drawing.joints) {
     const at = placeOf(drawing, joint.at);
     const guide = guideOf(drawing, joint.name);
-    if (!at || !joint.axis || !guide?.rail) continue;
+    if (!at || !joint.axis || !guide?.rail || joint.type === "slot") continue;
     const there = page(view, at);
     context.save();
     context.translate(...there);
@@ -71,6 +76,74 @@ function drawBlocks(context: CanvasRenderingContext2D, view: View, drawing: Draw
     context.strokeRect(-15, -9, 30, 18);
     if (joint.actuated) drawArrow(context, [-9, 0], [10, 0], theme.outline, 1.6);
     context.restore();
+  }
+}
+
+/** The rims of slots, as long as their rails. */
+function drawSlots(context: CanvasRenderingContext2D, view: View, drawing: Drawing, theme: Theme): void {
+  const half = 7;
+  context.strokeStyle = theme.outline;
+  context.lineWidth = 1.2;
+  for (const joint of drawing.joints) {
+    const guide = joint.type === "slot" ? guideOf(drawing, joint.name) : undefined;
+    if (!guide) continue;
+    const [from, to] = [page(view, guide.from), page(view, guide.to)];
+    context.save();
+    context.translate(...from);
+    context.rotate(Math.atan2(to[1] - from[1], to[0] - from[0]));
+    const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+    context.beginPath();
+    context.arc(0, 0, half, Math.PI / 2, (3 * Math.PI) / 2);
+    context.arc(length, 0, half, -Math.PI / 2, Math.PI / 2);
+    context.closePath();
+    context.stroke();
+    context.restore();
+  }
+}
+
+/** Pitch circles of wheels, with a mark a tooth where these are far enough apart; belts around theirs; cables. */
+function drawTies(context: CanvasRenderingContext2D, view: View, drawing: Drawing, theme: Theme, selected: Element | undefined): void {
+  for (const tie of drawing.ties) {
+    const [a, b] = tie.ends.map((name) => placeOf(drawing, name));
+    if (!a || !b) continue;
+    const [from, to] = [page(view, a), page(view, b)];
+    context.save();
+    context.strokeStyle = theme.outline;
+    context.lineWidth = sameElement(selected, { kind: "joint", name: tie.name }) ? 3 : 1.3;
+    if (tie.type === "cable") {
+      context.beginPath();
+      context.moveTo(...from);
+      context.lineTo(...to);
+      context.stroke();
+    } else {
+      const radii = tie.radii.map((radius) => radius * Math.abs(view.scale[0]));
+      if (radii.every(Number.isFinite)) [from, to].forEach((at, k) => drawWheel(context, at, radii[k] ?? 0, tie.type === "gear"));
+      if (tie.type === "belt") drawSpans(context, from, to, [radii[0] ?? 0, radii[1] ?? 0]);
+    }
+    context.restore();
+  }
+}
+
+function drawWheel(context: CanvasRenderingContext2D, at: Point, radius: number, teeth: boolean): void {
+  context.setLineDash(teeth ? [3, 3] : []);
+  context.beginPath();
+  context.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+  context.stroke();
+  context.setLineDash([]);
+}
+
+/** Both spans: from where a belt leaves one pulley to where it meets the other, by the angle that the difference of the radii turns them. */
+function drawSpans(context: CanvasRenderingContext2D, from: Point, to: Point, radii: [number, number]): void {
+  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const cosine = (radii[0] - radii[1]) / length;
+  if (!(Math.abs(cosine) <= 1)) return;
+  const along = Math.atan2(to[1] - from[1], to[0] - from[0]);
+  for (const side of [1, -1]) {
+    const turn = along + side * Math.acos(cosine);
+    context.beginPath();
+    context.moveTo(from[0] + radii[0] * Math.cos(turn), from[1] + radii[0] * Math.sin(turn));
+    context.lineTo(to[0] + radii[1] * Math.cos(turn), to[1] + radii[1] * Math.sin(turn));
+    context.stroke();
   }
 }
 
@@ -199,6 +272,8 @@ export function drawDrawing(context: CanvasRenderingContext2D, view: View, drawi
   if (shown.wrong) highlight(context, view, drawing, shown.wrong, theme.failed);
   drawSketch(context, view, sketch, theme);
   drawBlocks(context, view, drawing, theme);
+  drawSlots(context, view, drawing, theme);
+  drawTies(context, view, drawing, theme, shown.selected);
   drawSprings(context, view, sketch, theme);
   for (const point of drawing.points) {
     const lone = point.at && carriers(drawing, point.name).length > 0 && !drawing.joints.some((joint) => joint.at === point.name);

@@ -48,7 +48,7 @@ function removeJoint(drawing: Drawing, name: string): Drawing {
 function unpin(drawing: Drawing, name: string): Drawing {
   const joint = drawing.joints.find((one) => one.name === name);
   const left = removeJoint(drawing, name);
-  if (!joint || joint.from === "ground" || joint.to === "ground" || joint.type === "prismatic") return left;
+  if (!joint || joint.from === "ground" || joint.to === "ground" || joint.type !== "revolute") return left;
   const loose = [joint.to, joint.from].find((link) => !left.joints.some((one) => one.at === joint.at && (one.from === link || one.to === link)));
   const index = left.links.find((one) => one.name === loose)?.points.indexOf(joint.at) ?? -1;
   const point = left.points.find((one) => one.name === joint.at);
@@ -66,6 +66,10 @@ function removeUses(drawing: Drawing, uses: { link?: string; point?: string }): 
   let left = each(drawing, (now) => {
     const joint = now.joints.find((one) => is(one.at, point) || is(one.from, link) || is(one.to, link));
     return joint && removeJoint(now, joint.name);
+  });
+  left = each(left, (now) => {
+    const tie = now.ties.find((one) => one.ends.some((own) => is(own, point)) || is(one.from, link) || is(one.to, link));
+    return tie && without(now, ["joints", tie.name]);
   });
   left = each(left, (now) => {
     const index = now.loads.findIndex((one) => is(one.at, point) || is(one.link, link));

@@ -31,7 +31,7 @@ function wordsOf(text: string): Word[] {
 }
 
 const sections: Record<Named, string[]> = { point: ["drawn", "points"], link: ["links"], joint: ["joints"], coordinate: ["workspace"], parameter: ["parameters"] };
-const types = ["revolute", "prismatic", "universal", "spherical", "cylindrical"];
+const types = ["revolute", "prismatic", "universal", "spherical", "cylindrical", "slot", "gear", "belt", "cable"];
 
 /** What a value that is a plain name names at this place; elsewhere it is a point, or a formula. */
 function namedAt(path: ValuePath, drawing: Drawing): "link" | "joint" | "text" | "formula" {
@@ -50,7 +50,7 @@ function namedAt(path: ValuePath, drawing: Drawing): "link" | "joint" | "text" |
 
 /** Nothing where the name is taken or is none. */
 export function rename(drawing: Drawing, kind: Named, from: string, to: string): Edit {
-  const lists = { point: drawing.points, link: [...drawing.links, { name: "ground" }], joint: drawing.joints, coordinate: drawing.coordinates, parameter: drawing.parameters };
+  const lists = { point: drawing.points, link: [...drawing.links, { name: "ground" }], joint: [...drawing.joints, ...drawing.ties], coordinate: drawing.coordinates, parameter: drawing.parameters };
   const symbols = [...drawing.coordinates, ...drawing.parameters, ...drawing.points];
   const taken = kind === "link" || kind === "joint" ? lists[kind] : symbols;
   if (!/^[A-Za-z]\w*$/.test(to) || taken.some((one) => one.name === to) || !lists[kind].some((one) => one.name === from)) return undefined;

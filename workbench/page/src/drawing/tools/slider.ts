@@ -2,7 +2,7 @@ import { addGuide, addSlider, type Along } from "../edit";
 import type { Hand, Tool } from "./tool";
 
 /** Along the link on which the hand lets go, else along its way; of a way along x or y the numbers say nothing. */
-function alongOf({ drawing, from, to, over }: Hand, own: string[]): Along | undefined {
+export function alongOf({ drawing, from, to, over }: Hand, own: string[]): Along | undefined {
   const link = over.find((name) => !own.includes(name));
   if (link !== undefined) return { link };
   const axis = [0, 1].map((k) => String(Number(((to.at[k as 0 | 1] - from.at[k as 0 | 1]) / drawing.metres).toPrecision(9)) + 0)) as [string, string];
