@@ -1,5 +1,5 @@
 // Which free efforts keep contact, or which tensions are within their bounds, in the zones between the loci of section
-// 15 of docs/method.md: decided at their samples, by the independent witness. Private to analysis/.
+// 15 of docs/background/method.md: decided at their samples, by the independent witness. Private to analysis/.
 #pragma once
 
 #include <functional>

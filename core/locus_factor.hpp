@@ -14,7 +14,7 @@
 
 namespace clearloci::inline core {
 
-/// `preload`: where the choice of free efforts changes (docs/method.md section 15).
+/// `preload`: where the choice of free efforts changes (docs/background/method.md section 15).
 /// `construction`: a squared distance that the closure divides by; a point where the mode may change. With f of a joint
 /// in space: zero where two directions across its axis may fall together, so that f1 and f2 of a force vanish that does
 /// not.

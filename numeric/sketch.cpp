@@ -181,7 +181,6 @@ void draw_belt(const NumericModel& model, const Posture& posture, const mechanis
 void draw_pitch_lines(const NumericModel& model, const Posture& posture, const mechanism::Joint& gear,
                       core::Sketch& sketch) {
   constexpr int pieces = 48;
-  const double radius = core::to_double(mechanism::value_of(gear.meshing->radius, model.mechanism));
   const Point2 pitch = point_of(posture, gear.at);
   const auto round = [&](const Point2& c, const Point2& through) {
     const double r = distance(c, through), start = std::atan2(through[1] - c[1], through[0] - c[0]);

@@ -35,7 +35,7 @@ struct Determinant {
 
 /// Of a mechanism with free efforts without a value: reactions that vanish at one choice of efforts where the
 /// determinant does; A with -w_e and the columns of the efforts in the place of their columns, without factors with
-/// which a reaction vanishes at every effort (docs/method.md section 15).
+/// which a reaction vanishes at every effort (docs/background/method.md section 15).
 struct PreloadEquation {
   std::vector<std::string> reactions;  ///< "M_A1"
   std::string words;                   ///< "M_A1 and M_A3 can only vanish together"

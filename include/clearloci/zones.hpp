@@ -55,7 +55,7 @@ struct ZonePreload {
   /// Of one free effort what it may be; of several what each may be while the others suit it, of cables all of them.
   /// Known to rounding.
   std::vector<FeasibleEfforts> efforts;
-  std::optional<double> smallest;  ///< size of the smallest choice (docs/preload.md); none where there is none
+  std::optional<double> smallest;  ///< size of the smallest choice (docs/guide/preload.md); none where there is none
   /// The signs of the demanded reactions that have one component: of one free effort for every range, of several
   /// motors every choice of signs that is possible.
   std::vector<std::vector<std::pair<Vanishing, int>>> patterns;

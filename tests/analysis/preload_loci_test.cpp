@@ -1,4 +1,4 @@
-// Loci and zones of free efforts without a value (docs/method.md section 15), held against reactions that are solved
+// Loci and zones of free efforts without a value (docs/background/method.md section 15), held against reactions that are solved
 // with efforts that are given.
 #include <gtest/gtest.h>
 
