@@ -13,7 +13,7 @@ import numpy
 from preload_statics import Mechanism, dyad, feasible_depth
 from program import SOURCE, InOwnFolder, run
 
-INPUTS = int(os.environ.get("CLEARLOCI_PRELOAD_INPUTS", "8"))
+INPUTS = int(os.environ.get("CLEARLOCI_PRELOAD_INPUTS", "4"))
 
 
 class FiveBar:
