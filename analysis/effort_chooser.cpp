@@ -330,7 +330,9 @@ EffortSystem* EffortSystems::at(const PoseAt& pose) {
   const bool cables = std::any_of(free.begin(), free.end(), [&](JointIndex j) {
     return mechanism::is_cable(mechanism_.joints[static_cast<std::size_t>(j)]);
   });
-  if (cables) {
+  // Under a load that is not known it matters which tensions are held: those that the mechanism says.
+  const bool held = !task_.knows_load && (task_.loads || !task_.loads_within.empty() || !task_.tolerances.empty());
+  if (cables && !held) {
     const auto best = mechanism::best_free_cables(mechanism_, pose);
     if (!best) return nullptr;
     free = *best;
