@@ -137,7 +137,7 @@ std::optional<EffortPolytope::Deepest> EffortPolytope::least(const std::vector<R
   }
   const auto found = core::minimise(dual);
   if (!found) return std::nullopt;
-  Deepest own{-found->value, {}, binding_rows(found->solution)};
+  Deepest own{-found->value, {}, binding_rows(found->solution), found->solution};
   for (const Rational& price : found->prices) own.at.emplace_back(-price);
   return own;
 }

@@ -36,11 +36,12 @@ struct EffortPolytope {
   std::size_t efforts = 0;
 
   /// Of rows measured in their widths the place farthest within all of them, and how far; below zero: there is none
-  /// within. `binding`: rows whose multipliers are not zero.
+  /// within. `multipliers`: y >= 0 of the dual program, one a row; `binding`: those that are not zero.
   struct Deepest {
     core::Rational depth;
     std::vector<core::Rational> at;
     std::vector<std::size_t> binding;
+    std::vector<core::Rational> multipliers;
   };
   std::optional<Deepest> deepest(const std::vector<core::Rational>& widths) const;
 

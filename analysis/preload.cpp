@@ -9,13 +9,14 @@
 #include <string>
 #include <utility>
 
+#include "analysis/constant_efforts.hpp"
+#include "analysis/effort_choice.hpp"
 #include "analysis/pose_efforts.hpp"
 #include "analysis/pose_tensions.hpp"
 #include "analysis/preload_judges.hpp"
 #include "analysis/preload_law.hpp"
 #include "analysis/proven_cells.hpp"
 #include "analysis/task_demands.hpp"
-#include "analysis/tension_verification.hpp"
 #include "analysis/wanted_efforts.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
@@ -30,134 +31,71 @@ using Status = core::StudyDesign::Status;
 
 /// Boxes are cut down to this part of each range.
 const Rational finest(1, 1 << 18);
-/// That are looked at, of one effort and of several.
-constexpr long cells_of_one = 4'000, cells_of_several = 2'000;
+/// That are looked at.
+constexpr long most_cells = 4'000;
 
-/// The size of the smallest preload of a box.
-double least_size(const std::vector<WantedEffort>& wanted, const std::vector<ExactRange>& ranges) {
-  double size = 0;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const Rational least = abs(nearest_to_none(ranges[i].first, ranges[i].second));
-    size = std::max(size, core::to_double(least) * wanted[i].size_of_one);
-  }
-  return size;
+/// The size of the smallest preload of a range.
+double least_size(const WantedEffort& wanted, const ExactRange& range) {
+  return core::to_double(abs(nearest_to_none(range.first, range.second))) * wanted.size_of_one;
 }
 
-/// Boxes of efforts, of which those of the smallest size come first, each proven as a whole or cut in halves.
+/// Ranges of one effort, of which those of the smallest size come first, each proven as a whole or cut in halves.
 class PreloadSearch {
  public:
-  PreloadSearch(const Mechanism& mechanism, std::vector<WantedEffort> wanted, const Task& task,
-                const VerifyRequest& request)
+  PreloadSearch(const Mechanism& mechanism, WantedEffort wanted, const Task& task, const VerifyRequest& request)
       : wanted_(std::move(wanted)),
         request_(request),
-        judge_(preload_judge(mechanism, ranges_of(wanted_), task, request.loci)) {
-    for (const WantedEffort& own : wanted_)
-      own_gaps_.push_back(own_gap(mechanism, own.joint, request_of(task, request.loci).min_couple));
-  }
+        judge_(preload_judge(mechanism, {wanted_}, task, request.loci)),
+        own_gap_(own_gap(mechanism, wanted_.joint, request_of(task, request.loci).min_couple)) {}
 
-  /// Of one effort all boxes are decided. Of several each is first tried alone, then all together among smaller ones.
   core::PreloadAnswer run() {
-    std::vector<ExactRange> whole, none;
-    for (const WantedEffort& own : wanted_) {
-      whole.emplace_back(own.lower, own.upper);
-      const Rational least = nearest_to_none(own.lower, own.upper);
-      none.emplace_back(least, least);
+    push({wanted_.lower, wanted_.upper});
+    for (long cells = 0; !queue_.empty(); ++cells) {
+      const Part part = queue_.top();
+      queue_.pop();
+      const bool over = cells >= most_cells || out_of_time();
+      const BoxVerdict verdict = over ? BoxVerdict{} : judged(part.range);
+      answer_.cells += over ? 0 : 1;
+      const Status status = status_of(verdict.verdict);
+      if (status == Status::undecided && !over && !is_finest(part.range)) {
+        const Rational middle = (part.range.first + part.range.second) / 2;
+        push({part.range.first, middle});
+        push({middle, part.range.second});
+        continue;
+      }
+      decided(part, status, verdict.reason);
+      if (request_.loci.progress) request_.loci.progress(0, "preload");
     }
-    const bool one = wanted_.size() == 1;
-    for (std::size_t i = 0; i < wanted_.size() && !one; ++i) {
-      std::vector<ExactRange> alone = none;
-      alone[i] = whole[i];
-      search(std::move(alone), {.cells = cells_of_one, .all = false});
-    }
-    least_open_ = std::numeric_limits<double>::infinity();
-    cells_.clear();
-    search(std::move(whole), {.cells = one ? cells_of_one : cells_of_several, .all = one});
     return finished();
   }
 
  private:
-  struct Box {
+  struct Part {
     double size = 0;
-    std::vector<ExactRange> ranges;
-    bool operator<(const Box& other) const { return size > other.size; }  // the smallest on top
+    ExactRange range;
+    bool operator<(const Part& other) const { return size > other.size; }  // the smallest on top
   };
 
-  struct Extent {
-    long cells = 0;    ///< that may be looked at
-    bool all = false;  ///< also what is larger than the smallest that was found
-  };
-
-  void search(std::vector<ExactRange> whole, const Extent& extent) {
-    queue_ = {};
-    push(std::move(whole));
-    for (long cells = 0; !queue_.empty(); ++cells) {
-      const Box box = queue_.top();
-      queue_.pop();
-      if (!extent.all && smallest_ && box.size >= smallest_->size) return;
-      const bool over = cells >= extent.cells || out_of_time();
-      const BoxVerdict verdict = over ? BoxVerdict{} : judged(box.ranges);
-      answer_.cells += over ? 0 : 1;
-      const Status status = status_of(verdict.verdict);
-      if (status == Status::undecided && !over && !is_finest(box.ranges)) {
-        cut(box.ranges);
-        continue;
-      }
-      decided(box, status, verdict.reason);
-      if (status == Status::undecided) least_open_ = std::min(least_open_, box.size);
-      if (status == Status::feasible && (!smallest_ || box.size < smallest_->size)) smallest_ = box;
-      if (request_.loci.progress) request_.loci.progress(0, "preload");
-    }
-  }
-
-  /// Of the free actuators' own backlash, then of all else.
-  BoxVerdict judged(const std::vector<ExactRange>& ranges) {
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-      if (!own_gaps_[i]) continue;
-      const double from = core::to_double(ranges[i].first), to = core::to_double(ranges[i].second),
-                   least = own_gaps_[i]->to;
+  /// Of the free actuator's own backlash, then of all else.
+  BoxVerdict judged(const ExactRange& range) {
+    if (own_gap_) {
+      const double from = core::to_double(range.first), to = core::to_double(range.second), least = own_gap_->to;
       if (-least <= from && to <= least && (least > 0 || (from == 0 && to == 0)))
-        return {core::Verdict::refuted, "backlash in " + wanted_[i].joint};
+        return {core::Verdict::refuted, "backlash in " + wanted_.joint};
       if (from < least && to > -least) return {};
       if (least == 0 && from <= 0 && to >= 0) return {};
     }
-    return judge_->judge(ranges, is_finest(ranges));
-  }
-
-  static std::vector<mechanism::ParameterRange> ranges_of(const std::vector<WantedEffort>& wanted) {
-    std::vector<mechanism::ParameterRange> ranges;
-    for (const WantedEffort& own : wanted) ranges.push_back({own.parameter, own.lower, own.upper});
-    return ranges;
+    return judge_->judge({range}, is_finest(range));
   }
 
   bool out_of_time() const {
     return request_.loci.deadline && std::chrono::steady_clock::now() > *request_.loci.deadline;
   }
 
-  void push(std::vector<ExactRange> ranges) {
-    const double size = least_size(wanted_, ranges);
-    queue_.push({size, std::move(ranges)});
-  }
+  void push(const ExactRange& range) { queue_.push({least_size(wanted_, range), range}); }
 
-  Rational part(std::size_t i, const std::vector<ExactRange>& ranges) const {
-    return (ranges[i].second - ranges[i].first) / (wanted_[i].upper - wanted_[i].lower);
-  }
-
-  bool is_finest(const std::vector<ExactRange>& ranges) const {
-    for (std::size_t i = 0; i < ranges.size(); ++i)
-      if (part(i, ranges) > finest) return false;
-    return true;
-  }
-
-  void cut(std::vector<ExactRange> ranges) {
-    std::size_t widest = 0;
-    for (std::size_t i = 1; i < ranges.size(); ++i)
-      if (part(i, ranges) > part(widest, ranges)) widest = i;
-    const ExactRange own = ranges[widest];
-    const Rational middle = (own.first + own.second) / 2;
-    ranges[widest] = {own.first, middle};
-    push(ranges);
-    ranges[widest] = {middle, own.second};
-    push(std::move(ranges));
+  bool is_finest(const ExactRange& range) const {
+    return range.second - range.first <= finest * (wanted_.upper - wanted_.lower);
   }
 
   static Status status_of(core::Verdict verdict) {
@@ -166,57 +104,127 @@ class PreloadSearch {
                                                : Status::undecided;
   }
 
-  void decided(const Box& box, Status status, const std::string& reason) {
+  void decided(const Part& part, Status status, const std::string& reason) {
     core::StudyCell& cell = cells_.emplace_back();
     cell.status = status;
     cell.reason = reason;
-    for (const ExactRange& own : box.ranges) {
-      cell.lower.push_back(core::to_double(own.first));
-      cell.upper.push_back(core::to_double(own.second));
-    }
+    cell.lower.push_back(core::to_double(part.range.first));
+    cell.upper.push_back(core::to_double(part.range.second));
+    if (status == Status::undecided) least_open_ = std::min(least_open_, part.size);
+    if (status == Status::feasible && (!smallest_ || part.size < smallest_->size)) smallest_ = part;
   }
 
   core::PreloadAnswer finished() {
-    for (const WantedEffort& own : wanted_) {
-      answer_.joints.push_back(own.joint);
-      answer_.forces.push_back(own.force);
-      answer_.lower.push_back(core::to_double(own.lower));
-      answer_.upper.push_back(core::to_double(own.upper));
-    }
-    answer_.size = {std::min(least_open_, smallest_ ? smallest_->size : std::numeric_limits<double>::infinity()),
-                    smallest_ ? smallest_->size : std::numeric_limits<double>::infinity()};
-    if (wanted_.size() == 1) answer_.ranges = joined_ranges(cells_);
-    if (smallest_) {
-      answer_.value.emplace();
-      for (const ExactRange& own : smallest_->ranges) answer_.value->push_back(core::to_double(short_value(own)));
-    }
+    constexpr double none = std::numeric_limits<double>::infinity();
+    const double found = smallest_ ? smallest_->size : none;
+    answer_.size = {std::min(least_open_, found), found};
+    answer_.ranges = ranges_ = joined_ranges(cells_);
+    if (smallest_) answer_.value = {core::to_double(smallest())};
     return std::move(answer_);
   }
 
  public:
-  /// The smallest that was found, of few digits: all of its box verify.
-  std::vector<Rational> smallest() const {
-    std::vector<Rational> values;
-    for (const ExactRange& own : smallest_->ranges) values.push_back(short_value(own));
-    return values;
+  const std::vector<core::StudyCell>& cells() const { return cells_; }
+  /// Of every range the value nearest to zero, inside it by a little.
+  std::vector<Rational> smallest_of_each_range() const {
+    std::vector<Rational> all;
+    for (const core::ProvenRange& own : ranges_)
+      all.push_back(nearest_to_none(Rational(own.from[1]), Rational(own.to[0])));
+    return all;
   }
-
- private:
-  static Rational short_value(const ExactRange& range) {
+  /// The smallest that was found, of few digits: all of its range verify.
+  Rational smallest() const {
+    const ExactRange& range = smallest_->range;
     if (range.first <= 0 && range.second >= 0) return 0;
     return core::simplest_rational_near((range.first + range.second) / 2, (range.second - range.first) / 2);
   }
 
-  std::vector<WantedEffort> wanted_;
+ private:
+  WantedEffort wanted_;
   const VerifyRequest& request_;
   std::unique_ptr<PreloadJudge> judge_;
-  std::vector<std::optional<numeric::EffortGap>> own_gaps_;
-  std::priority_queue<Box> queue_;
+  std::optional<numeric::EffortGap> own_gap_;
+  std::priority_queue<Part> queue_;
   std::vector<core::StudyCell> cells_;
-  std::optional<Box> smallest_;
+  std::vector<core::ProvenRange> ranges_;
+  std::optional<Part> smallest_;
   double least_open_ = std::numeric_limits<double>::infinity();  ///< of what is not decided, the smallest size
   core::PreloadAnswer answer_;
 };
+
+/// Of several efforts each alone, the others as near to none as they can be: what verifies.
+std::vector<std::vector<Rational>> each_alone(const Model& model, const std::vector<WantedEffort>& wanted,
+                                              const Task& task, const VerifyRequest& request) {
+  std::vector<std::vector<Rational>> found;
+  std::vector<Rational> none;
+  for (const WantedEffort& own : wanted) none.push_back(nearest_to_none(own.lower, own.upper));
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    std::vector<WantedEffort> others = wanted;
+    std::vector<Rational> efforts = none;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    efforts.erase(efforts.begin() + static_cast<std::ptrdiff_t>(k));
+    const Model own = with_efforts(model, others, efforts);
+    PreloadSearch search(own.content().mechanism, wanted[k], task, request);
+    (void)search.run();
+    for (const Rational& value : search.smallest_of_each_range()) {
+      found.push_back(none);
+      found.back()[k] = value;
+    }
+  }
+  return found;
+}
+
+/// What is known of constant preloads, and the smallest that verifies.
+struct ConstantAnswer {
+  core::PreloadAnswer answer;
+  std::vector<Rational> smallest = {};
+  std::vector<std::string> words = {};  ///< why all fail
+};
+
+/// Ranges of one effort, and patterns of any number.
+ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffort>& wanted, const Task& task,
+                               const VerifyRequest& request) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  ConstantAnswer own;
+  own.answer.size = {0, none};
+  std::vector<core::StudyCell> cells;
+  if (wanted.size() == 1) {
+    // The search knows efforts that are given: those that are looked for are open in it.
+    PreloadSearch search(model.content().mechanism, wanted.front(), task, request);
+    own.answer = search.run();
+    if (own.answer.value) own.smallest = {search.smallest()};
+    cells = search.cells();
+  }
+  const ConstantEfforts patterns =
+      wanted.size() == 1 ? constant_efforts(model, wanted, task, request, {}, &cells)
+                         : constant_efforts(model, wanted, task, request, each_alone(model, wanted, task, request));
+  double least = patterns.complete ? none : 0;
+  for (std::size_t i = 0; i < patterns.patterns.size(); ++i) {
+    const core::PreloadPattern& pattern = patterns.patterns[i];
+    least = std::min(least, pattern.size[0]);
+    if (wanted.size() > 1 && pattern.verdict == core::Verdict::verified && pattern.size[1] < own.answer.size[1]) {
+      own.answer.size[1] = pattern.size[1];
+      own.answer.value = pattern.value;
+      own.smallest = patterns.values[i];
+    }
+    if (!patterns.words[i].empty()) own.words.push_back(patterns.words[i] + ": these exclude each other");
+  }
+  own.answer.size[0] = std::min(std::max(own.answer.size[0], least), own.answer.size[1]);
+  own.answer.cells += patterns.cells;
+  own.answer.patterns = patterns.patterns;
+  for (const WantedEffort& each : wanted) {
+    own.answer.joints.push_back(each.joint);
+    own.answer.forces.push_back(each.force);
+    own.answer.lower.push_back(core::to_double(each.lower));
+    own.answer.upper.push_back(core::to_double(each.upper));
+  }
+  return own;
+}
+
+Task constant(Task task) {
+  task.controlled_preload = task.knows_load = false;
+  return task;
+}
 
 }  // namespace
 
@@ -243,25 +251,30 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
     throw core::InputError({task.file},
                            "the task is to be moved, and the effort of " + named_efforts(wanted) + " is free",
                            "give it by --preload, or leave --fit out");
-  if (task.controlled_preload)
-    return only_tensions_are_free(mechanism) ? verify_with_tensions(model, task, request)
-                                             : verify_with_law(model, task, request);
-  // The search knows efforts that are given: those that are looked for are open in it.
-  PreloadSearch search(mechanism, wanted, task, request);
-  core::PreloadAnswer answer = search.run();
-  const bool found = answer.value.has_value();
-  std::vector<Rational> efforts;
-  for (const WantedEffort& own : wanted) efforts.push_back(nearest_to_none(own.lower, own.upper));
-  if (found) efforts = search.smallest();
+  if (task.controlled_preload) {
+    if (only_tensions_are_free(mechanism)) return verify_with_choices(model, task, request, {});
+    if (wanted.size() > 1 || task.knows_load)
+      return verify_with_choices(model, task, request, each_alone(model, wanted, constant(task), request));
+    Verification law = verify_with_law(model, task, request);
+    return law.verdict == core::Verdict::undecided ? verify_with_choices(model, task, request, {}) : law;
+  }
+  ConstantAnswer own = constant_answer(model, wanted, task, request);
+  const bool found = own.answer.value.has_value();
+  std::vector<Rational> efforts = own.smallest;
+  if (!found)
+    for (const WantedEffort& each : wanted) efforts.push_back(nearest_to_none(each.lower, each.upper));
   Verification result = verify(with_efforts(model, wanted, efforts), task, request);
-  if (!found && answer.size[0] < std::numeric_limits<double>::infinity()) {
+  if (!found && own.answer.size[0] < std::numeric_limits<double>::infinity()) {
     result.verdict = core::Verdict::undecided;
     result.witness.reset();
     result.notes.emplace_back("no preload was found that verifies, and not all are proven to fail");
   } else if (!found) {
     result.notes.emplace_back("no constant preload within these ranges verifies the task: each fails, proven");
+    constexpr std::size_t most_notes = 12;
+    own.words.resize(std::min(own.words.size(), most_notes));
+    result.notes.insert(result.notes.end(), own.words.begin(), own.words.end());
   }
-  result.preload = std::move(answer);
+  result.preload = std::move(own.answer);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/effort_system.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/proven_cells.hpp"
 #include "analysis/task_demands.hpp"
@@ -48,16 +49,23 @@ class DesignPreload : public PreloadJudge {
   std::optional<std::chrono::steady_clock::time_point> deadline_;
 };
 
+std::vector<ParameterRange> ranges_of(const std::vector<WantedEffort>& wanted) {
+  std::vector<ParameterRange> ranges;
+  for (const WantedEffort& own : wanted) ranges.push_back({own.parameter, own.lower, own.upper});
+  return ranges;
+}
+
 /// With the efforts as coordinates beside those of the pose. All efforts of a box fail where at two poses of the task
-/// a reaction has opposite signs for each of them, or at one an effort is beyond its bound.
+/// a reaction has opposite signs for each of them, or at one an effort is beyond its bound or a reaction too small.
 class StaticsPreload : public PreloadJudge {
  public:
-  StaticsPreload(const Mechanism& mechanism, const std::vector<ParameterRange>& wanted, const Task& task,
+  StaticsPreload(const Mechanism& mechanism, const std::vector<WantedEffort>& wanted, const Task& task,
                  const LociRequest& request)
-      : wanted_(wanted),
+      : wanted_(ranges_of(wanted)),
         task_(task),
         request_(request_of(task, request)),
-        widened_(mechanism, with_efforts(mechanism, wanted, task)),
+        system_(mechanism, wanted, task, requested_modes(mechanism, request_).front(), request_),
+        widened_(mechanism, with_efforts(mechanism, wanted_, task)),
         metric_(widened_.metric(mechanism, task)),
         margin_(core::to_double(task.margin)) {
     const DyadSides sides = requested_modes(mechanism, request_).front();
@@ -87,11 +95,13 @@ class StaticsPreload : public PreloadJudge {
     };
     for (const PoseSuspect& known : turning_)
       if (all_fail(known)) return {Verdict::refuted, reason};
-    bool too_small = false;
+    std::vector<loci::pose::Pose> too_small;
     const std::vector<PoseSuspect> unlike = unlike_samples(region, too_small);
     for (const PoseSuspect& own : unlike)
       if (all_fail(own)) return {Verdict::refuted, reason};
-    if (!unlike.empty() || too_small) return {};  // the box as a whole does not verify
+    for (const loci::pose::Pose& pose : too_small)
+      if (reason = all_too_small(pose, ranges); !reason.empty()) return {Verdict::refuted, reason};
+    if (!unlike.empty() || !too_small.empty()) return {};  // the box as a whole does not verify
     constexpr long coarse = 2'000, fine = 40'000;
     const loci::pose::PoseEffort effort{.most_cells = finest ? fine : coarse, .deadline = request_.deadline};
     const Verdict verdict = loci::pose::prove_poses(statics_, region, margin_, all_fail, effort).verdict;
@@ -108,8 +118,8 @@ class StaticsPreload : public PreloadJudge {
   }
 
   /// Of every demand of one component two samples of a region between which it turns, those farthest from zero.
-  /// `too_small`: set where a reaction is smaller at one than it has to be.
-  std::vector<PoseSuspect> unlike_samples(const PoseRegion& region, bool& too_small) {
+  /// `too_small`: where a reaction is smaller than it has to be.
+  std::vector<PoseSuspect> unlike_samples(const PoseRegion& region, std::vector<loci::pose::Pose>& too_small) {
     struct Extreme {
       double size = 0;
       loci::pose::Pose at;
@@ -121,7 +131,8 @@ class StaticsPreload : public PreloadJudge {
       if (!at) continue;
       for (std::size_t d = 0; d < extremes.size(); ++d) {
         const double size = PoseCell::size_of(at->components[d]);
-        too_small = too_small || size < core::to_double(statics_.demands[d].demand.least);
+        const bool small = size < core::to_double(statics_.demands[d].demand.least);
+        if (small && (too_small.empty() || too_small.back() != pose)) too_small.push_back(pose);
         const int sign = sign_of(*at, d);
         if (sign == 0) continue;
         if (Extreme& own = extremes[d][sign > 0 ? 0 : 1]; own.at.empty() || size > own.size) own = {size, pose};
@@ -189,10 +200,24 @@ class StaticsPreload : public PreloadJudge {
     return sign;
   }
 
+  /// Which reaction bears less than it has to at a pose, whatever the free efforts.
+  std::string all_too_small(const loci::pose::Pose& at, const Ranges& efforts) const {
+    std::vector<std::array<double, 2>> box;
+    for (const ParameterRange& own : wanted_) {
+      const core::Interval& range = efforts.at(own.name);
+      box.push_back({range.lower(), range.upper()});
+    }
+    const core::TaskDemand* const demand = system_.too_small(widened_.pose_of(at), box);
+    if (demand == nullptr) return {};
+    return (demand->quantity == core::Quantity::M ? "min_couple in " : "min_force in ") + demand->joint;
+  }
+
   /// Which reaction turns between two poses, or which effort is beyond its bound at one, whatever the free efforts;
   /// empty where that is not certain.
   std::string failing(const PoseSuspect& suspect, const Ranges& efforts) {
     const core::TaskDemand& demand = statics_.demands[static_cast<std::size_t>(suspect.demand)].demand;
+    if (demand.least > 0)
+      if (std::string reason = all_too_small(suspect.at, efforts); !reason.empty()) return reason;
     if (!demand.bound && !suspect.other) return {};
     const int here = sign_at(suspect.at, suspect.demand, efforts);
     const bool fails = demand.bound ? here < 0 : here != 0 && sign_at(*suspect.other, suspect.demand, efforts) == -here;
@@ -207,6 +232,7 @@ class StaticsPreload : public PreloadJudge {
   std::vector<ParameterRange> wanted_;
   Task task_;
   LociRequest request_;
+  EffortSystem system_;
   WidenedTask widened_;
   loci::pose::PoseMetric metric_;
   double margin_ = 0;
@@ -217,12 +243,12 @@ class StaticsPreload : public PreloadJudge {
 
 }  // namespace
 
-std::unique_ptr<PreloadJudge> preload_judge(const Mechanism& mechanism, const std::vector<ParameterRange>& wanted,
+std::unique_ptr<PreloadJudge> preload_judge(const Mechanism& mechanism, const std::vector<WantedEffort>& wanted,
                                             const Task& task, const LociRequest& request) {
   const bool spatial = mechanism.space == mechanism::Space::spatial;
   if (mechanism::is_plane(mechanism) && !mechanism::has_effort_bounds(mechanism) &&
       !(spatial && (task.loads || !task.loads_within.empty())))
-    return std::make_unique<DesignPreload>(mechanism, wanted, task, request);
+    return std::make_unique<DesignPreload>(mechanism, ranges_of(wanted), task, request);
   return std::make_unique<StaticsPreload>(mechanism, wanted, task, request);
 }
 

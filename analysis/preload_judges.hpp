@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/design_task.hpp"
+#include "analysis/wanted_efforts.hpp"
 
 namespace clearloci {
 
@@ -27,10 +28,10 @@ class PreloadJudge {
   virtual BoxVerdict judge(const std::vector<ExactRange>& efforts, bool finest) = 0;
 };
 
-/// `wanted`: the parameters of the efforts and all that they may be. The mechanism must outlive the judge. Throws
+/// The mechanism must outlive the judge. Throws
 /// core::InputError as verify().
 std::unique_ptr<PreloadJudge> preload_judge(const mechanism::Mechanism& mechanism,
-                                            const std::vector<mechanism::ParameterRange>& wanted,
-                                            const core::Task& task, const LociRequest& request);
+                                            const std::vector<WantedEffort>& wanted, const core::Task& task,
+                                            const LociRequest& request);
 
 }  // namespace clearloci

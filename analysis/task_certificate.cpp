@@ -20,8 +20,6 @@ void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task
     refuse("mechanisms with gears or belts");
   if (mechanism::has_effort_bounds(mechanism)) refuse("mechanisms whose efforts have bounds");
   if (task.pose_error) refuse("a task that bounds the pose error");
-  if (!task.preload.empty() || !mechanism::joints_without_preload(mechanism).empty())
-    refuse("a task that chooses efforts");
   if (std::holds_alternative<core::TaskMesh>(task.shape)) refuse("a mesh");
 }
 

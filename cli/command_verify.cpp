@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@
 #include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "core/errors.hpp"
+#include "core/rational.hpp"
 #include "mechanism/write_task.hpp"
 #include "report/files.hpp"
 #include "report/formats.hpp"
@@ -85,6 +87,40 @@ void certify(const VerifyCommand& arguments, const mechanism::Mechanism& mechani
                     certificate_of(mechanism, result.task, request));
 }
 
+/// The efforts that a task was verified with, as --preload gives them: those of the task, or what was found.
+std::vector<Model::Value> efforts_of(const Model& model, const Verification& result) {
+  std::vector<Model::Value> efforts;
+  const auto joint_of = [&](const std::string& name) -> const mechanism::Joint& {
+    const std::vector<mechanism::Joint>& all = model.content().mechanism.joints;
+    return *std::find_if(all.begin(), all.end(), [&](const mechanism::Joint& own) { return own.name == name; });
+  };
+  const auto add = [&](const mechanism::Joint& joint, const core::Rational& value) {
+    const char* const unit = mechanism::actuator_quantity(joint) == core::Quantity::F ? " N" : " N m";
+    efforts.emplace_back(joint.free_effort->parameter, "(" + core::to_string(value) + ")" + unit);
+  };
+  for (const auto& [joint, value] : result.task.preload) add(joint_of(joint), value);
+  if (!result.preload) return efforts;
+  const core::PreloadAnswer& found = *result.preload;
+  if (found.of_poses)
+    throw core::InputError({.file = "--certificate"}, "there is no certificate of efforts that are chosen cell by cell",
+                           "leave --certificate out, or ask for a constant preload");
+  if (found.law) efforts.emplace_back(joint_of(found.joints.front()).free_effort->parameter, found.law->expression);
+  for (std::size_t i = 0; found.value && i < found.joints.size(); ++i)
+    add(joint_of(found.joints[i]), core::Rational((*found.value)[i]));
+  return efforts;
+}
+
+/// With the efforts that were found as if they had been given: they are part of what is claimed.
+void certify_efforts(VerifyCommand arguments, const Model& model, Verification result, const LociRequest& request,
+                     report::StagedFiles& staged) {
+  const std::vector<Model::Value> efforts = efforts_of(model, result);
+  for (const auto& [name, value] : efforts) arguments.common.overrides.push_back(name + "=" + value);
+  result.task.preload.clear();
+  result.task.controlled_preload = false;
+  const Model chosen = efforts.empty() ? model : model.with(efforts);
+  certify(arguments, chosen.content().mechanism, result, request, staged);
+}
+
 int run(const VerifyCommand& arguments, TimeLimit& limit) {
   const std::set<std::string> formats = parse_formats(arguments.formats, report::format_names<core::Verification>());
   const std::future<void> letters = report::prepare_pictures(formats);
@@ -104,7 +140,7 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
   request.loci = loci_request(arguments.loci, mechanism, progress, limit);
   const Verification result = verify(model, task, request);
   report::StagedFiles staged;
-  if (certified) certify(arguments, mechanism, result, request.loci, staged);
+  if (certified) certify_efforts(arguments, model, result, request.loci, staged);
   progress.clear();
 
   const std::filesystem::path folder = output_folder(arguments.common);

@@ -17,7 +17,7 @@ using core::InputError;
 const std::vector<std::string> task_keys = {"format",     "name",       "box",        "circle",     "ball",
                                             "polygon",    "path",       "mesh",       "margin",     "angle_length",
                                             "min_force",  "min_couple", "loads_from", "tolerances", "loads_within",
-                                            "pose_error", "preload"};
+                                            "pose_error", "preload",    "knows_load"};
 
 /// [[0, -80], [20, -100]]: of two components in the plane and of three in space.
 core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) {
@@ -132,6 +132,14 @@ void read_preload(const Mechanism& mechanism, const Value& value, core::Task& ta
   }
 }
 
+/// Whether a law may depend on the load.
+void read_knows_load(const Value& value, core::Task& task) {
+  task.knows_load = boolean_of(value);
+  if (task.knows_load && !task.controlled_preload)
+    throw InputError(value.where, "only a preload that varies with the pose may vary with the load",
+                     "write preload: controlled, or leave knows_load out");
+}
+
 }  // namespace
 
 core::Task task_of(const Value& document, const Mechanism& mechanism, const HandedFiles* handed) {
@@ -159,6 +167,7 @@ core::Task task_of(const Value& document, const Mechanism& mechanism, const Hand
   if (const auto error = root.find("pose_error"))
     task.pose_error = read_number(mechanism, *error, Sign::positive).value;
   if (const auto preload = root.find("preload")) read_preload(mechanism, *preload, task);
+  if (const auto knows = root.find("knows_load")) read_knows_load(*knows, task);
   if (const auto all = root.find("tolerances")) task.tolerances = read_tolerances(mechanism, *all);
   if (const auto all = root.find("loads_within")) task.loads_within = read_loads_within(mechanism, *all);
   return task;

@@ -9,6 +9,7 @@
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
 #include "report/pose.hpp"
+#include "report/preload.hpp"
 #include "report/trajectory.hpp"
 #include "report/trajectory_plots.hpp"
 #include "report/typesetting.hpp"
@@ -66,7 +67,10 @@ Files verification_pictures(const core::Verification& result) {
 Files loci_json(const LociSheet& loci) { return {{"loci.json", json_text(loci_object(loci.map))}}; }
 Files zones_json(const core::Zones& map) { return {{"zones.json", json_text(zones_object(map))}}; }
 Files verification_json(const core::Verification& result) {
-  return {{"verify.json", json_text(verification_object(result))}};
+  Files files = {{"verify.json", json_text(verification_object(result))}};
+  if (result.preload && !result.preload->cells_of_law.empty())
+    files.push_back({"preload_law.csv", shown_csv(law_table(result), result.units)});
+  return files;
 }
 Files loci_csv(const LociSheet& loci) { return {{"loci.csv", csv(loci.map)}}; }
 Files loci_dxf(const LociSheet& loci) { return {{"loci.dxf", dxf(loci.map, DxfVersion::r2000)}}; }

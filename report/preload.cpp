@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/shown_units.hpp"
@@ -36,7 +37,53 @@ class Efforts {
   const core::Units& units_;
 };
 
+/// "with M_A1 > 0, M_A2 < 0: the smallest size is between 6.08 and 6.12".
+std::string pattern_line(const core::PreloadPattern& pattern) {
+  std::string signs;
+  for (const auto& [name, sign] : pattern.signs)
+    signs += (signs.empty() ? "with " : ", ") + name + (sign > 0 ? " > 0" : " < 0");
+  if (signs.empty()) signs = "whatever the signs";
+  const auto& [least, most] = pattern.size;
+  return signs + (pattern.verdict == core::Verdict::verified
+                      ? fmt::format(": the smallest size is between {:.4g} and {:.4g}", least, most)
+                      : fmt::format(": none was found; sizes below {:.4g} fail", least));
+}
+
 }  // namespace
+
+core::Table law_table(const core::Verification& result) {
+  core::Table table;
+  const core::PreloadAnswer& preload = *result.preload;
+  const auto add = [&](const std::string& name, const std::string& unit, const auto& value_of) {
+    table.names.push_back(name);
+    table.units.push_back(unit);
+    std::vector<double>& column = table.columns.emplace_back();
+    for (const core::PreloadLawCell& cell : preload.cells_of_law) column.push_back(value_of(cell));
+  };
+  for (std::size_t c = 0; c < result.coordinates.size(); ++c) {
+    const std::string unit = result.angles[c] ? "rad" : "m";
+    add(result.coordinates[c] + "_from", unit, [c](const auto& cell) { return cell.lower[c]; });
+    add(result.coordinates[c] + "_to", unit, [c](const auto& cell) { return cell.upper[c]; });
+  }
+  const std::size_t bases = preload.cells_of_law.empty() ? 0 : preload.cells_of_law.front().efforts.size(),
+                    parts = preload.cells_of_law.empty() ? 0 : preload.cells_of_law.front().gains.size();
+  for (std::size_t i = 0; i < preload.joints.size(); ++i) {
+    const auto of_joint = [&, i](const core::PreloadLawCell& cell, const std::vector<double>& efforts) {
+      for (std::size_t k = 0; k < cell.joints.size(); ++k)
+        if (cell.joints[k] == preload.joints[i]) return efforts[k];
+      return std::numeric_limits<double>::quiet_NaN();
+    };
+    for (std::size_t base = 0; base < bases; ++base)
+      add(preload.joints[i] + (bases == 1  ? ""
+                               : base == 0 ? "_first"
+                                           : "_last"),
+          preload.forces[i] ? "N" : "N m", [&, base](const auto& cell) { return of_joint(cell, cell.efforts[base]); });
+    for (std::size_t part = 0; part < parts; ++part)
+      add(preload.joints[i] + "_per_load_" + std::to_string(part + 1), "",
+          [&, part](const auto& cell) { return of_joint(cell, cell.gains[part]); });
+  }
+  return table;
+}
 
 std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const core::Units& units) {
   const Efforts efforts(preload, units);
@@ -46,9 +93,17 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
     looked_for += fmt::format("{}{} from {} to {}", i == 0 ? "" : ", ", preload.joints[i],
                               efforts.told(i, preload.lower[i]), efforts.told(i, preload.upper[i]));
   if (preload.of_poses) {
-    lines.emplace_back(preload.size[1] <= 1
-                           ? "tensions within their bounds exist at every pose, and some that vary continuously: proven"
-                           : "no tensions are proven for every pose");
+    if (preload.cells_of_law.empty()) {
+      lines.emplace_back("no efforts are proven for every pose");
+    } else {
+      lines.push_back(fmt::format("efforts exist at every pose, and some that vary continuously: proven in {} cells",
+                                  preload.cells_of_law.size()));
+      lines.push_back(fmt::format("{}the smallest size of a law is at most {:.4g}",
+                                  preload.size[0] > 0
+                                      ? fmt::format("laws of a size below {:.4g} fail, proven, and ", preload.size[0])
+                                      : std::string(),
+                                  preload.size[1]));
+    }
   } else if (preload.law) {
     lines.push_back(fmt::format("{} = {}: verifies", preload.joints.front(), preload.law->expression));
     lines.push_back(fmt::format(
@@ -78,9 +133,37 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
   for (const core::ProvenRange& own : preload.ranges)
     lines.push_back(fmt::format("{} verifies from {} to {}", preload.joints.front(), efforts.end(own.from, own.below),
                                 efforts.end(own.to, own.above)));
+  for (const core::PreloadPattern& own : preload.patterns)
+    if (own.verdict != core::Verdict::refuted) lines.push_back(pattern_line(own));
   lines.push_back("looked for with " + looked_for);
   return lines;
 }
+
+namespace {
+
+nlohmann::ordered_json pattern_object(const core::PreloadAnswer& preload, const core::PreloadPattern& pattern) {
+  using Json = nlohmann::ordered_json;
+  Json signs = Json::object(), value = Json::object(), refutation = Json::array();
+  for (const auto& [name, sign] : pattern.signs) signs[name] = sign;
+  for (std::size_t i = 0; pattern.value && i < preload.joints.size(); ++i)
+    value[preload.joints[i]] = (*pattern.value)[i];
+  for (const core::PreloadRow& row : pattern.refutation)
+    refutation.push_back({{"reaction", row.reaction},
+                          {"sign", row.sign},
+                          {"bound", row.bound},
+                          {"at", row.at},
+                          {"load", row.load},
+                          {"offset", row.offset},
+                          {"slope", row.slope},
+                          {"multiplier", row.multiplier}});
+  return {{"signs", std::move(signs)},
+          {"verdict", core::to_string(pattern.verdict)},
+          {"size", {number_json(pattern.size[0]), number_json(pattern.size[1])}},
+          {"value", pattern.value ? std::move(value) : Json(nullptr)},
+          {"refutation", std::move(refutation)}};
+}
+
+}  // namespace
 
 nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
   using Json = nlohmann::ordered_json;
@@ -93,11 +176,14 @@ nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
     ranges.push_back({{"from", own.from}, {"to", own.to}, {"below", own.below}, {"above", own.above}});
   Json law = nullptr;
   if (preload.law) law = {{"expression", preload.law->expression}, {"within", preload.law->within}};
+  Json patterns = Json::array();
+  for (const core::PreloadPattern& own : preload.patterns) patterns.push_back(pattern_object(preload, own));
   return {{"law", std::move(law)},
           {"value", preload.value ? std::move(value) : Json(nullptr)},
           {"size", {number_json(preload.size[0]), number_json(preload.size[1])}},
           {"ranges", std::move(ranges)},
           {"looked_for", std::move(looked_for)},
+          {"patterns", std::move(patterns)},
           {"cells", preload.cells}};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clearloci/pose.hpp"
+#include "clearloci/table.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 
@@ -14,6 +15,10 @@ namespace clearloci::report {
 
 /// Without the head of each line: "B2 = -6.25 N m, the smallest that verifies; ...".
 std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const core::Units& units);
+
+/// Of a law by cells: from and to of every coordinate, then what is chosen in the cell, N or N m; under a range of
+/// loads that of the first and the last. "nan": of a cable whose tension follows there. Parts of loads have gains.
+core::Table law_table(const core::Verification& result);
 
 nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload);
 

@@ -161,6 +161,7 @@ Json study_object(const StudyResult& result) {
     object["shares"] = shares;
     if (result.parameters.size() == 1) object["ranges"] = ranges_array(result);
     if (result.best) object["best"] = design_object(result, result.designs[*result.best]);
+    if (result.best_goal) object["best_goal"] = *result.best_goal;
     object["tolerances"] = result.tolerances ? cell_object(result, *result.tolerances) : Json(nullptr);
     object["cells"] = cells_object(result);
     return object;
@@ -194,10 +195,11 @@ std::string proof_text(const StudyResult& result) {
   using Status = StudyDesign::Status;
   std::string out = fmt::format("{}: {} cells, {}\n\n", printable(result.mechanism), result.cells.size(),
                                 method_words(result.study.method));
-  const std::pair<Status, const char*> lines[] = {{Status::feasible, "every design verifies, proven"},
-                                                  {Status::infeasible, "every design fails, proven"},
-                                                  {Status::undecided, "neither is proven down to the finest cells"},
-                                                  {Status::left_out, "keep does not hold"}};
+  const std::pair<Status, const char*> lines[] = {
+      {Status::feasible, "every design verifies, proven"},
+      {Status::infeasible, "every design fails, proven"},
+      {Status::undecided, "neither is proven down to the finest cells"},
+      {Status::left_out, result.best_goal ? "keep does not hold, or no better than the best" : "keep does not hold"}};
   for (const auto& [status, words] : lines) {
     const double part = share(result, status);
     if (part > 0 || status == Status::feasible)
@@ -207,7 +209,14 @@ std::string proof_text(const StudyResult& result) {
   for (const core::ProvenRange& own : result.ranges)
     out += fmt::format("\n{} verifies from {} to {}\n", result.parameters.front(), end_words(own.from, own.below),
                        end_words(own.to, own.above));
-  if (result.best)
+  if (result.best_goal) {
+    const core::StudyGoal& goal = result.study.goals.front();
+    out += fmt::format("\nbest         {}: {}, and no design {} {}, proven\n", goal_words(goal),
+                       exact_number((*result.best_goal)[1]), goal.maximise ? "above" : "below",
+                       exact_number((*result.best_goal)[0]));
+    for (std::size_t i = 0; i < result.parameters.size(); ++i)
+      out += fmt::format("  {} = {}\n", result.parameters[i], exact_number(result.designs[*result.best].values[i]));
+  } else if (result.best)
     out += fmt::format("\nbest         {}\n  {} = {}, rounded inwards\n", goal_words(result.study.goals.front()),
                        result.parameters.front(), exact_number(result.designs[*result.best].values.front()));
   if (!result.tolerances) return out;

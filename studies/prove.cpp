@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 #include "analysis/model.hpp"
 #include "analysis/proven_cells.hpp"
@@ -91,6 +92,54 @@ bool CellJudge::proven(const std::vector<ExactRange>& ranges) {
       return false;
   }
   return true;
+}
+
+double BestProven::bound(const std::vector<ExactRange>& ranges) const {
+  const core::Interval values = problem_.goal_over(goal_, ranges);
+  return goal_.maximise ? -values.upper() : values.lower();
+}
+
+double BestProven::value(const std::vector<Rational>& design) const {
+  std::vector<ExactRange> point;
+  for (const Rational& own : design) point.emplace_back(own, own);
+  const core::Interval values = problem_.goal_over(goal_, point);
+  return goal_.maximise ? -values.lower() : values.upper();
+}
+
+void BestProven::add_feasible(const std::vector<ExactRange>& ranges) {
+  std::vector<std::vector<Rational>> designs(1);
+  for (const auto& [low, high] : ranges) designs.front().push_back((low + high) / 2);
+  for (std::size_t corner = 0; corner < std::size_t{1} << ranges.size(); ++corner) {
+    std::vector<Rational>& own = designs.emplace_back();
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+      own.push_back((corner >> i & 1) != 0 ? ranges[i].second : ranges[i].first);
+  }
+  for (std::vector<Rational>& own : designs)
+    if (const double found = value(own); found < found_) {
+      found_ = found;
+      best_ = std::move(own);
+    }
+}
+
+bool BestProven::may_be_better(const std::vector<ExactRange>& ranges) const {
+  std::vector<ExactRange> all;
+  for (const core::StudyParameter& own : problem_.study().vary) all.emplace_back(own.lower, own.upper);
+  const core::Interval whole = problem_.goal_over(goal_, all);
+  const double tolerance = core::to_double(problem_.study().method.finest) * (whole.upper() - whole.lower());
+  return bound(ranges) < found_ - tolerance;
+}
+
+void BestProven::add_left(const std::vector<ExactRange>& ranges) { least_ = std::min(least_, bound(ranges)); }
+
+void BestProven::tell(core::StudyResult& result) const {
+  if (best_.empty()) return;
+  core::StudyDesign best;
+  best.status = Status::feasible;
+  for (const Rational& own : best_) best.values.push_back(core::to_double(own));
+  result.designs = {best};
+  result.best = 0;
+  const double least = std::min(least_, found_);
+  result.best_goal = goal_.maximise ? std::array<double, 2>{-least, -found_} : std::array<double, 2>{least, found_};
 }
 
 std::optional<core::StudyCell> proven_tolerances(const StudyProblem& problem) {

@@ -2,6 +2,9 @@
 // Private to studies/.
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "studies/study_judge.hpp"
 
 namespace clearloci {
@@ -35,6 +38,32 @@ class CellJudge {
   const StudyProblem& problem_;
   CellTree tree_;
   std::vector<std::unique_ptr<loci::DesignJudge>> judges_;
+};
+
+/// The best design of a proof with a goal over several parameters, and what no design can be better than.
+class BestProven {
+ public:
+  explicit BestProven(const StudyProblem& problem) : problem_(problem), goal_(problem.study().goals.front()) {}
+
+  /// All designs of a cell are feasible: its corners and its middle are looked at.
+  void add_feasible(const std::vector<ExactRange>& ranges);
+  /// Whether a cell may have a design that is better by more than the tolerance: the finest part of what the goal is
+  /// over all designs.
+  bool may_be_better(const std::vector<ExactRange>& ranges) const;
+  /// Of a cell that is left as it is, without being proven to be infeasible.
+  void add_left(const std::vector<ExactRange>& ranges);
+  /// The best, and the goal's values that it is proven to be between: the best possible, and its own.
+  void tell(core::StudyResult& result) const;
+
+ private:
+  double value(const std::vector<core::Rational>& design) const;
+  /// What no design of a cell is better than; smaller is better.
+  double bound(const std::vector<ExactRange>& ranges) const;
+
+  const StudyProblem& problem_;
+  const core::StudyGoal& goal_;
+  std::vector<core::Rational> best_;
+  double found_ = std::numeric_limits<double>::infinity(), least_ = std::numeric_limits<double>::infinity();
 };
 
 /// The largest box around the file's design, of those that grow alike on all sides and then side by side, that is

@@ -111,11 +111,13 @@ void require_provable(const core::Study& study) {
     if (own.figure != Figure::margin && own.figure != Figure::min_force && own.figure != Figure::pose_error)
       throw core::InputError({study.file}, core::to_string(own.figure) + " is not proven for boxes of designs",
                              "require margin, min_force or pose_error, or choose another method");
-  const bool end = study.vary.size() == 1 && study.goals.size() == 1 && !study.goals.front().figure &&
-                   study.goals.front().expression == study.vary.front().name;
-  if (!study.goals.empty() && !end)
-    throw core::InputError({study.file}, "a proof measures no goal",
-                           "leave the goal out; over one parameter that may be the goal itself");
+  if (study.goals.empty()) return;
+  const bool of_parameters = study.goals.size() == 1 && !study.goals.front().figure;
+  const bool end = study.vary.size() > 1 || study.goals.front().expression == study.vary.front().name;
+  if (!of_parameters || !end)
+    throw core::InputError(
+        {study.file}, "a proof measures no goal",
+        "leave the goal out; it may be one expression in parameters, over one parameter that itself");
 }
 
 /// The least or the greatest value that verifies, as the goal asks, rounded into its range to a thousandth of that: a
@@ -137,6 +139,22 @@ void choose_end(const core::Study& study, StudyResult& result) {
   result.best = 0;
 }
 
+/// Cells without a design that is better than the best found are not cut.
+void leave_what_is_no_better(BestProven& best, const CellTree& tree, std::vector<std::uint64_t>& finer,
+                             std::vector<StudyDesign>& leaves) {
+  std::erase_if(finer, [&](std::uint64_t path) {
+    const std::vector<ExactRange> ranges = tree.ranges(path);
+    if (best.may_be_better(ranges)) return false;
+    best.add_left(ranges);
+    StudyDesign own;
+    own.index = path;
+    own.status = Status::left_out;
+    own.reason = "no better";
+    leaves.push_back(std::move(own));
+    return true;
+  });
+}
+
 /// Cells level by level: what is undecided is cut, down to the finest.
 void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyResult& result) {
   require_provable(problem.study());
@@ -151,6 +169,8 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
     for (const StudyDesign& own : found.designs()) known.emplace(own.index, own);
     std::vector<std::uint64_t> level = {1};
     std::vector<StudyDesign> leaves;
+    std::optional<BestProven> best;
+    if (!problem.study().goals.empty() && problem.study().vary.size() > 1) best.emplace(problem);
     while (!level.empty() && result.complete) {
       std::size_t next = 0;
       work.next = [&]() -> std::optional<std::uint64_t> {
@@ -166,13 +186,16 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
       for (const std::uint64_t path : level) {
         const auto own = known.find(path);
         if (own == known.end()) continue;
+        if (best && own->second.status == Status::feasible) best->add_feasible(tree.ranges(path));
         if (own->second.status == Status::undecided && !tree.is_finest(path)) {
           finer.push_back(2 * path);
           finer.push_back(2 * path + 1);
         } else {
           leaves.push_back(own->second);
+          if (best && own->second.status == Status::undecided) best->add_left(tree.ranges(path));
         }
       }
+      if (best) leave_what_is_no_better(*best, tree, finer, leaves);
       found.expect(finer.size());
       level = std::move(finer);
     }
@@ -182,6 +205,7 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
       result.ranges = joined_ranges(result.cells);
       choose_end(problem.study(), result);
     }
+    if (result.complete && best) best->tell(result);
     if (result.complete) result.tolerances = proven_tolerances(problem);
   });
 }

@@ -124,6 +124,12 @@ double StudyProblem::goal(const core::StudyGoal& goal, const StudyDesign& design
   return enclosure(goal_expressions_.at(goal.expression), ranges).middle();
 }
 
+core::Interval StudyProblem::goal_over(const core::StudyGoal& goal, const std::vector<ExactRange>& values) const {
+  Ranges ranges;
+  for (std::size_t i = 0; i < varied_.size(); ++i) ranges[varied_[i]] = range_of(values[i].first, values[i].second);
+  return enclosure(goal_expressions_.at(goal.expression), ranges);
+}
+
 StudyJudge::StudyJudge(const StudyProblem& problem) : problem_(problem) {
   for (const auto& task : problem.tasks()) {
     judges_.push_back(task->judge());

@@ -28,6 +28,8 @@ class StudyProblem {
   Kept kept(const std::vector<ExactRange>& values) const;
   /// The value of a goal for a design: a figure or an expression.
   double goal(const core::StudyGoal& goal, const core::StudyDesign& design) const;
+  /// The values that an expression takes over some designs.
+  core::Interval goal_over(const core::StudyGoal& goal, const std::vector<ExactRange>& values) const;
 
  private:
   bool kept_exactly(const mechanism::Keep& keep, const std::vector<core::Rational>& values) const;

@@ -104,11 +104,13 @@ struct StudyResult {
   Study study;
   std::vector<std::string> parameters;  ///< that vary
   std::vector<Figure> figures;
-  std::vector<StudyDesign> designs;          ///< by index; of a search its history
-  std::optional<std::size_t> best;           ///< in `designs`, by the first goal; of a proof the only one there
-  std::vector<std::size_t> front;            ///< in `designs`, with several goals: none is better in all
-  std::vector<StudyCell> cells = {};         ///< of a proof
-  std::vector<ProvenRange> ranges = {};      ///< of a proof over one parameter, in its order
+  std::vector<StudyDesign> designs;      ///< by index; of a search its history
+  std::optional<std::size_t> best;       ///< in `designs`, by the first goal; of a proof the only one there
+  std::vector<std::size_t> front;        ///< in `designs`, with several goals: none is better in all
+  std::vector<StudyCell> cells = {};     ///< of a proof
+  std::vector<ProvenRange> ranges = {};  ///< of a proof over one parameter, in its order
+  /// Of a proof with a goal over several parameters: what no design is better than, and what the best has.
+  std::optional<std::array<double, 2>> best_goal = {};
   std::optional<StudyCell> tolerances = {};  ///< of a proof: the largest box around the file's design that is proven
   bool complete = true;
 };

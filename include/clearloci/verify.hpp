@@ -85,8 +85,8 @@ struct Task {
   std::optional<Rational> angle_length = {};  ///< m a radian; without it margins are of lengths alone
   /// Joints of free effort and what each exerts, N or N m. Of the others one choice for the whole task is looked for.
   std::vector<std::pair<std::string, Rational>> preload = {};
-  /// A law is looked for instead: an effort that varies with the pose. Of one free effort.
-  bool controlled_preload = false;
+  /// Efforts that vary with the pose are looked for instead; with `knows_load` also with the load, affine in it.
+  bool controlled_preload = false, knows_load = false;
 };
 
 /// What is not proven is never called refuted.
@@ -174,6 +174,36 @@ struct PreloadLaw {
   std::array<double, 2> within{};  ///< what it takes over the task: between these, proven
 };
 
+/// Of free efforts lambda, N or N m: that sign * reaction = offset + slope . lambda must be positive, or above its
+/// least.
+struct PreloadRow {
+  std::string reaction;  ///< "M_A1"
+  int sign = 1;
+  bool bound = false;         ///< of a bound, or of the size of a preload: what is left to it
+  std::vector<double> at;     ///< the pose; empty: of an effort itself
+  std::vector<double> load;   ///< what the loads differ by there, as in the task's loads_within
+  std::vector<double> slope;  ///< one a free effort
+  double offset = 0;
+  double multiplier = 0;  ///< positive; with those of the other rows slopes cancel and offsets add up below zero
+};
+
+/// What is known of preloads under which reactions have certain signs all over a task.
+struct PreloadPattern {
+  std::vector<std::pair<std::string, int>> signs;  ///< of reactions of one component
+  Verdict verdict = Verdict::undecided;            ///< verified: some preload verifies; refuted: none, proven
+  std::array<double, 2> size{};                    ///< of the smallest that verifies, at least and at most: proven
+  std::optional<std::vector<double>> value = {};   ///< a constant one that verifies, of the second size
+  std::vector<PreloadRow> refutation = {};         ///< rows that exclude each other: of all, or of smaller sizes
+};
+
+/// A cell of a law: efforts that are proven in all of it.
+struct PreloadLawCell {
+  std::vector<double> lower, upper;          ///< poses
+  std::vector<std::string> joints;           ///< whose efforts are chosen; those of others follow
+  std::vector<std::vector<double>> efforts;  ///< under the first load of a range and under the last
+  std::vector<std::vector<double>> gains;    ///< of each part of loads_within what it adds to the efforts, a unit
+};
+
 /// Which constant efforts of the free actuators make a task verify (docs/guide/preload.md), or which law. The size of a
 /// preload is the largest of its efforts, each as a part of the larger bound of its `within`, or of 1 N or 1 N m where
 /// it has none.
@@ -190,7 +220,9 @@ struct PreloadAnswer {
   /// Of a task with `controlled_preload`; `value` and `ranges` are empty then. `size` is that of any law, at least and
   /// at most.
   std::optional<PreloadLaw> law = {};
-  bool of_poses = false;  ///< of a task with `controlled_preload`: tensions of cables, chosen for each pose
+  bool of_poses = false;                          ///< of a task with `controlled_preload`: efforts chosen cell by cell
+  std::vector<PreloadLawCell> cells_of_law = {};  ///< then, where it is verified: they cover the task
+  std::vector<PreloadPattern> patterns = {};      ///< of all signs that some preload gives at a pose of the task
 };
 
 struct Verification {

@@ -2,8 +2,8 @@
 // around the task that holds; what ends it there; and where a task that fails fits.
 #pragma once
 
-#include "loci/tasks/choice_proof.hpp"
 #include "loci/tasks/design_proof.hpp"
+#include "loci/tasks/effort_proof.hpp"
 #include "loci/tasks/pose_displacement.hpp"
 #include "loci/tasks/pose_nearest.hpp"
 #include "loci/tasks/pose_proof.hpp"

@@ -54,6 +54,7 @@ py::dict data_of(const Model& model, const StudyResult& result) {
   one["ranges"] = ranges_of(result);
   one["tolerances"] =
       result.tolerances ? py::object(py::make_tuple(result.tolerances->lower, result.tolerances->upper)) : py::none();
+  one["best_goal"] = result.best_goal ? py::cast(*result.best_goal) : py::object(py::none());
   one["complete"] = result.complete;
   return one;
 }

@@ -74,6 +74,21 @@ py::object open_of(const Verification& answer) {
                   py::arg("upper") = place(open.upper), py::arg("reason") = reason);
 }
 
+py::dict pattern_of(const PreloadPattern& pattern) {
+  py::dict signs;
+  for (const auto& [name, sign] : pattern.signs) signs[py::str(name)] = sign;
+  py::list refutation;
+  for (const PreloadRow& row : pattern.refutation)
+    refutation.append(py::dict(py::arg("reaction") = row.reaction, py::arg("sign") = row.sign,
+                               py::arg("bound") = row.bound, py::arg("at") = row.at, py::arg("load") = row.load,
+                               py::arg("offset") = row.offset, py::arg("slope") = row.slope,
+                               py::arg("multiplier") = row.multiplier));
+  return py::dict(py::arg("signs") = signs, py::arg("verdict") = to_string(pattern.verdict),
+                  py::arg("size") = py::make_tuple(pattern.size[0], pattern.size[1]),
+                  py::arg("value") = pattern.value ? py::cast(*pattern.value) : py::object(py::none()),
+                  py::arg("refutation") = refutation);
+}
+
 py::object preload_of(const Verification& answer) {
   if (!answer.preload) return py::none();
   const PreloadAnswer& preload = *answer.preload;
@@ -86,7 +101,10 @@ py::object preload_of(const Verification& answer) {
   for (const ProvenRange& own : preload.ranges)
     ranges.append(py::dict(py::arg("from") = own.from, py::arg("to") = own.to, py::arg("below") = own.below,
                            py::arg("above") = own.above));
+  py::list patterns;
+  for (const PreloadPattern& own : preload.patterns) patterns.append(pattern_of(own));
   py::dict one;
+  one["patterns"] = patterns;
   one["law"] = py::none();
   if (preload.law) {
     py::dict law;

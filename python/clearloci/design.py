@@ -34,6 +34,8 @@ class Designs:
     #: where it ends, and why designs below and above fail
     ranges: list[tuple] = field(default_factory=list)
     tolerances: tuple[list[float], list[float]] | None = None  #: of a proof: the box around the file's design
+    #: of a proof with a goal over several parameters: what no design is better than, and what the best has
+    best_goal: tuple[float, float] | None = None
     complete: bool = True
 
     def __len__(self) -> int:

@@ -97,6 +97,18 @@ class Design(InOwnFolder):
             process = self.run_program("verify", STUDIES / "clearances.yaml", task, *words, "-o", "v", status=status)
             self.assertIn("pose error    at most" if status == 0 else "displace the end effector by", process.stdout)
 
+    def test_the_anchor_of_the_softest_spring(self):
+        _, result, _ = self.design(STUDIES / "preloaded.yaml", "spring_anchor.yaml", "anchor")
+        bound, best = result["best_goal"]
+        self.assertEqual(best, result["best"]["parameters"]["k"])
+        self.assertLess(best, 22.43, "softer than with the anchor of the file")
+        self.assertLess(best - bound, 4 * 200 / 256)
+        box = "format: 1\nbox: {x: [-0.05, 0.15], y: [0.45, 0.6]}\n"
+        (self.folder / "task.yaml").write_text(box, encoding="utf-8")
+        for hx in (0.5, 0.6, 0.75, 0.9, 0.94, 1):
+            words = ("--set", f"hx={hx}", "--set", f"k={bound * 0.999}", "--quiet", "-o", "out")
+            self.run_program("verify", STUDIES / "preloaded.yaml", "task.yaml", *words, status=1)
+
     def test_softest_spring(self):
         told, result, page = self.design(STUDIES / "preloaded.yaml", "softest_spring.yaml", "spring")
         self.assertIn("k verifies from [22.43627377098", told)

@@ -1,0 +1,264 @@
+#include "analysis/constant_efforts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "analysis/effort_chooser.hpp"
+#include "analysis/effort_patterns.hpp"
+#include "analysis/effort_system.hpp"
+#include "analysis/loci.hpp"
+#include "analysis/task_demands.hpp"
+#include "core/rational.hpp"
+
+namespace clearloci {
+namespace {
+
+using core::Rational;
+using core::Verdict;
+using PoseAt = loci::pose::Pose;
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+/// Efforts that are tried keep within so many times what poses ask for.
+constexpr std::array<double, 8> sizes_tried = {1.006, 1.02, 1.05, 1.1, 1.2, 1.5, 3, unbounded};
+constexpr int most_tries = 24;
+constexpr std::size_t first_poses = 24;
+
+/// One pattern, and the rows of the poses that were looked at.
+struct Looked {
+  SignPattern signs;
+  std::vector<EffortInequality> rows = {};
+  std::vector<loci::pose::EffortColumns> places = {};  ///< of the same poses
+  core::PreloadPattern told = {};
+  std::vector<Rational> value = {};
+  std::string words = {};
+};
+
+class ConstantSearch {
+ public:
+  ConstantSearch(const Model& model, const std::vector<WantedEffort>& wanted, const Task& task,
+                 const VerifyRequest& request, std::vector<std::vector<Rational>> known,
+                 const std::vector<core::StudyCell>* by_ranges)
+      : model_(model),
+        task_(task),
+        request_(request),
+        known_(std::move(known)),
+        by_ranges_(by_ranges),
+        system_(model.content().mechanism, wanted, task, sides_of(model, task, request),
+                request_of(task, request.loci)) {
+    const std::size_t n = model.content().mechanism.coordinates.size();
+    poses_ = loci::pose::PoseRegion(task.shape, {std::vector<double>(n, 1.0), std::vector<bool>(n, true)}).samples();
+  }
+
+  ConstantEfforts run() {
+    ConstantEfforts answer;
+    std::size_t first = 0;
+    std::optional<SignPatterns> patterns;
+    for (; first < poses_.size() && !patterns; ++first)
+      patterns = sign_patterns(system_, system_.places(poses_[first]));
+    if (!patterns) return answer;
+    answer.complete = true;
+    for (SignPattern& signs : patterns->possible) {
+      Looked own{.signs = std::move(signs)};
+      own.rows = system_.rows_of_efforts(own.signs);
+      asked_for_.clear();
+      const std::size_t stride = std::max<std::size_t>(1, poses_.size() / first_poses);
+      // The middle and the corners, and some of the others.
+      for (std::size_t i = 0; i < poses_.size(); i += i < first_poses / 2 ? 1 : stride) add(own, poses_[i]);
+      if (by_ranges_)
+        look_at_ranges(own);
+      else
+        look(own);
+      own.told.signs.assign(own.signs.begin(), own.signs.end());
+      answer.patterns.push_back(std::move(own.told));
+      answer.values.push_back(std::move(own.value));
+      answer.words.push_back(std::move(own.words));
+    }
+    for (const auto& [signs, exclusion] : patterns->impossible) {
+      core::PreloadPattern& own = answer.patterns.emplace_back();
+      own.signs.assign(signs.begin(), signs.end());
+      own.verdict = Verdict::refuted;
+      own.size = {unbounded, unbounded};
+      own.refutation = told_rows(system_, exclusion);
+      answer.values.emplace_back();
+      answer.words.push_back(exclusion_words(system_, exclusion));
+    }
+    answer.cells = tries_;
+    return answer;
+  }
+
+ private:
+  static DyadSides sides_of(const Model& model, const Task& task, const VerifyRequest& request) {
+    return requested_modes(model.content().mechanism, request_of(task, request.loci)).front();
+  }
+
+  bool out_of_time() const {
+    return request_.loci.deadline && std::chrono::steady_clock::now() > *request_.loci.deadline;
+  }
+
+  void add(Looked& own, const PoseAt& pose) const {
+    for (const PoseAt& place : system_.places(pose)) {
+      if (const auto rows = system_.rows(place, own.signs)) own.rows.insert(own.rows.end(), rows->begin(), rows->end());
+      if (auto columns = system_.columns(place)) own.places.push_back(std::move(*columns));
+    }
+  }
+
+  void look(Looked& own) {
+    own.told.size = {0, unbounded};
+    for (const std::vector<Rational>& efforts : known_)
+      if (meets_rows(own, efforts)) take(own, efforts);
+    std::size_t level = 0;
+    int at_level = 0;
+    for (int i = 0; i < most_tries && level < sizes_tried.size() && !out_of_time(); ++i) {
+      if (const auto none = excluded(system_, own.rows)) {
+        own.told.verdict = Verdict::refuted;
+        own.told.size = {unbounded, unbounded};
+        own.told.refutation = told_rows(system_, *none);
+        own.words = exclusion_words(system_, *none);
+        return;
+      }
+      const auto smallest = smallest_efforts(system_, own.rows);
+      if (!smallest) return;
+      if (smallest->size > own.told.size[0]) {
+        own.told.size[0] = smallest->size;
+        own.told.refutation = told_rows(system_, smallest->below);
+      }
+      const double within = std::max(smallest->size, least_size()) * sizes_tried[level];
+      if (within >= own.told.size[1]) return;
+      const auto efforts = deep_within(own, within);
+      if (!efforts) {
+        ++level;
+        continue;
+      }
+      const double before = own.told.size[1];
+      const std::optional<PoseAt> failing = tried(own, *efforts);
+      if (own.told.size[1] < before) return;
+      if (failing) add(own, *failing);
+      constexpr int tries_of_level = 3;
+      if (failing && ++at_level < tries_of_level) continue;
+      ++level;
+      at_level = 0;
+    }
+  }
+
+  /// Of one effort whose ranges are known: those of its parts that meet the rows.
+  void look_at_ranges(Looked& own) {
+    own.told.size = {unbounded, unbounded};
+    if (const auto none = excluded(system_, own.rows)) {
+      own.told.verdict = Verdict::refuted;
+      own.told.refutation = told_rows(system_, *none);
+      own.words = exclusion_words(system_, *none);
+      return;
+    }
+    double low = -system_.largest(0), high = system_.largest(0);
+    for (const EffortInequality& row : own.rows) {
+      const double slope = row.slope.front().value, end = -row.offset.value / slope;
+      if (slope > 0) low = std::max(low, end);
+      if (slope < 0) high = std::min(high, end);
+    }
+    const double size_of_one = system_.wanted().front().size_of_one;
+    for (const core::StudyCell& cell : *by_ranges_) {
+      const double from = std::max(low, cell.lower.front()), to = std::min(high, cell.upper.front());
+      if (from > to || cell.status == core::StudyDesign::Status::infeasible) continue;
+      const double nearest = from > 0 ? from : to < 0 ? to : 0, size = std::abs(nearest) * size_of_one;
+      own.told.size[0] = std::min(own.told.size[0], size);
+      const bool whole = low <= cell.lower.front() && cell.upper.front() <= high;
+      if (cell.status != core::StudyDesign::Status::feasible || !whole || size >= own.told.size[1]) continue;
+      own.told.size[1] = size;
+      own.told.verdict = Verdict::verified;
+      own.told.value = {nearest};
+      own.value = {Rational(nearest)};
+    }
+    if (own.told.verdict == Verdict::undecided && own.told.size[0] == unbounded) own.told.verdict = Verdict::refuted;
+    if (const auto smallest = smallest_efforts(system_, own.rows))
+      own.told.refutation = told_rows(system_, smallest->below);
+  }
+
+  bool meets_rows(const Looked& own, const std::vector<Rational>& efforts) const {
+    return std::all_of(own.rows.begin(), own.rows.end(), [&](const EffortInequality& row) {
+      double value = row.offset.value;
+      for (std::size_t k = 0; k < efforts.size(); ++k) value += row.slope[k].value * core::to_double(efforts[k]);
+      return value >= 0;
+    });
+  }
+
+  /// Efforts that verify, where they are smaller than those before.
+  void take(Looked& own, const std::vector<Rational>& efforts) const {
+    double size = 0;
+    std::vector<double> values;
+    for (std::size_t k = 0; k < efforts.size(); ++k) {
+      values.push_back(core::to_double(efforts[k]));
+      size = std::max(size, std::abs(values.back()) * system_.wanted()[k].size_of_one);
+    }
+    if (size >= own.told.size[1]) return;
+    own.told.verdict = Verdict::verified;
+    own.told.size[1] = size;
+    own.told.value = std::move(values);
+    own.value = efforts;
+  }
+
+  /// Verifies, or the pose of a witness whose rows the efforts do not meet.
+  std::optional<PoseAt> tried(Looked& own, const std::vector<Rational>& efforts) {
+    ++tries_;
+    if (request_.loci.progress) request_.loci.progress(0, "preload");
+    VerifyRequest asked = request_;
+    asked.depth = VerifyDepth::verdict;
+    const Verification result = verify(with_efforts(model_, system_.wanted(), efforts), task_, asked);
+    if (result.verified()) {
+      take(own, efforts);
+      return std::nullopt;
+    }
+    if (!result.witness || result.witness->at.size() != poses_.front().size()) return std::nullopt;
+    for (const PoseAt& seen : asked_for_)
+      if (seen == result.witness->at) return std::nullopt;
+    asked_for_.push_back(result.witness->at);
+    return result.witness->at;
+  }
+
+  double least_size() const {
+    double size = unbounded;
+    for (std::size_t k = 0; k < system_.wanted().size(); ++k)
+      size = std::min(size, system_.largest(k) * system_.wanted()[k].size_of_one);
+    return 1e-4 * size;
+  }
+
+  /// Of efforts within a size some deep within all that is asked for, of few digits.
+  std::optional<std::vector<Rational>> deep_within(const Looked& own, double size) const {
+    const auto choice = deep_choice(system_, own.places, own.signs, false, size);
+    return choice ? std::optional(of_few_digits(choice->efforts.front())) : std::nullopt;
+  }
+
+  std::vector<Rational> of_few_digits(const std::vector<double>& at) const {
+    std::vector<Rational> efforts;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      constexpr double digits = 2e-4;
+      const double near = at[k];
+      efforts.push_back(near == 0 ? Rational(0)
+                                  : core::simplest_rational_near(Rational(near), Rational(digits * std::abs(near))));
+      efforts.back() = std::clamp(efforts.back(), system_.wanted()[k].lower, system_.wanted()[k].upper);
+    }
+    return efforts;
+  }
+
+  const Model& model_;
+  Task task_;
+  const VerifyRequest& request_;
+  std::vector<std::vector<Rational>> known_;
+  const std::vector<core::StudyCell>* by_ranges_;
+  EffortSystem system_;
+  std::vector<PoseAt> poses_, asked_for_;
+  long tries_ = 0;
+};
+
+}  // namespace
+
+ConstantEfforts constant_efforts(const Model& model, const std::vector<WantedEffort>& wanted, const Task& task,
+                                 const VerifyRequest& request, const std::vector<std::vector<Rational>>& known,
+                                 const std::vector<core::StudyCell>* by_ranges) {
+  return ConstantSearch(model, wanted, task, request, known, by_ranges).run();
+}
+
+}  // namespace clearloci

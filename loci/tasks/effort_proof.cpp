@@ -1,0 +1,383 @@
+#include "loci/tasks/effort_proof.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <utility>
+
+#include "loci/tasks/effort_cell.hpp"
+#include "loci/tasks/pose_parts.hpp"
+
+namespace clearloci::loci::pose {
+namespace {
+
+/// Poses of a piece, with parts of the designs that together are all.
+struct EffortPart {
+  std::size_t piece = 0;
+  PoseBox box;
+  std::vector<PoseBox> designs;
+  const EffortStatics* statics = nullptr;  ///< what was chosen for the part that it was cut from
+  EffortChoice choice = {};
+};
+
+bool touch(const PoseBox& a, const PoseBox& b) {
+  for (std::size_t p = 0; p < a.size(); ++p)
+    if (a[p][0] > b[p][1] || b[p][0] > a[p][1]) return false;
+  return true;
+}
+
+template <class Form>
+class EffortSearch {
+ public:
+  EffortSearch(EffortChooser& chooser, const PoseRegion& region, PoseBox designs, double margin,
+               const PoseEffort& effort)
+      : chooser_(chooser),
+        region_(region),
+        designs_(std::move(designs)),
+        margin_(margin),
+        effort_(effort),
+        pieces_(region.pieces(margin)) {
+    for (const PosePiece& piece : pieces_) wider_.push_back(with_designs(piece));
+  }
+
+  EffortProof run() {
+    for (const Pose& pose : region_.samples())
+      if (refuted(pose)) return finished();
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      stack_.push_back({i, pieces_[i].box, {designs_}});
+      begin_with_one_for_all(i);
+    }
+    while (!stack_.empty()) {
+      while (!stack_.empty() && !is_refuted()) {
+        const EffortPart part = std::move(stack_.back());
+        stack_.pop_back();
+        visit(part);
+      }
+      if (is_refuted() || proof_.open > 0) return finished();
+      cut_where_efforts_do_not_join();
+    }
+    return finished();
+  }
+
+ private:
+  using Box = std::vector<std::array<double, 2>>;
+
+  /// Efforts that seem good at the middle and the corners of a piece: cells that share them need no joining.
+  void begin_with_one_for_all(std::size_t i) {
+    EffortPart& part = stack_.back();
+    const EffortStatics* const statics = chooser_.statics_at(middle(part));
+    std::vector<EffortColumns> columns;
+    constexpr std::size_t most_corners = 16;
+    const std::size_t corners = std::min(most_corners, std::size_t{1} << part.box.size());
+    EffortPart point = part;
+    for (std::size_t corner = 0; corner <= corners; ++corner) {
+      for (std::size_t p = 0; p < part.box.size(); ++p) {
+        const double at = corner == corners ? 0.5 * (part.box[p][0] + part.box[p][1]) : part.box[p][corner >> p & 1];
+        point.box[p] = {at, at};
+      }
+      if (region_.distance(pieces_[i], point.box) > margin_ + region_.hair()) continue;
+      if (statics == nullptr || chooser_.statics_at(middle(point)) != statics) return;
+      if (!joint_.enter(*statics, wider_[i].chart, together(point.box, middles(designs_)))) return;
+      columns.push_back(joint_.columns());
+    }
+    const std::optional<EffortChoice> choice = chooser_.choose(*statics, columns);
+    if (!choice) return;
+    part.statics = statics;
+    part.choice = *choice;
+  }
+
+  static PoseBox middles(PoseBox box) {
+    for (auto& [low, high] : box) low = high = 0.5 * (low + high);
+    return box;
+  }
+
+  bool is_refuted() const { return proof_.verdict == core::Verdict::refuted; }
+
+  bool refuted(const Pose& pose) {
+    if (!chooser_.refutes(pose)) return false;
+    proof_.verdict = core::Verdict::refuted;
+    return true;
+  }
+
+  PosePiece with_designs(PosePiece piece) const {
+    const std::size_t poses = piece.chart.base.size();
+    piece.chart.base.resize(poses + designs_.size(), 0.0);
+    for (Pose& way : piece.chart.ways) way.resize(piece.chart.base.size(), 0.0);
+    for (std::size_t v = 0; v < designs_.size(); ++v) {
+      Pose way(piece.chart.base.size(), 0.0);
+      way[poses + v] = 1;
+      piece.chart.ways.push_back(std::move(way));
+      piece.box.push_back(designs_[v]);
+    }
+    return piece;
+  }
+
+  static Box together(Box box, const Box& design) {
+    box.insert(box.end(), design.begin(), design.end());
+    return box;
+  }
+
+  Pose middle(const EffortPart& part) const { return pieces_[part.piece].chart.at(middle_of(part.box)); }
+
+  void visit(const EffortPart& part) {
+    const PosePiece& piece = pieces_[part.piece];
+    if (region_.distance(piece, part.box) > margin_ + region_.hair()) return;
+    if (out_of_effort()) return leave_open(part);
+    const Pose pose = middle(part);
+    const EffortStatics* const statics = chooser_.statics_at(pose);
+    if (statics == nullptr) return without_choice(part, pose);
+    std::vector<EffortColumns> columns;
+    std::vector<EffortCellOf<Form>> cells(part.designs.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Box box = together(part.box, part.designs[i]);
+      if (!cells[i].enter(*statics, wider_[part.piece].chart, box))
+        return cells[i].is_outside() ? without_choice(part, pose) : cut_by(part, i, cells[i].spreads());
+      columns.push_back(cells[i].columns());
+    }
+    if (part.statics == statics) {
+      const EffortChoice known = chooser_.turned(*statics, columns, part.choice);
+      if (keeps(cells, known)) return keep(part, statics, known);
+      // What seems good at the middle of a large cell is proven in smaller ones.
+      constexpr double large = 1.0 / 16;
+      const int along = widest(part);
+      if (along >= 0 && share(part, static_cast<std::size_t>(along)) > large && seem_to_keep(cells, known))
+        return cut_where_open(part, cells, known);
+    }
+    const std::optional<EffortChoice> choice = chooser_.choose(*statics, columns);
+    if (!choice) return without_choice(part, pose);
+    if (keeps(cells, *choice)) return keep(part, statics, *choice);
+    EffortPart own = part;
+    own.statics = statics;
+    own.choice = *choice;
+    cut_where_open(own, cells, *choice);
+  }
+
+  void cut_where_open(const EffortPart& part, std::vector<EffortCellOf<Form>>& cells, const EffortChoice& choice) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (!cells[i].keeps(choice)) return cut_by(part, i, cells[i].spreads());
+  }
+
+  static bool seem_to_keep(const std::vector<EffortCellOf<Form>>& cells, const EffortChoice& choice) {
+    return std::all_of(cells.begin(), cells.end(),
+                       [&](const EffortCellOf<Form>& own) { return own.seems_to_keep(choice); });
+  }
+
+  static bool keeps(std::vector<EffortCellOf<Form>>& cells, const EffortChoice& choice) {
+    return std::all_of(cells.begin(), cells.end(), [&](EffortCellOf<Form>& own) { return own.keeps(choice); });
+  }
+
+  void keep(EffortPart part, const EffortStatics* statics, const EffortChoice& choice) {
+    part.statics = statics;
+    part.choice = choice;
+    kept_.push_back(std::move(part));
+  }
+
+  void without_choice(const EffortPart& part, const Pose& pose) {
+    const bool in_task = region_.distance(pose) <= margin_ * (1 - 1e-9) + region_.hair();
+    if (in_task && refuted(pose)) return;
+    // Where the chooser finds nothing in small cells either, none of the others makes a proof.
+    constexpr double small = 1.0 / 256;
+    const int along = widest(part);
+    if (along >= 0 && share(part, static_cast<std::size_t>(along)) > small) return cut(part, along);
+    leave_open(part);
+    for (const EffortPart& own : stack_) leave_open(own);
+    stack_.clear();
+  }
+
+  double share(const EffortPart& part, std::size_t p) const {
+    const auto& whole = pieces_[part.piece].box[p];
+    return (part.box[p][1] - part.box[p][0]) / (whole[1] - whole[0]);
+  }
+
+  int widest(const EffortPart& part) const {
+    int best = -1;
+    double most = finest;
+    for (std::size_t p = 0; p < part.box.size(); ++p) {
+      const double own = share(part, p);
+      if (!(own > most)) continue;
+      most = own;
+      best = static_cast<int>(p);
+    }
+    return best;
+  }
+
+  /// Where a design moves what is in doubt most, the designs are cut: what is chosen stays that of all.
+  void cut_by(EffortPart part, std::size_t design, const typename EffortCellOf<Form>::Spreads& spreads) {
+    struct Moved {
+      const typename EffortCellOf<Form>::Spreads& all;
+      const typename EffortCellOf<Form>::Spreads& spreads() const { return all; }
+    };
+    constexpr std::size_t most_designs = 64;
+    const int along = chosen(Moved{spreads}, PieceBox{&wider_[part.piece], together(part.box, part.designs[design])});
+    const auto poses = static_cast<int>(part.box.size());
+    if (along < poses || part.designs.size() >= most_designs) return cut(part, along < poses ? along : widest(part));
+    const auto v = static_cast<std::size_t>(along - poses);
+    PoseBox second = part.designs[design];
+    const double at = 0.5 * (second[v][0] + second[v][1]);
+    part.designs[design][v][1] = at;
+    second[v][0] = at;
+    part.designs.push_back(std::move(second));
+    stack_.push_back(std::move(part));
+  }
+
+  void cut(const EffortPart& part, int along) {
+    if (along < 0) return leave_open(part);
+    const auto p = static_cast<std::size_t>(along);
+    const double at = 0.5 * (part.box[p][0] + part.box[p][1]);
+    EffortPart first = part, second = part;
+    first.box[p][1] = at;
+    second.box[p][0] = at;
+    stack_.push_back(std::move(second));
+    stack_.push_back(std::move(first));
+  }
+
+  bool out_of_effort() {
+    ++proof_.cells;
+    proof_.out_of_cells = proof_.out_of_cells || proof_.cells > effort_.most_cells;
+    proof_.out_of_time =
+        proof_.out_of_time || (effort_.deadline && std::chrono::steady_clock::now() >= *effort_.deadline);
+    return proof_.out_of_cells || proof_.out_of_time;
+  }
+
+  void leave_open(const EffortPart& part) {
+    ++proof_.open;
+    widen(PieceBox{&pieces_[part.piece], part.box}, proof_.lower, proof_.upper);
+  }
+
+  PoseBox poses_of(const EffortPart& part) const {
+    Pose lower, upper;
+    widen(PieceBox{&pieces_[part.piece], part.box}, lower, upper);
+    PoseBox box;
+    for (std::size_t c = 0; c < lower.size(); ++c) box.push_back({lower[c], upper[c]});
+    return box;
+  }
+
+  /// Which other cells each cell touches.
+  std::vector<std::vector<std::size_t>> neighbours() const {
+    std::vector<PoseBox> boxes;
+    for (const EffortPart& own : kept_) boxes.push_back(poses_of(own));
+    std::vector<std::size_t> order(kept_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return boxes[a].front()[0] < boxes[b].front()[0]; });
+    std::vector<std::vector<std::size_t>> all(kept_.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t k = i + 1; k < order.size(); ++k) {
+        const std::size_t a = order[i], b = order[k];
+        if (boxes[b].front()[0] > boxes[a].front()[1]) break;
+        const EffortChoice &one = kept_[a].choice, &other = kept_[b].choice;
+        const bool same =
+            kept_[a].statics == kept_[b].statics && one.efforts == other.efforts && one.gains == other.gains;
+        if (same || !touch(boxes[a], boxes[b])) continue;
+        all[a].push_back(b);
+        all[b].push_back(a);
+      }
+    return all;
+  }
+
+  /// Cells that touch and whose efforts are not proven to join are cut further.
+  void cut_where_efforts_do_not_join() {
+    const bool several = std::any_of(kept_.begin(), kept_.end(), [](const EffortPart& own) {
+      const auto& all = own.statics->demands;
+      return std::any_of(all.begin(), all.end(), [](const auto& each) { return each.components.size() > 1; });
+    });
+    if (!several) return;
+    const std::vector<std::vector<std::size_t>> near = neighbours();
+    std::vector<std::optional<std::size_t>> apart(kept_.size());  // from which other cell
+    for (std::size_t j = 0; j < kept_.size(); ++j)
+      for (const std::size_t i : without_common_way(j, near[j])) {
+        if (!apart[i]) apart[i] = j;
+        if (!apart[j]) apart[j] = i;
+      }
+    std::vector<EffortPart> joined;
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      if (!apart[i]) {
+        joined.push_back(kept_[i]);
+        continue;
+      }
+      // Each half tries what is chosen in the cell before it, then anew.
+      EffortPart own = kept_[i];
+      own.statics = *apart[i] < i ? kept_[*apart[i]].statics : nullptr;
+      if (*apart[i] < i) own.choice = kept_[*apart[i]].choice;
+      cut(own, widest(own));
+    }
+    kept_ = std::move(joined);
+  }
+
+  /// Those of the neighbours of a cell along whose ways its own efforts are not proven good where the two meet.
+  std::vector<std::size_t> without_common_way(std::size_t j, const std::vector<std::size_t>& near) {
+    std::vector<std::size_t> left = near;
+    const EffortPart& own = kept_[j];
+    keep_apart(own, own.box, left);
+    std::vector<std::size_t> apart;
+    for (const std::size_t i : left) {
+      std::vector<std::size_t> one = {i};
+      if (kept_[i].piece == own.piece) {
+        Box common = own.box;
+        for (std::size_t p = 0; p < common.size(); ++p)
+          common[p] = {std::max(common[p][0], kept_[i].box[p][0]), std::min(common[p][1], kept_[i].box[p][1])};
+        keep_apart(own, common, one);
+      }
+      if (!one.empty()) apart.push_back(i);
+    }
+    return apart;
+  }
+
+  /// Leaves those of `others` along whose ways the efforts of a cell are not proven good in a box.
+  void keep_apart(const EffortPart& own, const Box& box, std::vector<std::size_t>& others) {
+    std::vector<std::size_t> good = others;
+    for (std::size_t i = 0; i < own.designs.size() && !good.empty(); ++i) {
+      if (!joint_.enter(*own.statics, wider_[own.piece].chart, together(box, own.designs[i]))) return;
+      std::erase_if(good, [&](std::size_t other) { return !has_common_ways(own, kept_[other]); });
+    }
+    std::erase_if(others, [&](std::size_t i) { return std::find(good.begin(), good.end(), i) != good.end(); });
+  }
+
+  bool has_common_ways(const EffortPart& own, const EffortPart& other) {
+    for (std::size_t d = 0; d < own.statics->demands.size(); ++d) {
+      const core::PoseDemand& demand = own.statics->demands[d];
+      if (demand.components.size() == 1) continue;
+      const auto& all = other.statics->demands;
+      const auto same = std::find_if(all.begin(), all.end(), [&](const core::PoseDemand& each) {
+        return each.demand.joint == demand.demand.joint && each.demand.quantity == demand.demand.quantity;
+      });
+      if (same == all.end()) return false;
+      if (!joint_.keeps(d, own.choice, other.choice.ways[static_cast<std::size_t>(same - all.begin())])) return false;
+    }
+    return true;
+  }
+
+  EffortProof finished() {
+    if (!is_refuted() && proof_.open == 0) proof_.verdict = core::Verdict::verified;
+    EffortProof result{std::move(proof_), {}};
+    if (result.proof.verdict != core::Verdict::verified) return result;
+    for (EffortPart& part : kept_) {
+      EffortCell& cell = result.cells.emplace_back();
+      widen(PieceBox{&pieces_[part.piece], part.box}, cell.lower, cell.upper);
+      cell.statics = part.statics;
+      cell.choice = std::move(part.choice);
+    }
+    return result;
+  }
+
+  EffortChooser& chooser_;
+  const PoseRegion& region_;
+  PoseBox designs_;
+  double margin_;
+  const PoseEffort& effort_;
+  std::vector<PosePiece> pieces_, wider_;
+  std::vector<EffortPart> stack_, kept_;
+  EffortCellOf<Form> joint_;
+  PoseProof proof_;
+};
+
+}  // namespace
+
+EffortProof prove_with_efforts(EffortChooser& chooser, const PoseRegion& region, const PoseBox& designs, double margin,
+                               const PoseEffort& effort) {
+  const bool products = region.coordinates() + designs.size() <= Affine::curved;
+  return products ? EffortSearch<Affine>(chooser, region, designs, margin, effort).run()
+                  : EffortSearch<FlatAffine>(chooser, region, designs, margin, effort).run();
+}
+
+}  // namespace clearloci::loci::pose
