@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
@@ -490,6 +491,29 @@ std::vector<core::Rational> exact(const std::vector<double>& at) {
 
 namespace {
 
+/// How many assemblies a group has at most. Of three points of a body at given distances from each other, with six
+/// further distances from points of the body to known ones: a Stewart-Gough platform, which has 40 (F. Ronga, T. Vust,
+/// Stewart platforms without computer?, Real Analytic and Algebraic Geometry, 1995).
+std::optional<std::size_t> most_assemblies(const mechanism::Mechanism& mechanism, const mechanism::Group& group) {
+  constexpr std::size_t sides = 3, legs = 6, of_a_platform = 40;
+  if (mechanism.space != mechanism::Space::spatial || group.count != 3 || group.distances.size() != sides + legs ||
+      !group.lines.empty())
+    return std::nullopt;
+  const auto moves = [&](mechanism::PointIndex point) { return point >= group.first && point <= group.last; };
+  std::set<mechanism::PointIndex> of_body;
+  std::size_t within = 0;
+  for (const mechanism::Group::Distance& distance : group.distances) {
+    within += moves(distance.first) && moves(distance.second) ? 1 : 0;
+    for (const mechanism::PointIndex point : {distance.first, distance.second})
+      if (moves(point)) of_body.insert(point);
+  }
+  const bool rigid = std::any_of(mechanism.links.begin(), mechanism.links.end(), [&](const mechanism::Link& link) {
+    const std::set<mechanism::PointIndex> points(link.points.begin(), link.points.end());
+    return std::includes(points.begin(), points.end(), of_body.begin(), of_body.end());
+  });
+  return rigid && within == sides ? std::optional(of_a_platform) : std::nullopt;
+}
+
 /// Of every assembly of a group in a working mode: it is that of a posture at this very pose.
 void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                     const PoseRequest& request, std::vector<ModePose>& modes) {
@@ -497,7 +521,9 @@ void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<cor
   for (const core::Rational& own : at) pose.push_back(core::to_double(own));
   loci::pose::AllSolutions all;
   const auto box = mechanism.groups.size() == 1 ? mechanism::group_reach(mechanism, pose) : std::nullopt;
-  if (box) all = loci::pose::all_solutions(mechanism::group_program(mechanism, request.working_mode), pose, *box);
+  if (box)
+    all = loci::pose::all_solutions(mechanism::group_program(mechanism, request.working_mode), pose, *box,
+                                    most_assemblies(mechanism, mechanism.groups.front()));
   const mechanism::Group& group = mechanism.groups.front();
   if (all.found.empty()) {
     modes.push_back(solve_in(mechanism, at, request));
@@ -506,6 +532,13 @@ void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<cor
   }
   mechanism::Mechanism own = mechanism;
   own.near = at;
+  // Nothing is asked of other poses.
+  for (std::size_t c = 0; c < at.size(); ++c) {
+    mechanism::Coordinate& coordinate = own.coordinates[c];
+    const core::Rational near = (coordinate.upper - coordinate.lower) / 1'000'000;
+    coordinate.lower = at[c] - near;
+    coordinate.upper = at[c] + near;
+  }
   for (std::size_t i = 0; i < all.found.size(); ++i) {
     std::size_t k = 0;
     for (auto& place : own.groups.front().near)

@@ -16,6 +16,8 @@ using Operation = PoseProgram::Operation;
 constexpr int most_steps = 24;
 /// Of the unknowns' size: what rounding leaves of a step.
 constexpr double rounding = 1e-14;
+/// A move of at most this part of the size is one of rounding, where J is nearly singular: it need not get smaller.
+constexpr double settled = 1e-9;
 
 }  // namespace
 
@@ -133,8 +135,8 @@ bool PoseValues::close(std::size_t block, std::span<const double> pose, std::spa
       size = std::max(size, std::abs(unknowns[k]));
     }
     if (count == 0) first = most;
-    if (count == 1) contraction_ = std::max(contraction_, most / before);
-    if (most <= rounding * size || (count > 2 && most < 1e-9 * size && most >= 0.5 * before)) {
+    if (count == 1 && before > settled * size) contraction_ = std::max(contraction_, most / before);
+    if (most <= rounding * size || (count > 2 && most < settled * size && most >= 0.5 * before)) {
       moved_ = std::max(moved_, first);
       orientation_ *= sign;
       for (std::size_t k = 0; k < n; ++k) registers_[static_cast<std::size_t>(own.unknowns[k])] = unknowns[k];

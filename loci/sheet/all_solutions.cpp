@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -24,12 +25,22 @@ class Search {
     values_.emplace(program_);
   }
 
-  AllSolutions run(const Box& whole, long most_boxes) {
-    std::vector<Box> open = {whole};
+  AllSolutions run(const Box& whole, const std::optional<std::size_t>& most) {
+    for (const auto& [low, high] : whole) size_ = std::max(size_, high - low);
     AllSolutions result;
+    // Boxes of many unknowns say nothing before there are too many of them.
+    constexpr std::size_t few = 6;
+    prune(whole, whole.size() > few ? 2000 : 200'000, result);
+    if (!result.complete) search_from_places(whole, most, result.found);
+    if (most && result.found.size() == *most) result.complete = true;
+    std::sort(result.found.begin(), result.found.end());
+    return result;
+  }
+
+ private:
+  void prune(const Box& whole, long most_boxes, AllSolutions& result) {
+    std::vector<Box> open = {whole};
     result.complete = true;
-    double size = 0;
-    for (const auto& [low, high] : whole) size = std::max(size, high - low);
     for (long count = 0; !open.empty(); ++count) {
       Box box = std::move(open.back());
       open.pop_back();
@@ -41,7 +52,7 @@ class Search {
       const std::size_t widest = widest_of(box);
       const double middle = 0.5 * (box[widest][0] + box[widest][1]);
       constexpr double finest = 1e-9;  // of the box: there solutions meet, or lie at its side
-      if (!(box[widest][1] - box[widest][0] > finest * size)) {
+      if (!(box[widest][1] - box[widest][0] > finest * size_)) {
         result.complete = false;
         continue;
       }
@@ -50,11 +61,56 @@ class Search {
       open.push_back(std::move(other));
       open.push_back(std::move(box));
     }
-    std::sort(result.found.begin(), result.found.end());
-    return result;
   }
 
- private:
+  /// Until many places in a row have led to nothing new.
+  void search_from_places(const Box& whole, const std::optional<std::size_t>& most,
+                          std::vector<core::BlockUnknowns>& found) {
+    std::mt19937_64 random(1);
+    const std::size_t patience = most ? 400 : 60;  // places for each solution that is known
+    constexpr std::size_t most_places = 60'000;
+    std::size_t in_vain = 0;
+    for (std::size_t i = 0; i < most_places && in_vain < patience * (found.size() + 4); ++i) {
+      if (most && found.size() == *most) return;
+      core::BlockUnknowns place;
+      for (const auto& [low, high] : whole) place.push_back(std::uniform_real_distribution<double>(low, high)(random));
+      const std::size_t before = found.size();
+      if (converges(place)) prove(place, found);
+      in_vain = found.size() > before ? 0 : in_vain + 1;
+    }
+  }
+
+  /// Newton's iteration with steps of at most a quarter of the box.
+  bool converges(core::BlockUnknowns& unknowns) {
+    const std::size_t n = unknowns.size();
+    constexpr int most_steps = 60;
+    for (int i = 0; i < most_steps; ++i) {
+      if (!values_->put(at_, unknowns)) return false;
+      std::vector<double> jacobian, step;
+      for (const int own : block_.jacobian) jacobian.push_back((*values_)[own]);
+      for (const int own : block_.equations) step.push_back((*values_)[own]);
+      if (!core::solve_dense(jacobian, step)) return false;
+      double longest = 0;
+      for (const double own : step) longest = std::max(longest, std::abs(own));
+      const double share = std::min(1.0, 0.25 * size_ / longest);
+      for (std::size_t k = 0; k < n; ++k) unknowns[k] -= share * step[k];
+      constexpr double near = 1e-9;  // of the box
+      if (longest <= near * size_) return true;
+    }
+    return false;
+  }
+
+  /// In the largest of some boxes around a place that holds one solution alone.
+  void prove(const core::BlockUnknowns& place, std::vector<core::BlockUnknowns>& found) {
+    for (const double part : {1e-3, 1e-5, 1e-7, 1e-9}) {
+      Box box;
+      for (const double own : place) box.push_back({own - part * size_, own + part * size_});
+      std::vector<core::BlockUnknowns> here;
+      if (!is_done(box, here) || here.empty()) continue;
+      return add(std::move(here.front()), found);
+    }
+  }
+
   static std::size_t widest_of(const Box& box) {
     std::size_t widest = 0;
     for (std::size_t k = 1; k < box.size(); ++k)
@@ -128,16 +184,18 @@ class Search {
   core::PoseProgram::Block block_;
   Pose at_;
   core::PoseProgram program_;
+  double size_ = 0;  ///< of the box
   std::optional<PoseForms<Form>> forms_;
   std::optional<core::PoseValues> values_;
 };
 
 }  // namespace
 
-AllSolutions all_solutions(const core::PoseProgram& program, const Pose& at, const Box& box, long most_boxes) {
+AllSolutions all_solutions(const core::PoseProgram& program, const Pose& at, const Box& box,
+                           std::optional<std::size_t> most) {
   core::ensure(program.blocks.size() == 1 && box.size() == program.blocks.front().unknowns.size(),
                "one block, with a range for every unknown");
-  return Search(program, at).run(box, most_boxes);
+  return Search(program, at).run(box, most);
 }
 
 }  // namespace clearloci::loci::pose

@@ -1,0 +1,146 @@
+// All assemblies of platforms over their legs: against Newton's iteration over poses of the platform, from many places.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "clearloci/pose.hpp"
+#include "tests/source_dir.hpp"
+
+namespace clearloci {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr std::size_t legs = 6;
+using Six = std::array<Vector3d, legs>;
+
+/// Dietmaier's numbers, m.
+const Six base = {Vector3d(0, 0, 0),
+                  {1.107915, 0, 0},
+                  {0.549094, 0.756063, 0},
+                  {0.735077, -0.223935, 0.525991},
+                  {0.514188, -0.526063, -0.368418},
+                  {0.590473, 0.094733, -0.205018}};
+const Six plate = {Vector3d(0, 0, 0),
+                   {0.542805, 0, 0},
+                   {0.956919, -0.528915, 0},
+                   {0.665885, -0.353482, 1.402538},
+                   {0.478359, 1.158742, 0.107672},
+                   {-0.137087, -0.235121, 0.353913}};
+const std::vector<double> published = {1, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071};
+
+/// Position and the nine entries of a rotation.
+constexpr Eigen::Index unknowns = 12;
+
+VectorXd closure(const VectorXd& x, const std::vector<double>& lengths) {
+  const Vector3d p = x.head<3>();
+  const Matrix3d R = Eigen::Map<const Matrix3d>(x.data() + 3);
+  VectorXd g(unknowns);
+  for (std::size_t i = 0; i < legs; ++i)
+    g(static_cast<Eigen::Index>(i)) = (p + R * plate[i] - base[i]).squaredNorm() - lengths[i] * lengths[i];
+  const Matrix3d own = R.transpose() * R - Matrix3d::Identity();
+  Eigen::Index k = legs;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) g(k++) = own(i, j);
+  return g;
+}
+
+MatrixXd slopes(const VectorXd& x, const std::vector<double>& lengths) {
+  constexpr double step = 1e-6;
+  MatrixXd J(unknowns, unknowns);
+  for (Eigen::Index c = 0; c < unknowns; ++c) {
+    VectorXd more = x, less = x;
+    more(c) += step;
+    less(c) -= step;
+    J.col(c) = (closure(more, lengths) - closure(less, lengths)) / (2 * step);
+  }
+  return J;
+}
+
+/// B1, B2, B3 of every assembly that Newton's iteration finds.
+std::vector<VectorXd> by_newton(const std::vector<double>& lengths, int places) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> number;
+  std::vector<VectorXd> found;
+  for (int i = 0; i < places; ++i) {
+    const Eigen::Quaterniond q =
+        Eigen::Quaterniond(number(random), number(random), number(random), number(random)).normalized();
+    VectorXd x(unknowns);
+    x.head<3>() = Vector3d(0.6, 0, 0) + 0.6 * Vector3d(number(random), number(random), number(random));
+    Eigen::Map<Matrix3d>(x.data() + 3) = q.toRotationMatrix();
+    double moved = 1;
+    for (int k = 0; k < 60 && moved > 1e-13; ++k) {
+      const VectorXd step = slopes(x, lengths).partialPivLu().solve(closure(x, lengths));
+      moved = step.norm();
+      x -= std::min(1.0, 1 / moved) * step;
+    }
+    if (!(moved <= 1e-11) || Eigen::Map<const Matrix3d>(x.data() + 3).determinant() < 0) continue;
+    const auto same = [&](const VectorXd& own) { return (own - x).norm() < 1e-6; };
+    if (std::none_of(found.begin(), found.end(), same)) found.push_back(x);
+  }
+  return found;
+}
+
+Vector3d place(const Pose& pose, const std::string& name) {
+  for (const PosePoint& point : pose.points)
+    if (point.name == name) return {point.at[0], point.at[1], point.at[2]};
+  throw std::out_of_range(name);
+}
+
+class Assemblies : public ::testing::Test {
+ protected:
+  Model model_ = Model::read(source_dir() + "/tests/reference/dietmaier_platform.yaml");
+
+  /// Holds every assembly of the answer against the lengths, and against those that Newton's iteration finds.
+  std::size_t hold(const std::vector<double>& lengths) {
+    const PoseInModes all = solve_pose_in_modes(model_, lengths);
+    for (const ModePose& own : all.modes) {
+      EXPECT_TRUE(own.pose) << own.why_not;
+      if (!own.pose) continue;
+      Six at;
+      for (std::size_t i = 0; i < legs; ++i) at[i] = place(*own.pose, "B" + std::to_string(i + 1));
+      for (std::size_t i = 0; i < legs; ++i) {
+        EXPECT_NEAR((at[i] - base[i]).norm(), lengths[i], 1e-9);
+        for (std::size_t j = 0; j < i; ++j)
+          EXPECT_NEAR((at[i] - at[j]).norm(), (plate[i] - plate[j]).norm(), 1e-9) << i << j;
+      }
+      EXPECT_GT((at[1] - at[0]).cross(at[2] - at[0]).dot(at[3] - at[0]) *
+                    (plate[1] - plate[0]).cross(plate[2] - plate[0]).dot(plate[3] - plate[0]),
+                0);
+    }
+    for (const VectorXd& x : by_newton(lengths, 400)) {
+      const Vector3d p = x.head<3>();
+      const Vector3d other = p + Eigen::Map<const Matrix3d>(x.data() + 3) * plate[1];
+      EXPECT_TRUE(std::any_of(all.modes.begin(), all.modes.end(), [&](const ModePose& own) {
+        return own.pose && (place(*own.pose, "B1") - p).norm() < 1e-6 && (place(*own.pose, "B2") - other).norm() < 1e-6;
+      })) << p.transpose();
+    }
+    return all.modes.size();
+  }
+};
+
+TEST_F(Assemblies, AreFortyOfDietmaiersPlatform) {
+  ASSERT_EQ(hold(published), 40U);
+  const PoseInModes all = solve_pose_in_modes(model_, published);
+  for (const ModePose& own : all.modes) EXPECT_EQ(own.working_mode.back().second.find("or more"), std::string::npos);
+}
+
+TEST_F(Assemblies, NoneIsMissedWhereLegsHaveOtherLengths) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> part(0.985, 1.015);
+  for (int i = 0; i < 4; ++i) {
+    std::vector<double> lengths = published;
+    for (double& own : lengths) own *= part(random);
+    EXPECT_GT(hold(lengths), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace clearloci
