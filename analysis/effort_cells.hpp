@@ -1,5 +1,5 @@
-// Several free efforts at one pose (docs/background/method.md section 15): every scalar reaction and every bound is affine in
-// them,
+// Several free efforts at one pose (docs/background/method.md section 15): every scalar reaction and every bound is
+// affine in them,
 //     a_i + B_i . lambda,
 // and the choices that keep a demand from vanishing, or above its least size, are the cells of this arrangement, one a
 // pattern of signs. Private to analysis/.

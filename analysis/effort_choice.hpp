@@ -1,5 +1,5 @@
-// Efforts that are chosen for the poses of a task: `preload: controlled` by cells (docs/guide/preload.md, docs/background/method.md
-// section 15):
+// Efforts that are chosen for the poses of a task: `preload: controlled` by cells (docs/guide/preload.md,
+// docs/background/method.md section 15):
 //     pose -> the polytope of efforts with one pattern of signs -> its deepest place -> a cell in which that is proven
 // A pattern fails where at one pose its rows exclude each other. Private to analysis/.
 #pragma once

@@ -1,6 +1,6 @@
-// The witness against the loci of free efforts (docs/background/method.md section 15): what the caller finds of the choice of
-// efforts at every node of a grid, such as the order in which reactions vanish along the line of one effort. Between
-// two neighbours that changes only where the edge meets one of the loci.
+// The witness against the loci of free efforts (docs/background/method.md section 15): what the caller finds of the
+// choice of efforts at every node of a grid, such as the order in which reactions vanish along the line of one effort.
+// Between two neighbours that changes only where the edge meets one of the loci.
 #pragma once
 
 #include <array>

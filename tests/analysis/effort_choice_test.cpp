@@ -1,5 +1,6 @@
 // Efforts that are chosen for the poses of a task, and the sizes of constant ones, pattern by pattern of signs: the
-// laws that come back are held against solved reactions, refutations against their own arithmetic (docs/guide/preload.md).
+// laws that come back are held against solved reactions, refutations against their own arithmetic
+// (docs/guide/preload.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Loci and zones of free efforts without a value (docs/background/method.md section 15), held against reactions that are solved
-// with efforts that are given.
+// Loci and zones of free efforts without a value (docs/background/method.md section 15), held against reactions that
+// are solved with efforts that are given.
 #include <gtest/gtest.h>
 
 #include <algorithm>
