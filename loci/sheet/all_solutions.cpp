@@ -72,12 +72,26 @@ class Search {
     std::size_t in_vain = 0;
     for (std::size_t i = 0; i < most_places && in_vain < patience * (found.size() + 4); ++i) {
       if (most && found.size() == *most) return;
-      core::BlockUnknowns place;
-      for (const auto& [low, high] : whole) place.push_back(std::uniform_real_distribution<double>(low, high)(random));
+      core::BlockUnknowns place = i % 2 == 0 || found.empty() ? somewhere(whole, random) : near_one(found, random);
       const std::size_t before = found.size();
       if (converges(place)) prove(place, found);
       in_vain = found.size() > before ? 0 : in_vain + 1;
     }
+  }
+
+  static core::BlockUnknowns somewhere(const Box& whole, std::mt19937_64& random) {
+    core::BlockUnknowns place;
+    for (const auto& [low, high] : whole) place.push_back(std::uniform_real_distribution<double>(low, high)(random));
+    return place;
+  }
+
+  /// What is near a solution nearly closes: often as near to others.
+  core::BlockUnknowns near_one(const std::vector<core::BlockUnknowns>& found, std::mt19937_64& random) const {
+    core::BlockUnknowns place = found[random() % found.size()];
+    constexpr int finest = 8;
+    const double reach = std::ldexp(size_, -1 - static_cast<int>(random() % finest));
+    for (double& own : place) own += std::uniform_real_distribution<double>(-reach, reach)(random);
+    return place;
   }
 
   /// Newton's iteration with steps of at most a quarter of the box.
@@ -102,7 +116,7 @@ class Search {
 
   /// In the largest of some boxes around a place that holds one solution alone.
   void prove(const core::BlockUnknowns& place, std::vector<core::BlockUnknowns>& found) {
-    for (const double part : {1e-3, 1e-5, 1e-7, 1e-9}) {
+    for (double part = 1e-3; part > 1e-10; part /= 4) {
       Box box;
       for (const double own : place) box.push_back({own - part * size_, own + part * size_});
       std::vector<core::BlockUnknowns> here;
