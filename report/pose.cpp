@@ -103,13 +103,24 @@ Json pose_object(const core::Pose& pose) {
   return result;
 }
 
+namespace {
+
+/// With the assemblies of groups, beside the sides of dyads.
+core::Pose in_mode(const core::ModePose& own) {
+  core::Pose pose = *own.pose;
+  pose.working_mode = own.working_mode;
+  return pose;
+}
+
+}  // namespace
+
 nlohmann::ordered_json pose_in_modes_object(const core::PoseInModes& poses) {
   nlohmann::ordered_json all = {{"format", 1},
                                 {"mechanism", poses.mechanism},
                                 {"parameters", parameters_object(poses.parameters)},
                                 {"poses", nlohmann::ordered_json::array()}};
   for (const core::ModePose& own : poses.modes)
-    if (own.pose) all["poses"].push_back(pose_object(*own.pose));
+    if (own.pose) all["poses"].push_back(pose_object(in_mode(own)));
   return all;
 }
 
@@ -118,7 +129,7 @@ std::string pose_in_modes_text(const core::PoseInModes& poses) {
   for (const core::ModePose& own : poses.modes) {
     if (!text.empty()) text += "\n";
     if (own.pose) {
-      core::Pose pose = *own.pose;
+      core::Pose pose = in_mode(own);
       pose.parameters.clear();  // told once, above
       text += pose_text(pose);
       continue;
