@@ -217,10 +217,10 @@ TEST_F(TheServer, ImportsOtherProgramsFiles) {
   const Json closed = Json::parse(server->ask("import", question)->body);
   EXPECT_NE(open["text"], closed["text"]);
   EXPECT_NE(closed["text"].get<std::string>().find("loop_end"), std::string::npos);
-  question = {{"text", file("linkage/gears.linkage2")}, {"client", "test"}, {"file", "gears.linkage2"}};
+  question = {{"text", file("linkage/curved_slot.linkage2")}, {"client", "test"}, {"file", "curved_slot.linkage2"}};
   const auto refused = server->ask("import", question);
   EXPECT_EQ(refused->status, 422);
-  EXPECT_EQ(Json::parse(refused->body)["line"], 5);
+  EXPECT_EQ(Json::parse(refused->body)["line"], 4);
 }
 
 TEST_F(TheServer, VerifiesTasksAndExportsWhatIsAskedFor) {
