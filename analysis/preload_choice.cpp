@@ -47,10 +47,10 @@ ChoiceOrder choice_of(const std::vector<EffortRow>& rows) {
     return std::vector<int>{depth > 0 ? 1 : 0};
   }
   Bound low{-infinity, -1, false}, high{infinity, -1, false};
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double slope = rows[i].slope[0].value, offset = rows[i].offset.value;
-    if (!(std::abs(slope) > rows[i].slope[0].error)) return std::nullopt;
-    const int row = 2 * static_cast<int>(rows[i].joint) + (rows[i].side > 0 ? 1 : 0);
+  for (const EffortRow& own : rows) {
+    const double slope = own.slope[0].value, offset = own.offset.value;
+    if (!(std::abs(slope) > own.slope[0].error)) return std::nullopt;
+    const int row = 2 * static_cast<int>(own.joint) + (own.side > 0 ? 1 : 0);
     tighten(slope > 0 ? low : high, -offset / slope, row, slope > 0);
   }
   if (are_near(low.at, high.at)) return std::nullopt;

@@ -323,12 +323,12 @@ ValidationReport validate(const mechanism::Mechanism& mechanism, const LocusMap&
   check_call(model, map, spec);
   if (model.box.size() != 2) return validate_lines(model, map, spec, traced.empty() ? named_reactions(map) : traced);
   const ValidationGrid own = validation_grid(map, spec);
-  const auto& [grid, reach, diagonal] = own;
   ValidationReport report;
   tbb::task_arena arena(spec.threads > 0 ? spec.threads : tbb::task_arena::automatic);
   arena.execute([&] {
     for (const auto& mode : modes_in(map)) {
-      ModeValidation(model, map, grid, mode, traced.empty() ? named_reactions(map) : traced, reach, diagonal)
+      ModeValidation(model, map, own.grid, mode, traced.empty() ? named_reactions(map) : traced, own.reach,
+                     own.diagonal)
           .run(report, spec.listed_disputes);
     }
   });
