@@ -7,11 +7,9 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,17 +18,10 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
-
-std::string read_example(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/cables/" + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Columns are the wrenches of unit tensions on the platform; balance: W t = -load, least <= t <= most.
 struct CableStatics {
@@ -121,7 +112,7 @@ CableStatics robot_statics(const std::vector<double>& pose) {
 }
 
 Model weak_point() {
-  std::string text = read_example("point.yaml");
+  std::string text = example_text("cables/point");
   const std::string most = "[5, 100]";
   for (std::size_t at = text.find(most); at != std::string::npos; at = text.find(most, at))
     text.replace(at, most.size(), "[5, " + std::to_string(weak) + "]");
@@ -160,7 +151,7 @@ TEST(Cables, OfAPointMassHaveTheTensionsOfLinearPrograms) {
 }
 
 TEST(Cables, OfAPlatformHaveTheTensionsOfLinearPrograms) {
-  const Model model = Model::parse(read_example("platform.yaml"), "m.yaml");
+  const Model model = Model::parse(example_text("cables/platform"), "m.yaml");
   std::mt19937 random(2);
   std::uniform_real_distribution<double> place(-0.8, 0.8), turn(-0.5, 0.5);
   int feasible = 0, all = 0;
@@ -174,7 +165,7 @@ TEST(Cables, OfAPlatformHaveTheTensionsOfLinearPrograms) {
 }
 
 TEST(Cables, OfASpatialRobotHaveTheTensionsOfLinearPrograms) {
-  const Model model = Model::parse(read_example("robot.yaml"), "m.yaml");
+  const Model model = Model::parse(example_text("cables/robot"), "m.yaml");
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1, 1), turn(-0.26, 0.26);
   int feasible = 0, all = 0;
@@ -222,7 +213,7 @@ TEST(Cables, VerdictsOfBoxesAgreeWithGridsOfLinearPrograms) {
 }
 
 TEST(Cables, OfAPlatformAreProvenAcrossTheSingularitiesOfEachChoice) {
-  const Model model = Model::parse(read_example("platform.yaml"), "m.yaml");
+  const Model model = Model::parse(example_text("cables/platform"), "m.yaml");
   EXPECT_EQ(verdict_of(model, "{x: [-0.1, 0.1], y: [-0.1, 0.1], phi: [-3 deg, 3 deg]}").verdict, Verdict::verified);
   const Verification beyond = verdict_of(model, "{x: [-0.75, 0.75], y: [-0.75, 0.75], phi: [-25 deg, 25 deg]}");
   ASSERT_EQ(beyond.verdict, Verdict::refuted);
@@ -231,7 +222,7 @@ TEST(Cables, OfAPlatformAreProvenAcrossTheSingularitiesOfEachChoice) {
 }
 
 TEST(Cables, GivenTensionsAreHeldAgainstTheBoundsOfTheOthers) {
-  const Model model = Model::parse(read_example("point.yaml"), "m.yaml");
+  const Model model = Model::parse(example_text("cables/point"), "m.yaml");
   // With K3 and K4 at 40 N each the weight leaves some tension in both lower cables near the middle.
   const Model given = model.with({{"preload_K3", "40"}, {"preload_K4", "40"}});
   const Pose pose = solve_pose(given, {0, 0});
@@ -251,7 +242,7 @@ TEST(Cables, GivenTensionsAreHeldAgainstTheBoundsOfTheOthers) {
 }
 
 TEST(Cables, OneConstantChoiceIsFoundForATask) {
-  const Model model = Model::parse(read_example("point.yaml"), "m.yaml");
+  const Model model = Model::parse(example_text("cables/point"), "m.yaml");
   const Verification answer = verdict_of(model, "{x: [-0.1, 0.1], y: [-0.1, 0.1]}", "preload: constant\n");
   EXPECT_EQ(answer.verdict, Verdict::verified);
   ASSERT_TRUE(answer.preload && answer.preload->value);
@@ -274,7 +265,7 @@ std::string with_part(std::string text, const std::string& from, const std::stri
 }
 
 TEST(Cables, AreRefusedInOneLineWhereTheyAreWrong) {
-  const std::string point = read_example("point.yaml");
+  const std::string point = example_text("cables/point");
   const std::string first = "K1: {cable: [ground, load], at: [A1, P], tension: [5, 100]}";
   const auto complaint = [&](const std::string& own) { return complaint_of(with_part(point, first, own)); };
   EXPECT_THAT(complaint("K1: {cable: [ground, load], at: [P, A1], tension: [5, 100]}"),

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "clearloci/errors.hpp"
@@ -17,25 +15,12 @@
 #include "clearloci/pose.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/zones.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
 
-std::string example(const std::string& name) {
-  std::ifstream file(source_dir() + "/examples/" + name);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::string with(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
-Model antagonistic() { return Model::parse(example("studies/antagonistic.yaml")); }
+Model antagonistic() { return Model::parse(example_text("studies/antagonistic")); }
 
 /// A 5R with a third leg, whose motor has a free effort.
 Model three_legs() {
@@ -185,7 +170,7 @@ TEST(PreloadZones, HaveOneChoiceOfEffortsEach) {
 
 TEST(PreloadZones, WithoutRoomHaveNone) {
   const Model tight =
-      Model::parse(with(example("studies/antagonistic.yaml"), "effort: free", "effort: free, within: [-0.5, 0.5]"));
+      Model::parse(replaced(example_text("studies/antagonistic"), "effort: free", "effort: free, within: [-0.5, 0.5]"));
   const Zones zones = find_zones(tight, {.loci = {.min_couple = Rational(40)}});
   EXPECT_TRUE(std::any_of(zones.zones.begin(), zones.zones.end(),
                           [](const Zone& zone) { return zone.preload && !zone.preload->feasible; }));
@@ -331,8 +316,8 @@ TEST(PreloadLoci, ControlledHaveFewerSingularities) {
 
 /// An effort that follows, at its bound.
 TEST(BoundLoci, AreWhereADeterminedEffortHasItsBound) {
-  const Model model =
-      Model::parse(with(example("five_bar.yaml"), "at: A1, actuated: true", "at: A1, actuated: {within: [-20, 30]}"));
+  const Model model = Model::parse(
+      replaced(example_text("five_bar"), "at: A1, actuated: true", "at: A1, actuated: {within: [-20, 30]}"));
   int curves = 0;
   for (const LocusCurve& curve : trace_loci(model).curves) {
     if (curve.kind != LocusKind::preload) continue;
