@@ -135,12 +135,8 @@ class EffortCells {
 
   /// Of all cells together.
   FeasibleEfforts ranges_of(std::size_t k) const {
-    FeasibleEfforts efforts;
-    efforts.joint = joint_of(k).name;
-    efforts.force = mechanism::actuator_quantity(joint_of(k)) == core::Quantity::F;
+    FeasibleEfforts efforts = efforts_without_ranges(joint_of(k));
     efforts.cable = mechanism::is_cable(joint_of(k));
-    if (const auto& within = joint_of(k).free_effort->within)
-      efforts.within = {core::to_double(within->first), core::to_double(within->second)};
     std::vector<EffortRange> all;
     for (const Cell& cell : cells_)
       all.push_back(

@@ -56,6 +56,15 @@ std::vector<Cluster> clusters_of(std::vector<EffortGap> gaps) {
 
 }  // namespace
 
+FeasibleEfforts efforts_without_ranges(const mechanism::Joint& joint) {
+  FeasibleEfforts efforts;
+  efforts.joint = joint.name;
+  efforts.force = mechanism::actuator_quantity(joint) == core::Quantity::F;
+  if (const auto& within = joint.free_effort->within)
+    efforts.within = {core::to_double(within->first), core::to_double(within->second)};
+  return efforts;
+}
+
 void set_ranges(const std::vector<EffortGap>& gaps, FeasibleEfforts& efforts) {
   for (const EffortGap& gap : gaps)
     if (gap.from == -infinity && gap.to == infinity)
@@ -103,12 +112,8 @@ numeric::NumericModel with_effort(Mechanism mechanism, JointIndex joint, int eff
 FeasibleEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const std::vector<numeric::Bounded>& at,
                            const DyadSides& sides, const PoseRequest& request, std::vector<std::string>& notes) {
   const mechanism::Joint& joint = joint_of(mechanism, index);
-  FeasibleEfforts efforts;
-  efforts.joint = joint.name;
-  efforts.force = mechanism::actuator_quantity(joint) == core::Quantity::F;
+  FeasibleEfforts efforts = efforts_without_ranges(joint);
   efforts.effort = core::to_double(mechanism::value_of(*joint.effort, mechanism));
-  if (const auto& within = joint.free_effort->within)
-    efforts.within = {core::to_double(within->first), core::to_double(within->second)};
   const std::vector<numeric::NumericModel> models = {with_effort(mechanism, index, 0),
                                                      with_effort(mechanism, index, 1)};
   const LociRequest asked{.min_force = request.min_force, .min_couple = request.min_couple};

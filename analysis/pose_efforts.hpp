@@ -17,6 +17,9 @@ inline core::Rational nearest_to_none(const core::Rational& lower, const core::R
   return lower > 0 ? lower : upper < 0 ? upper : core::Rational();
 }
 
+/// What is known of a free actuator at every pose: its joint, what it exerts and within which bounds.
+FeasibleEfforts efforts_without_ranges(const mechanism::Joint& joint);
+
 /// The ranges between the gaps, within the motor's own, or what fails at every effort. `efforts`: with `within`.
 void set_ranges(const std::vector<numeric::EffortGap>& gaps, FeasibleEfforts& efforts);
 

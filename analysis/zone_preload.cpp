@@ -60,11 +60,7 @@ class SampleEfforts {
     std::vector<EffortGap> gaps = numeric::effort_gaps(models_[0], models_[1], exactly(pose), sides, demands);
     if (const auto own = own_gap(mechanism_, joint_.name, request_.min_couple)) gaps.push_back(*own);
     core::ZonePreload preload;
-    FeasibleEfforts& efforts = preload.efforts.emplace_back();
-    efforts.joint = joint_.name;
-    efforts.force = mechanism::actuator_quantity(joint_) == core::Quantity::F;
-    if (const auto& within = joint_.free_effort->within)
-      efforts.within = {core::to_double(within->first), core::to_double(within->second)};
+    FeasibleEfforts& efforts = preload.efforts.emplace_back(efforts_without_ranges(joint_));
     set_ranges(gaps, efforts);
     preload.feasible = !efforts.ranges.empty();
     for (const EffortRange& range : efforts.ranges) {
