@@ -7,7 +7,6 @@
 #include "analysis/flanks.hpp"
 #include "core/errors.hpp"
 #include "core/shown_units.hpp"
-#include "mechanism/evaluate.hpp"
 
 namespace clearloci {
 namespace {
@@ -51,8 +50,7 @@ bool is_same(const numeric::ContactLoss& a, const numeric::ContactLoss& b) {
 FlankMotions::FlankMotions(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                            const DyadSides& sides, int count) {
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
-    if (mechanism.joints[j].meshing && mechanism.joints[j].meshing->flank)
-      gears_.push_back(static_cast<mechanism::JointIndex>(j));
+    if (has_teeth(mechanism.joints[j])) gears_.push_back(static_cast<mechanism::JointIndex>(j));
   constexpr std::size_t most_gears = 3;
   if (gears_.size() > most_gears)
     throw core::InputError(
@@ -154,11 +152,11 @@ std::vector<std::string> FlankMotions::slack_notes(const InstantSamples& samples
   const mechanism::Mechanism& m = motion().model.mechanism;
   std::vector<std::string> notes;
   for (std::size_t j = 0; j < m.joints.size(); ++j) {
-    if (!m.joints[j].meshing || m.joints[j].meshing->flank) continue;
-    const double most = std::abs(core::to_double(mechanism::value_of(m.joints[j].meshing->most, m)));
+    const std::optional<double> most = most_of_belt(m, m.joints[j]);
+    if (!most) continue;
     for (const auto& instants : samples) {
       const auto slack = std::find_if(instants.begin(), instants.end(), [&](const Instant& at) {
-        return std::abs(effort(motion(), static_cast<mechanism::JointIndex>(j), at.reactions(period))) > most;
+        return std::abs(effort(motion(), static_cast<mechanism::JointIndex>(j), at.reactions(period))) > *most;
       });
       if (slack == instants.end()) continue;
       notes.push_back("a span of belt " + m.joints[j].name + " is slack at " +

@@ -9,10 +9,22 @@
 
 namespace clearloci {
 
+bool meshes(const mechanism::Mechanism& mechanism) {
+  return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
+                     [](const mechanism::Joint& joint) { return joint.meshing.has_value(); });
+}
+
+bool has_teeth(const mechanism::Joint& joint) { return joint.meshing && joint.meshing->flank; }
+
+std::optional<double> most_of_belt(const mechanism::Mechanism& mechanism, const mechanism::Joint& joint) {
+  if (!joint.meshing || has_teeth(joint)) return std::nullopt;
+  return std::abs(core::to_double(mechanism::value_of(joint.meshing->most, mechanism)));
+}
+
 std::vector<std::string> pulled_gears(const mechanism::Mechanism& mechanism, const Pose& pose) {
   std::vector<std::string> pulled;
   for (const mechanism::Joint& joint : mechanism.joints) {
-    if (!joint.meshing || !joint.meshing->flank) continue;
+    if (!has_teeth(joint)) continue;
     for (const JointReaction& own : pose.reactions)
       for (const ReactionComponent& part : own.components)
         if (own.joint == joint.name && part.quantity == Quantity::F && part.value < 0) pulled.push_back(joint.name);
@@ -24,7 +36,7 @@ std::vector<DyadSides> modes_of_flanks(const mechanism::Mechanism& mechanism, co
   const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(mechanism);
   std::vector<DyadSides> modes = {sides};
   for (const mechanism::Joint& joint : mechanism.joints) {
-    if (!joint.meshing || !joint.meshing->flank) continue;
+    if (!has_teeth(joint)) continue;
     const auto place = std::find(points.begin(), points.end(), *joint.meshing->flank) - points.begin();
     for (std::size_t i = 0, count = modes.size(); i < count; ++i) {
       DyadSides other = modes[i];
@@ -53,12 +65,12 @@ std::string words_of_pulled(const std::vector<std::string>& gears) {
 std::vector<std::string> slack_belts(const mechanism::Mechanism& mechanism, const Pose& pose) {
   std::vector<std::string> slack;
   for (const mechanism::Joint& joint : mechanism.joints) {
-    if (!joint.meshing || joint.meshing->flank) continue;
-    const double most = std::abs(core::to_double(mechanism::value_of(joint.meshing->most, mechanism)));
+    const std::optional<double> most = most_of_belt(mechanism, joint);
+    if (!most) continue;
     for (const JointReaction& own : pose.reactions)
       for (const ReactionComponent& part : own.components)
         if (own.joint == joint.name && part.quantity == mechanism::actuator_quantity(joint) &&
-            std::abs(part.value) > most)
+            std::abs(part.value) > *most)
           slack.push_back(joint.name);
   }
   return slack;

@@ -2,6 +2,7 @@
 // one (mechanism/read_gears.cpp).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,13 @@
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci {
+
+/// Whether it has gears or belts.
+bool meshes(const mechanism::Mechanism& mechanism);
+/// Of a gear.
+bool has_teeth(const mechanism::Joint& joint);
+/// Of a belt: what it carries at most before a span is slack, N m or N; none of other joints.
+std::optional<double> most_of_belt(const mechanism::Mechanism& mechanism, const mechanism::Joint& joint);
 
 /// Gears whose teeth would have to pull in a pose: the load presses the other flanks.
 std::vector<std::string> pulled_gears(const mechanism::Mechanism& mechanism, const Pose& pose);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/flanks.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/widened_task.hpp"
@@ -16,8 +17,7 @@ void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task
     throw core::InputError({.file = "--certificate"}, "there is no certificate of " + what, "leave --certificate out");
   };
   if (!mechanism.groups.empty()) refuse("mechanisms whose points close together");
-  if (std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [](const auto& own) { return own.meshing; }))
-    refuse("mechanisms with gears or belts");
+  if (meshes(mechanism)) refuse("mechanisms with gears or belts");
   if (mechanism::has_effort_bounds(mechanism)) refuse("mechanisms whose efforts have bounds");
   if (task.pose_error) refuse("a task that bounds the pose error");
   if (std::holds_alternative<core::TaskMesh>(task.shape)) refuse("a mesh");

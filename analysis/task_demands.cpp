@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/flanks.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 
@@ -94,7 +95,7 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
   }
   // The teeth of a gear keep their flank all over a task.
   for (const mechanism::Joint& joint : mechanism.joints)
-    if (joint.meshing && joint.meshing->flank &&
+    if (has_teeth(joint) &&
         std::none_of(demands.begin(), demands.end(), [&](const TaskDemand& own) { return own.joint == joint.name; }))
       demands.push_back({joint.name, Quantity::F, 0});
   add_bounds(mechanism, demands);

@@ -27,11 +27,6 @@ using mechanism::Mechanism;
 
 bool is_spatial(const Mechanism& mechanism) { return mechanism.space == mechanism::Space::spatial; }
 
-bool meshes(const Mechanism& mechanism) {
-  return std::any_of(mechanism.joints.begin(), mechanism.joints.end(),
-                     [](const mechanism::Joint& joint) { return joint.meshing.has_value(); });
-}
-
 /// The tower answers over two lengths, but for loads that vary in space or press on teeth and belts, bounds of efforts
 /// and what it does not move or scale.
 bool is_asked_of_tower(const Mechanism& mechanism, const Task& task, TaskFit fit) {
@@ -105,8 +100,7 @@ namespace {
 /// With gears a task is verified on the flanks that bear in it: no teeth change theirs between two of its poses, or
 /// under two of its loads.
 VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequest request) {
-  const auto is_gear = [](const mechanism::Joint& joint) { return joint.meshing && joint.meshing->flank; };
-  if (std::none_of(mechanism.joints.begin(), mechanism.joints.end(), is_gear)) return request;
+  if (std::none_of(mechanism.joints.begin(), mechanism.joints.end(), has_teeth)) return request;
   if (request.fit != TaskFit::none)
     throw InputError({task.file}, "tasks with gears are verified where they lie", "leave out --fit");
   const WidenedTask widened(mechanism, task);
@@ -133,7 +127,7 @@ bool depends_on(const core::Expression& expression, const std::string& parameter
 void refuse_tolerances_of_belts(const Mechanism& mechanism, const Task& task) {
   for (const core::Tolerance& tolerance : task.tolerances)
     for (const mechanism::Joint& joint : mechanism.joints)
-      if (joint.meshing && !joint.meshing->flank && depends_on(joint.meshing->most, tolerance.parameter, mechanism))
+      if (joint.meshing && !has_teeth(joint) && depends_on(joint.meshing->most, tolerance.parameter, mechanism))
         throw InputError({task.file},
                          "what belt " + joint.name + " carries before a span is slack depends on " +
                              tolerance.parameter + ", which has a tolerance",

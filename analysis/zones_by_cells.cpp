@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/group_sheets.hpp"
 #include "analysis/pose.hpp"
@@ -164,10 +165,7 @@ class Ends {
 
 /// Teeth that would have to pull. Zones are cut where their force vanishes.
 bool teeth_pull(const numeric::NumericModel& model, const std::vector<double>& pose, const DyadSides& sides) {
-  const auto& joints = model.mechanism.joints;
-  return std::any_of(joints.begin(), joints.end(),
-                     [](const mechanism::Joint& joint) { return joint.meshing.has_value(); }) &&
-         !numeric::reachable(model, pose, sides);
+  return meshes(model.mechanism) && !numeric::reachable(model, pose, sides);
 }
 
 /// Zones on a side of a fold on which a link bends are out of reach, as are those in which teeth would have to pull: in
