@@ -172,7 +172,7 @@ std::optional<HttpAnswer> Server::Parts::greet(const HttpHead& head) {
       throw Refusal(405, "this address does not accept this method");
     if (question_named(path.substr(questions.size())) == nullptr) throw Refusal(404, "there is no such question");
     if (!head.content_type.starts_with("application/json"))
-      throw Refusal(415, "a question is asked in application/json");
+      throw Refusal(415, "a request needs the type application/json");
     return std::nullopt;
   } catch (const Refusal& refused) {
     return refusal(refused.status(), refused.what());
