@@ -91,7 +91,7 @@ std::vector<Mechanism> columns_of(const std::vector<Mechanism>& loads, const Tas
     };
     add(within.force, 0, dimension);
     if (within.couple > 0 && dimension == 3)
-      throw core::InputError({task.file}, "the couple of loads_within is one of the plane", "leave the couple out");
+      throw core::InputError({task.file}, "loads_within varies couples in the plane only", "leave the couple out");
     add(within.couple, dimension, 1);
   }
   return columns;

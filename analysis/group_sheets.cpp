@@ -36,7 +36,7 @@ std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& m
   statics.sheet = found.sheet;
   if (found.differs) notes.push_back("two layers of " + names + " meet in the box: nothing is proven where they do");
   if (found.out_of_effort)
-    notes.push_back("the sheet of " + names + " is not followed to its end: what lies beyond is in doubt");
+    notes.push_back("the sheet of " + names + " was not followed to its end: poses beyond are in doubt");
   if (!found.complete && !found.out_of_effort && lower.size() > 1) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1g", found.finest);

@@ -101,7 +101,7 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
   if (options.certificate != nullptr)
     for (const core::Root& root : derived.front().problem.tower.roots)
       if (root.square.is_constant() || root.name == core::fold_name)
-        throw core::InputError({mechanism.file}, "the roots that place the points depend on one another",
+        throw core::InputError({mechanism.file}, "the square roots that give the points depend on one another",
                                "such a mechanism has no certificate: leave --certificate out");
   std::vector<core::WorkingMode> modes;
   for (const DyadSides& own : sides) modes.push_back(mode_of(own, names_of(derived.front().problem.tower)));

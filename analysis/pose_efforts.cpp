@@ -164,7 +164,7 @@ PoseEfforts pose_efforts(const Mechanism& mechanism, const std::vector<numeric::
     const FeasibleEfforts own = efforts_of(all.mechanism, joint, at, sides, request, all.notes);
     if (!own.ranges.empty()) mechanism::give_effort(all.mechanism, joint, smallest_of(own.ranges));
     all.notes = {"the effort of joint " + own.joint +
-                 " is free: the reactions are those with the smallest feasible one; another is given by --preload " +
+                 " is free: the reactions are those under the smallest feasible effort; give another by --preload " +
                  own.joint + "=VALUE"};
   }
   std::vector<std::string> notes;

@@ -137,7 +137,7 @@ class LawSearch {
       result.verdict = core::Verdict::undecided;
       result.witness.reset();
       result.notes.emplace_back("no polynomial up to degree " + std::to_string(largest_degree) +
-                                " was found under which the task verifies, and none of other laws is proven to fail");
+                                " was found with which the task is verified; other laws may exist");
     }
     return result;
   }

@@ -404,9 +404,10 @@ Verification verify_by_statics(const Mechanism& mechanism, const Task& task, con
   verifier.place(placed ? placed->shape : task.shape);
   Verification result = verifier.verify(request.depth);
   if (!placed)
-    result.notes.emplace_back(request.fit == TaskFit::largest
-                                  ? "no scale was found at which the task verifies: it is judged as it is"
-                                  : "no place was found at which the task verifies: it is judged where it lies");
+    result.notes.emplace_back(
+        request.fit == TaskFit::largest
+            ? "no scale was found at which the task is verified; the verdict is that of the task as written"
+            : "no place was found at which the task is verified; the verdict is that of the task as written");
   if (!placed) return result;
   result.moved_by = placed->by;
   result.scaled_by = placed->scale;

@@ -400,7 +400,8 @@ Verification placed_in_tower(const mechanism::Mechanism& mechanism, const Task& 
   if (fit)
     result.moved_by = way(fit->by);
   else
-    result.notes.emplace_back("no place was found at which the task verifies: it is judged where it lies");
+    result.notes.emplace_back(
+        "no place was found at which the task is verified; the verdict is that of the task as written");
   return result;
 }
 

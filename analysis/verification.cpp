@@ -48,7 +48,7 @@ void require_answerable(const Mechanism& mechanism, const Task& task, const Veri
   if (!task.pose_error) return;
   mechanism::require_closed_forms(mechanism, "pose_error is proven", "leave it out");
   if (request.fit != TaskFit::none)
-    refuse("a task with a pose_error is verified where it lies", "leave out --fit, or the pose_error");
+    refuse("--fit does not move tasks with a pose_error", "leave out --fit, or the pose_error");
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ namespace {
 VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequest request) {
   if (std::none_of(mechanism.joints.begin(), mechanism.joints.end(), has_teeth)) return request;
   if (request.fit != TaskFit::none)
-    throw InputError({task.file}, "tasks with gears are verified where they lie", "leave out --fit");
+    throw InputError({task.file}, "--fit does not move tasks of mechanisms with gears", "leave out --fit");
   const WidenedTask widened(mechanism, task);
   const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
   const std::vector<double> at = widened.settled(region.samples().front());

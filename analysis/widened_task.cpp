@@ -125,7 +125,7 @@ void WidenedTask::add_parts(const core::LoadWithin& within, const core::Task& ta
   }
   if (!(within.couple > 0)) return;
   if (loads_.front().space == mechanism::Space::spatial)
-    throw core::InputError({task.file}, "the couple of loads_within is one of the plane", "leave the couple out");
+    throw core::InputError({task.file}, "loads_within varies couples in the plane only", "leave the couple out");
   add(within.couple, [](mechanism::Load& load) { return std::vector<Expression*>{&load.couple}; });
 }
 

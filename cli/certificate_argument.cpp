@@ -42,8 +42,8 @@ void require_certifiable(const mechanism::Mechanism& mechanism) {
     throw core::InputError({.file = "--certificate"}, "there is no certificate of mechanisms whose efforts have bounds",
                            "leave it out for this mechanism");
   throw core::InputError({.file = "--certificate"},
-                         "certificates of loci and zones are of planar mechanisms over two lengths",
-                         "leave it out for this mechanism; verify has one of a task over any coordinates");
+                         "loci and zones have certificates only for planar mechanisms over two lengths",
+                         "leave it out; verify writes certificates of tasks over any coordinates");
 }
 
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,

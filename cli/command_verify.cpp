@@ -174,9 +174,8 @@ Command add_verify_command(CLI::App& program) {
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   app->add_option("--fit", arguments->fit,
-                  "Move the task to the nearest place at which it verifies, or to the best place, that of the largest "
-                  "margin; or "
-                  "scale it to the largest size that verifies")
+                  "Move the task to the nearest place at which it is verified, or to the place of the largest margin "
+                  "(best); or scale it to the largest size at which it is verified")
       ->type_name("nearest|best|largest")
       ->expected(0, 1)
       ->default_str("nearest");

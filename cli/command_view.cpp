@@ -47,7 +47,7 @@ int run(const ViewCommand& arguments) {
 }
 #else
 int run(const ViewCommand&) {
-  throw core::InputError({}, "this build has no workbench", "build with -DCLEARLOCI_WORKBENCH=ON, which wants Node.js");
+  throw core::InputError({}, "this build has no workbench", "build with -DCLEARLOCI_WORKBENCH=ON, which needs Node.js");
 }
 #endif
 

@@ -69,8 +69,8 @@ void add_locus_arguments(CLI::App& command, LociArguments& arguments) {
 
 void add_controlled_argument(CLI::App& command, LociArguments& arguments) {
   command.add_flag("--controlled", arguments.controlled,
-                   "Efforts that are free and have no value may vary with the pose: singular is only what is so "
-                   "whichever efforts are free");
+                   "Free efforts without a value may vary with the pose: a pose is singular only if it is so for every "
+                   "choice of the free efforts");
 }
 
 void add_mesh_argument(CLI::App& command, LociArguments& arguments) {

@@ -112,7 +112,7 @@ int parse_and_run(int argc, const char* const* argv) {
 int run_program(int argc, const char* const* argv) {
   prepare_process();
   const auto unwritten = [] {
-    complain("standard output cannot be written; is the disk full, or the reader gone?");
+    complain("standard output cannot be written: the disk is full, or the reading program has ended");
     return exit_wrong_input;
   };
   try {

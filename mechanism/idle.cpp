@@ -152,8 +152,8 @@ std::vector<std::string> idle_notes(const Mechanism& m) {
     }
   std::vector<std::string> notes = notes_of_spring_ends(m);
   if (!lines.empty())
-    notes.insert(notes.begin(), "what hangs on two balls may spin about the line through them (" + lines +
-                                    "), which moves nothing else: held still at " + balls);
+    notes.insert(notes.begin(), "links between two ball joints may rotate about the line through these (" + lines +
+                                    "); no result depends on this rotation, which is locked at " + balls);
   return notes;
 }
 

@@ -68,7 +68,7 @@ std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const V
       own.below = -own.above;
     }
     if (own.below > 0 || own.above < 0)
-      throw InputError(entry.value.where, entry.value.what + " leaves out the parameter's own value",
+      throw InputError(entry.value.where, entry.value.what + " does not contain the value of the parameter",
                        "write a number, or [below, above] with below <= 0 <= above");
     tolerances.push_back(std::move(own));
   }
@@ -151,8 +151,7 @@ core::Task task_of(const Value& document, const Mechanism& mechanism, const Hand
   if (auto length = root.find("angle_length")) {
     const auto& all = mechanism.coordinates;
     if (std::none_of(all.begin(), all.end(), [](const Coordinate& c) { return c.angle; }))
-      throw InputError(length->where, length->what + " says what an angle counts, and no coordinate is an angle",
-                       "leave it out");
+      throw InputError(length->where, length->what + " is given, but no coordinate is an angle", "leave it out");
     length->field = "margin";
     task.angle_length = read_number(mechanism, *length, Sign::positive).value;
   }

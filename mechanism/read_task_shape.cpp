@@ -77,8 +77,8 @@ std::vector<std::size_t> all_of(const Mechanism& mechanism) {
 
 core::TaskBall read_ball(const Mechanism& mechanism, const Value& value, bool weighted) {
   if (!weighted && angles_of(mechanism) > 0 && lengths_of(mechanism) > 0)
-    throw InputError(value.where, value.what + " is one of lengths and angles, and nothing says what an angle counts",
-                     "write angle_length, m a radian, or a box");
+    throw InputError(value.where, value.what + " has lengths and angles, but no angle_length",
+                     "write angle_length: the length that counts as one radian, or a box");
   const Mapping ball(value, {"centre", "radius"});
   return {read_pose(mechanism, ball.at("centre")),
           read_number(mechanism, in_metric(ball.at("radius"), mechanism, weighted), Sign::positive).value};
@@ -171,7 +171,7 @@ core::TaskPolygon read_polygon(const Mechanism& mechanism, const Value& value, c
   range.lower.assign(mechanism.coordinates.size(), Rational(0));
   if (!angles.empty()) {
     if (!others)
-      throw InputError(value.where, "the polygon says nothing of the coordinates that are no lengths",
+      throw InputError(value.where, "the polygon gives no range for the coordinates that are not lengths",
                        "write their ranges too, as a box");
     range = read_box(mechanism, *others, angles);
     for (std::size_t c = 0; c < range.lower.size(); ++c) polygon.above.push_back(range.upper[c] - range.lower[c]);

@@ -147,7 +147,7 @@ class Block {
     }
     for (const Entry& entry : entries(part.value))
       if (entry.key.find(placeholder) == std::string::npos && values_.size() > 1)
-        throw InputError(entry.where, "'" + entry.key + "' of repeat would be there once for every i",
+        throw InputError(entry.where, "'" + entry.key + "' of repeat would exist once for every i",
                          "write a name with {i}, such as '" + entry.key + "{i}'");
     std::vector<Node::Pair> pairs = whole.pairs();
     pairs.insert(pairs.end(), copied.pairs().begin(), copied.pairs().end());

@@ -218,12 +218,12 @@ const std::string& point_name(const Mechanism& mechanism, PointIndex point) {
     return in_file_units(mechanism, *found, false) + " at " +
            words_of_pose(mechanism, postures[static_cast<std::size_t>(found - bent.lengths.begin())].pose);
   };
-  throw core::InputError(link.where,
-                         "link " + link.name + " is not rigid: the distance between " +
-                             point_name(mechanism, bent.held.first) + " and " +
-                             (unnamed ? "its centre of mass" : point_name(mechanism, bent.held.second)) +
-                             " changes over the workspace, from " + where(least) + " to " + where(greatest),
-                         "list only points that move together, each tied to the others by a dyad, slider, on or mean");
+  throw core::InputError(
+      link.where,
+      "link " + link.name + " is not rigid: the distance between " + point_name(mechanism, bent.held.first) + " and " +
+          (unnamed ? "its centre of mass" : point_name(mechanism, bent.held.second)) +
+          " changes over the workspace, from " + where(least) + " to " + where(greatest),
+      "list only points that move together, and write a com beside the pins as {on: [A, B], offset: [u, v]}");
 }
 
 double turn_of(const std::vector<PointIndex>& points, const PosturePoints& posture) {

@@ -242,15 +242,15 @@ std::string notes(const core::LocusMap& map) {
   }
   const auto missing = [](const core::LocusSurface& surface) { return !surface.within_resolution; };
   if (std::any_of(map.surfaces.begin(), map.surfaces.end(), missing))
-    sentences.emplace_back("*: meshed; that nothing of the surface is missing is not certified.");
+    sentences.emplace_back("*: meshed; it is not certified that no part of the surface is missing.");
   else if (std::any_of(map.surfaces.begin(), map.surfaces.end(), uncertain))
     sentences.emplace_back(
-        "*: meshed, and nothing of the surface is missing; at some places its topology is not certified (loci.json, "
+        "*: meshed, and no part of the surface is missing; at some places its topology is not certified (loci.json, "
         "open).");
   if (map.out_of_time)
     sentences.emplace_back("Incomplete: the work was stopped at its time limit.");
   else if (!map.open.empty())
-    sentences.emplace_back("Incomplete: what is said of an open place's locus holds outside of it (loci.json, open).");
+    sentences.emplace_back("Incomplete: some places are open (loci.json, open). Outside of them the answer holds.");
   std::string out;
   for (const auto& sentence : sentences) {
     const auto lines = wrap(printable(sentence), table_width - 2, measure);

@@ -198,7 +198,7 @@ std::string proof_text(const StudyResult& result) {
   const std::pair<Status, const char*> lines[] = {
       {Status::feasible, "every design verifies, proven"},
       {Status::infeasible, "every design fails, proven"},
-      {Status::undecided, "neither is proven down to the finest cells"},
+      {Status::undecided, "neither is proven, even in the finest cells"},
       {Status::left_out, result.best_goal ? "keep does not hold, or no better than the best" : "keep does not hold"}};
   for (const auto& [status, words] : lines) {
     const double part = share(result, status);

@@ -311,7 +311,7 @@ std::string verification_text(const core::Verification& result) {
     put("margin", fmt::format("at least {}, proven{}", words.length(*result.margin),
                               apart ? ", with the angles of the task"
                               : result.task.angle_length
-                                  ? ", " + words.length(core::to_double(*result.task.angle_length)) + " a radian"
+                                  ? ", " + words.length(core::to_double(*result.task.angle_length)) + " per radian"
                                   : ""));
   if (result.angle_margin)
     put("margin", fmt::format("at least {}, proven{}", words.angle(*result.angle_margin),

@@ -212,7 +212,7 @@ std::string paragraphs_of(const core::Zones& map, const core::WorkingMode& mode)
     out += fmt::format("      beside it: {}\n", bounds_words(zone));
     for (const core::ZoneEnd& own : zone.ends) out += "      ends at " + end_words(map.loci, places, own) + "\n";
     if (zone.perhaps_one_with.empty()) continue;
-    out += "      not proven to be another zone than";
+    out += "      perhaps the same zone as";
     for (const std::string& other : zone.perhaps_one_with) out += " " + other;
     out += "\n";
   }

@@ -300,7 +300,7 @@ StudyResult study_result(const Model& model, const core::Study& study, const std
     if (!read_table_line(std::string_view(lines).substr(at, end - at), result.figures.size(), own) ||
         own.index >= known.size())
       throw core::InputError({"lines"}, "a line of designs is damaged or of another study",
-                             "hand over what judge_designs gave, whole");
+                             "pass all results of judge_designs");
     if (!known[own.index]) result.designs.push_back(own);
     known[own.index] = true;
     at = end + 1;

@@ -177,7 +177,7 @@ StudyDesign StudyJudge::judge(std::uint64_t index, const std::vector<Rational>& 
     if (proof.verdict == core::Verdict::undecided && !open) {
       open = true;
       design.status = StudyDesign::Status::undecided;
-      design.reason = "not decided with the cells that a design may take";
+      design.reason = "not decided within the number of cells for one design";
       design.task = t;
       design.at = core::Point2{(proof.lower[0] + proof.upper[0]) / 2, (proof.lower[1] + proof.upper[1]) / 2};
     }

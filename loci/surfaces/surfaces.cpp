@@ -269,7 +269,7 @@ class ModeSurfaces {
     text << what << ": further parts of the surface could not be excluded in " << meshed.unexplained
          << (meshed.unexplained == 1 ? " cell" : " cells") << " away from it, "
          << (meshed.unexplained == 1 ? "at (" : "one of them at (") << at[0] << ", " << at[1] << ", " << at[2]
-         << "); a smaller --mesh-size looks closer.";
+         << "); a smaller --mesh-size may exclude them.";
     map.notes.push_back(text.str());
   }
 

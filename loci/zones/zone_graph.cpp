@@ -184,7 +184,7 @@ class Builder {
       const double gap = off(node);
       node[axis] = side;
       if (gap > on_side * size_ && gap <= same_place * size_)
-        doubt_for_good("curve " + curve(strand.owner).id + " comes closer to a side of the box than can be told");
+        doubt_for_good("curve " + curve(strand.owner).id + " comes too near to a side of the box to be resolved");
       if (gap <= on_side * size_ && differ_beside(node, axis)) node_at(node);
     }
   }

@@ -143,7 +143,7 @@ Construction::Handle PartByPart::base_of_line(LinkIndex guide, PointIndex point,
 void PartByPart::refuse_stretched(PointIndex point, const std::string& one, const std::string& other) const {
   throw core::InputError(d_.mechanism.points[static_cast<std::size_t>(point)].where,
                          "point " + d_.name(point) + " is drawn where " + one + " and " + other +
-                             " are at the end of their reach, which chooses no side",
+                             " are stretched or folded, so that the side is undefined",
                          "draw the mechanism in another posture");
 }
 

@@ -272,7 +272,7 @@ class Reader {
       if (links.size() + (grounded ? 1 : 0) > 2) shared.push_back(name);
     }
     if (!alone.empty()) s_.note("circles where no link is were left out: " + enumerated(alone));
-    if (!off.empty()) s_.note("not quite at the centre of its circle, but taken to be: " + enumerated(off));
+    if (!off.empty()) s_.note("slightly off the centre of its circle, and moved to it: " + enumerated(off));
     if (!shared.empty())
       s_.note("more than two links meet at " + enumerated(shared) +
               ": all are pinned to the ground or to the first of them; other pairings share the forces differently");

@@ -47,7 +47,7 @@ void check_size(const imports::Source& source, const std::string& file, std::siz
     throw InputError({file},
                      "the " + std::string(source.format) + " file has " + std::to_string(links) +
                          " links that move and " + std::to_string(joints) + " joints",
-                     "take a part of it: a drawing may have 60 links");
+                     "read a part of it: a drawing has 60 links at most");
 }
 
 /// Links that no joint joins to anything.

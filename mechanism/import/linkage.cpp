@@ -46,10 +46,10 @@ class Reader {
     for (const XmlElement* own : root_.all("selected")) own->take_whole();
     connect();
     fasten();
-    if (!lone_.empty()) s_.note("left out, having one connector each: links " + enumerated(lone_));
-    if (!drawings_.empty()) s_.note("left out, being drawings or measures: " + enumerated(drawings_));
+    if (!lone_.empty()) s_.note("left out, because they have only one connector: links " + enumerated(lone_));
+    if (!drawings_.empty()) s_.note("left out, because they are drawings or measures: " + enumerated(drawings_));
     if (const auto left = unread(root_); !left.empty())
-      s_.note("left out, having no part in the motion: " + enumerated_all(left));
+      s_.note("left out, because they do not affect the motion: " + enumerated_all(left));
     return std::move(s_);
   }
 

@@ -140,7 +140,8 @@ void go_planar(Source& source) {
   source.planar = true;
   source.note("all links move in one plane: x of this file is " + axis_words(plane.x) + " of the source, y is " +
               axis_words(plane.y));
-  if (across) source.note("what pushes or weighs across the plane was left out: no joint of the plane bears it here");
+  if (across)
+    source.note("forces and weights at a right angle to the plane were left out: planar joints do not bear them");
 }
 
 void choose_motors(Source& source) {

@@ -504,7 +504,7 @@ void close_posture(Source& source, const std::string& file) {
   constexpr double rounding = 1e-6;  // of the size: what digits that were cut off leave, as in files of CAD programs
   if (!source.open_posture && largest(before) <= rounding) {
     source.note("joints meet within " + shortest_decimal(largest(before) * size_of(source), 1e-12 * size_of(source)) +
-                " " + source.unit + " in the file: each was put where its first link has it");
+                " " + source.unit + " in the file: each was put at its place on its first link");
     for (SourceJoint& joint : source.joints) {
       if (!joint.slides()) joint.on_to.at = joint.on_from.at;
       if (joint.kind != SourceKind::universal) joint.on_to.frame = joint.on_from.frame;
@@ -551,7 +551,7 @@ void close_posture(Source& source, const std::string& file) {
   }
   if (folded) {
     source = std::move(*folded);
-    source.note("the file has no posture: one in which all joints meet was found, in which it is folded");
+    source.note("the file has no posture: one in which all joints meet was found, but there the mechanism is folded");
     return;
   }
   if (!beyond) refuse(best);

@@ -100,7 +100,7 @@ class Reader {
       refuse(*own, "model " + own->get("name", "") + " is nested in another one", "write its links into the outer one");
     for (const char* loop : {"drake:linear_bushing_rpy", "drake:ball_constraint", "drake:joint"})
       if (const XmlElement* own = model.first(loop))
-        refuse(*own, "<" + own->name + "> holds two links together in the words of one program",
+        refuse(*own, "<" + own->name + "> is an extension of one program that connects two links",
                "write a joint of SDF in its place");
     if (const XmlElement* own = model.first("gripper")) own->take_whole();
   }

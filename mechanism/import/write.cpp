@@ -189,11 +189,12 @@ class Writer : private Drawing {
       (mesh.belt ? belts : gears).push_back(name);
     }
     if (!gears.empty())
-      s_.note("of the wheels of " + enumerated(gears) +
-              " the source says the ratio alone: teeth of 20 deg and their numbers were chosen; replace them by yours");
+      s_.note("wheels of " + enumerated(gears) +
+              ": the source gives only the ratio; numbers of teeth and a pressure angle of 20 deg were chosen; replace "
+              "them by yours");
     if (!belts.empty())
-      s_.note("of the belts " + enumerated(belts) +
-              " the source says the ratio alone: radii and a tension of 100 N were chosen; replace them by yours");
+      s_.note("belts " + enumerated(belts) +
+              ": the source gives only the ratio; radii and a tension of 100 N were chosen; replace them by yours");
     return text;
   }
 
@@ -236,7 +237,7 @@ class Writer : private Drawing {
     if (!chosen.empty())
       s_.note("the source names no motor: " + enumerated(chosen) + (chosen.size() == 1 ? " drives" : " drive") +
               " the mechanism here; move `actuated: true` to where yours " + (chosen.size() == 1 ? "is" : "are"));
-    s_.note("the source says no clearances: pins and balls have " + clearance_ + " radially here" +
+    s_.note("the source gives no clearances: pins and balls have " + clearance_ + " radially here" +
             (guide_without ? "; guides have none, since half their contact length is not known" : ""));
     return text;
   }

@@ -324,7 +324,7 @@ class Zone:
     size: float  #: over two lengths the area; by cells `at_least`
     at_least: float  #: a proven bound from below; 0 of a zone over two lengths that is not certified
     at_most: float
-    certified: bool  #: its borders are proven; by cells: it is proven to be another zone than all others
+    certified: bool  #: its borders are proven; by cells: it is proven to be separate from all other zones
     perhaps_one_with: list[str]  #: by cells: zones of the same signs that only doubt parts from it
     lower: list[float]  #: the box around it, by cells around what is proven; over one coordinate the zone
     upper: list[float]

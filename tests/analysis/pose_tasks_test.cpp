@@ -440,7 +440,7 @@ TEST(PoseTasks, RefuseWhatHasNoMeaningInOneLine) {
     EXPECT_NE(complaint(text).find(words), std::string::npos) << complaint(text);
   };
   says("circle: {centre: [0, 0], radius: 0.1}\n", "circle lies in the plane");
-  says("ball: {centre: [0, 0, 0.5, 0, 0, 0], radius: 0.1}\n", "nothing says what an angle counts");
+  says("ball: {centre: [0, 0, 0.5, 0, 0, 0], radius: 0.1}\n", "has lengths and angles, but no angle_length");
   says("path: [[0, 0, 0.5], [0.1, 0, 0.5]]\n", "has 3 values, and 6 coordinates are free");
   says("box: {x: [0, 0.1]}\n", "y");
   says("box: {x: [0.1, 0], y: 0, z: 0.5, alpha: 0, beta: 0, gamma: 0}\n", "is empty");

@@ -26,7 +26,7 @@ std::string name_of(Family family) {
   return name;
 }
 
-/// Known or not yet seen to hold, told in limitations.md, Open faults: `law_run --show FAMILY INDEX` prints them.
+/// Known or not yet seen to hold (exactness.md, Random designs): `law_run --show FAMILY INDEX` prints them.
 bool is_open_fault(Family family, int index) {
   return (family == Family::five_bar && index == 1) || (family == Family::stacked && index == 0);
 }

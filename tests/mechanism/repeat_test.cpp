@@ -113,7 +113,7 @@ TEST(Repeat, ErrorsNameTheLineAndTheValue) {
       {"i: [1, 2, 3]", "i: [1, 2, 2]", 15, "i of repeat is 2 twice"},
       {"i: [1, 2, 3]", "i: []", 15, "i of repeat has no value"},
       {"i: [1, 2, 3]", "i: [1, 2, '-3']", 15, "'-3' cannot be the end of a name"},
-      {"    A{i}: ['b*cos", "    A: ['b*cos", 18, "'A' of repeat would be there once for every i"},
+      {"    A{i}: ['b*cos", "    A: ['b*cos", 18, "'A' of repeat would exist once for every i"},
       {"points: ['A{i}']", "points: ['A{j}']", 20, "'A{j}' has a brace that is not that of {i} (i = 1)"},
       {"  joints:\n    A", "  jonts:\n    A", 21, "did you mean 'joints'?"},
       {"['b*cos(a{i})', ", "[b*cos(a{i}), ", 18, "in brackets put quotes round what holds {i}"},

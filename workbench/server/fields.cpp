@@ -99,7 +99,7 @@ Json parse_body(const std::string& body) {
         return !deep;
       },
       false);
-  if (deep) throw Refusal(400, "the request is nested deeper than any question");
+  if (deep) throw Refusal(400, "the request is nested too deeply");
   if (!value.is_object()) throw Refusal(400, "the request is no JSON object");
   return value;
 }

@@ -53,11 +53,11 @@ HttpAnswer refusal(int status, const std::string& sentence) { return json_answer
 HttpAnswer refused_request(int status) {
   switch (status) {
     case 411:
-      return refusal(status, "a question comes as it is, neither encoded nor in chunks, with its length");
+      return refusal(status, "a request needs a Content-Length; encodings and chunks are refused");
     case 413:
-      return refusal(status, "the request is longer than any question");
+      return refusal(status, "the request is too long");
     case 431:
-      return refusal(status, "the head of the request is longer than any browser's");
+      return refusal(status, "the head of the request is too long");
     default:
       return refusal(status, "this is no request that HTTP knows");
   }
@@ -169,10 +169,10 @@ std::optional<HttpAnswer> Server::Parts::greet(const HttpHead& head) {
     if (head.method == "GET" || head.method == "HEAD")
       return page(path, mark < below.size() ? below.substr(mark + 1) : "");
     if (head.method != "POST" || !path.starts_with(questions))
-      throw Refusal(405, "this address is not asked in this way");
+      throw Refusal(405, "this address does not accept this method");
     if (question_named(path.substr(questions.size())) == nullptr) throw Refusal(404, "there is no such question");
     if (!head.content_type.starts_with("application/json"))
-      throw Refusal(415, "a question is asked in application/json");
+      throw Refusal(415, "a request needs the type application/json");
     return std::nullopt;
   } catch (const Refusal& refused) {
     return refusal(refused.status(), refused.what());
@@ -235,7 +235,7 @@ HttpAnswer Server::Parts::ask(const HttpHead& head, const std::string& body, con
   } catch (const InputError& error) {
     return refused(422, input_error_json(error));
   } catch (const std::bad_alloc&) {
-    return refused(422, {{"error", "this is more than there is memory for; ask for less"}});
+    return refused(422, {{"error", "there is not enough memory for this; ask for less"}});
   } catch (const std::exception& error) {
     const std::string words = fmt::format("internal error: {}; please report it with the mechanism file", error.what());
     return begun ? refused(500, {{"error", words}}) : refusal(500, words);

@@ -47,7 +47,7 @@ TEST_P(EveryFile, IsReadOrRefusedByName) {
   if (GetParam() == "cuik/legs.world") return;  // six legs close together: another test
   const Mechanism m = mechanism_of(own);
   EXPECT_FALSE(m.coordinates.empty());
-  EXPECT_TRUE(has_note(own, "the source says no clearances"));
+  EXPECT_TRUE(has_note(own, "the source gives no clearances"));
   EXPECT_TRUE(has_note(own, "the end effector is "));
 }
 

@@ -96,7 +96,7 @@ TEST(Linkage, MeshesGears) {
   const Imported own = imported("linkage/gears.linkage2");
   EXPECT_EQ(section(own, "joints").at("gear_L0_L1"), "{gear: [L0, L1], centres: [C0, C1], teeth: [20, 40]}");
   EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
-  EXPECT_TRUE(has_note(own, "the source says the ratio alone"));
+  EXPECT_TRUE(has_note(own, "the source gives only the ratio"));
   const Mechanism m = mechanism_of(own);
   const double inch = 0.0254, start = std::atan2(1.25, -1), small = std::atan2(2, 1.5), turned = 0.35;
   const auto at = sample_points(m, {start + turned});
