@@ -1,6 +1,7 @@
 #include "mechanism/other_words.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 
 namespace clearloci::mechanism {
@@ -110,6 +111,24 @@ std::optional<std::string> what_to_write_for(const std::string& key, const std::
       return std::string(row.instead);
   }
   return std::nullopt;
+}
+
+std::optional<std::string> example_of(const std::string& key) {
+  static const std::map<std::string_view, std::string_view> all = {
+      {"units", "{length: mm}"},
+      {"parameters", "{a: 300, b: 220}"},
+      {"workspace", "{x: [-100, 100], y: [50, 200]}"},
+      {"points", "{O: [0, 0], A: {dyad: [O, B], lengths: [300, 400], side: left}}"},
+      {"links", "{crank: {points: [O, A]}}"},
+      {"joints", "{O: {revolute: [ground, crank], at: O, actuated: true}}"},
+      {"end_effector", "{link: rod, at: P}"},
+      {"loads", "[{link: rod, at: P, force: [0, -10]}]"},
+      {"springs", "[{between: [A, B], stiffness: 2, free_length: 50}]"},
+      {"limits", "[{distance: [A, B], within: [200, 500]}]"},
+      {"gravity", "[0, -9.81]"},
+  };
+  const auto row = all.find(key);
+  return row == all.end() ? std::nullopt : std::optional<std::string>(row->second);
 }
 
 }  // namespace clearloci::mechanism

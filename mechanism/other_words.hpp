@@ -1,4 +1,4 @@
-// What people call things that the files call by another name, or have in another form.
+// What people call things that the files call by another name, or have in another form, and what is written instead.
 #pragma once
 
 #include <optional>
@@ -10,5 +10,8 @@ namespace clearloci::mechanism {
 /// What to write in place of a key that does not exist; nothing where that is not known. `known`: the keys that exist
 /// there.
 std::optional<std::string> what_to_write_for(const std::string& key, const std::vector<std::string>& known);
+
+/// What may stand under a key, such as "{length: mm}" under `units`; nothing where that is not known.
+std::optional<std::string> example_of(const std::string& key);
 
 }  // namespace clearloci::mechanism

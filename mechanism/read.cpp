@@ -53,10 +53,11 @@ namespace {
 
 /// The document with its repetitions written out and a construction of every point.
 Assembled constructed(const Value& written, const std::vector<Override>& overrides) {
-  (void)Mapping(written, top_keys);
+  (void)Mapping(written, top_keys, true);
   const Value plain = telescoped_rods(name_inline_points(expand_repeat(written, repeatable_keys)));
-  const Mapping root(plain, top_keys);
+  const Mapping root(plain, top_keys, true);
   check_format(root.at("format"));
+  if (!is_drawn(plain)) root.require({"workspace", "points", "links", "joints", "end_effector"});
   (void)read_space(root.find("space"));
   if (is_drawn(plain)) return assemble(plain, overrides);
   return {plain, {}, {}};
@@ -64,7 +65,7 @@ Assembled constructed(const Value& written, const std::vector<Override>& overrid
 
 Mechanism read_document(const Value& written, const std::string& file, const std::vector<Override>& overrides) {
   const Assembled assembled = constructed(written, without_efforts(overrides));
-  const Mapping root(assembled.document, top_keys);
+  const Mapping root(assembled.document, top_keys, true);
 
   Mechanism mechanism;
   mechanism.notes = assembled.notes;
@@ -131,7 +132,7 @@ Mechanism parse_mechanism(const std::string& text, const std::string& file, cons
 WrittenMechanism constructed_text(const std::string& text, const std::string& file) {
   return read_text_of(text, file, [&](const Value& document) -> WrittenMechanism {
     Assembled assembled = constructed(document, {});
-    const Mapping root(assembled.document, top_keys);
+    const Mapping root(assembled.document, top_keys, true);
     std::vector<Node::Pair> pairs;
     for (const auto& [key, content] : assembled.document.node.pairs()) {
       pairs.emplace_back(key, content);

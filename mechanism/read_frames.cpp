@@ -174,7 +174,7 @@ ExplicitPoint read_point_in_frame(const Mechanism& mechanism, const Value& value
   const Mapping mapping(value, {"in", "place"});
   const BodyFrame& frame = frame_named(mechanism, mapping.at("in"), value.what);
   std::vector<Expression> place;
-  for (const Value& part : elements(mapping.at("place"), static_cast<int>(dimension(mechanism))))
+  for (const Value& part : components(mechanism, mapping.at("place")))
     place.push_back(read_number(mechanism, part, Sign::any).expression);
   ExplicitPoint point = std::get<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(frame.origin)].form);
   const std::vector<Expression> way = turned(frame, place);

@@ -169,7 +169,7 @@ class GroupReader {
     for (std::size_t i = 1; i < keys.size(); ++i) {
       const Value place = near.at(keys[i]);
       std::array<Rational, 3> written{};
-      std::vector<Value> parts = elements(place, static_cast<int>(dimension(m_)));
+      std::vector<Value> parts = components(m_, place);
       for (std::size_t c = 0; c < parts.size(); ++c) {
         parts[c].field = "points";
         written[c] = read_number(m_, parts[c], Sign::any).value;

@@ -287,15 +287,14 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
 
 std::vector<Expression> read_vector(const Mechanism& mechanism, const Value& value) {
   std::vector<Expression> vector;
-  for (const Value& component : elements(value, static_cast<int>(dimension(mechanism))))
+  for (const Value& component : components(mechanism, value))
     vector.push_back(read_number(mechanism, component, Sign::any).expression);
   return vector;
 }
 
 std::vector<Expression> read_varying_vector(const Mechanism& mechanism, const Value& value) {
   std::vector<Expression> vector;
-  for (const Value& component : elements(value, static_cast<int>(dimension(mechanism))))
-    vector.push_back(read_varying(mechanism, component));
+  for (const Value& component : components(mechanism, value)) vector.push_back(read_varying(mechanism, component));
   return vector;
 }
 

@@ -135,7 +135,7 @@ class PolynomialCheck {
 
 ExplicitPoint read_explicit(const Mechanism& mechanism, const Value& value) {
   ExplicitPoint point;
-  for (Value& coordinate : elements(value, static_cast<int>(dimension(mechanism)))) {
+  for (Value& coordinate : components(mechanism, value)) {
     coordinate.field = "points";  // wherever it stands
     point.coordinates.push_back(read_expression(mechanism, coordinate, Scope::parameters_and_coordinates));
     check_polynomial(mechanism, coordinate, point.coordinates.back(),

@@ -30,7 +30,7 @@ core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) 
   const std::vector<Value> ends = elements(value, 2);
   core::LoadRange range;
   for (std::size_t i = 0; i < 2; ++i)
-    for (const Value& part : elements(ends[i], static_cast<int>(dimension(mechanism))))
+    for (const Value& part : components(mechanism, ends[i]))
       (i == 0 ? range.first : range.second).push_back(read_number(mechanism, part, Sign::any).value);
   const auto& [f, g] = range;
   Rational along = 0;

@@ -198,6 +198,14 @@ class VectorReader {
 
 }  // namespace
 
+std::vector<Value> components(const Mechanism& mechanism, const Value& value) {
+  constexpr std::size_t spatial = 3;
+  if (mechanism.space == Space::planar && value.is_sequence() && value.node.size() == spatial)
+    throw InputError(value.where, value.what + " has three components, but the mechanism is planar",
+                     "write space: spatial at the top of the file, or two components");
+  return elements(value, static_cast<int>(dimension(mechanism)));
+}
+
 VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value, Scope scope) {
   const VectorReader reader(mechanism, value, scope);
   constexpr std::size_t longest_text = 5000;

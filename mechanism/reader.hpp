@@ -88,6 +88,8 @@ void read_known_frames(Mechanism& mechanism, const std::optional<Value>& frames)
 void check_all_frames_read(const Mechanism& mechanism, const std::optional<Value>& frames);
 
 // --- read_vectors.cpp
+/// The two components of a vector or a place in the plane, the three in space.
+std::vector<Value> components(const Mechanism& mechanism, const Value& value);
 /// [ux, uy], [ux, uy, uz], [A, B] for B - A, or an expression such as cross([1, 0, 0], B - A).
 /// Its numbers may vary with the pose where `scope` says so.
 VectorExpression read_vector_expression(const Mechanism& mechanism, const Value& value,

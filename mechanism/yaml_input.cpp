@@ -1,10 +1,9 @@
 #include "mechanism/yaml_input.hpp"
 
-#include "mechanism/other_words.hpp"
-
 #include <algorithm>
 #include <map>
 
+#include "mechanism/other_words.hpp"
 #include "mechanism/units.hpp"
 
 namespace clearloci::mechanism {
@@ -45,17 +44,20 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-}  // namespace
-
-Value parse_document(const std::string& text, const std::string& file) {
-  const Node document = load_document(text, file);
-  return {document, "the file", document.where()};
+/// "write it such as units: {length: mm}", where there is an example.
+std::string form_of(const Value& value, const std::string& otherwise) {
+  return value.example.empty() ? otherwise : "write it such as " + value.example;
 }
 
-std::vector<Entry> entries(const Value& value) {
+/// "write it as {radial: ...}; its keys are radial, angular".
+std::string form_with(const std::vector<std::string>& keys) {
+  return "write it as {" + keys.front() + ": ...}" + (keys.size() > 1 ? "; its keys are " + join(keys) : "");
+}
+
+std::vector<Entry> entries_of(const Value& value, const std::string& form) {
   if (!value.is_map())
     throw InputError(value.where, value.what + " should be a mapping, not " + kind_of(value.node),
-                     "write it as name: value");
+                     form_of(value, form));
   if (value.node.size() > most_entries)
     throw InputError(value.where, value.what + " has " + std::to_string(value.node.size()) + " entries",
                      "write 1000 at most");
@@ -78,11 +80,20 @@ std::vector<Entry> entries(const Value& value) {
   return result;
 }
 
+}  // namespace
+
+Value parse_document(const std::string& text, const std::string& file) {
+  const Node document = load_document(text, file);
+  return {document, "the file", document.where()};
+}
+
+std::vector<Entry> entries(const Value& value) { return entries_of(value, "write it as name: value"); }
+
 std::vector<Value> elements(const Value& value, int size) {
   const std::string wanted = size < 0 ? "a list" : "a list of " + std::to_string(size);
   if (!value.is_sequence())
     throw InputError(value.where, value.what + " should be " + wanted + ", not " + kind_of(value.node),
-                     "write it in brackets: [ , ]");
+                     form_of(value, "write it in brackets: [ , ]"));
   if (size >= 0 && static_cast<int>(value.node.size()) != size)
     throw InputError(value.where, value.what + " should be " + wanted + ", not of " + std::to_string(value.node.size()),
                      "write " + std::to_string(size) + " entries in the brackets");
@@ -115,8 +126,8 @@ bool boolean_of(const Value& value) {
   throw InputError(value.where, value.what + " is neither true nor false but '" + text + "'", "write true or false");
 }
 
-Mapping::Mapping(const Value& value, const std::vector<std::string>& known_keys)
-    : value_(value), entries_(entries(value)) {
+Mapping::Mapping(const Value& value, const std::vector<std::string>& known_keys, bool has_examples)
+    : value_(value), has_examples_(has_examples), entries_(entries_of(value, form_with(known_keys))) {
   for (const Entry& entry : entries_) {
     if (std::find(known_keys.begin(), known_keys.end(), entry.key) == known_keys.end())
       throw InputError(entry.where, "unknown key '" + entry.key + "' in " + value.what,
@@ -129,16 +140,31 @@ std::optional<Value> Mapping::find(const std::string& key) const {
     if (entry.key != key) continue;
     Value found = entry.value;
     if (is_field(key)) found.field = key;
+    if (has_examples_) found.example = example(key);
     found.what = value_.what == "the file" ? "'" + key + "'" : "the " + key + " of " + value_.what;
     return found;
   }
   return std::nullopt;
 }
 
+std::string Mapping::example(const std::string& key) const {
+  const std::optional<std::string> known = has_examples_ ? example_of(key) : std::nullopt;
+  return key + ": " + known.value_or(key == "format" ? "1" : "...");
+}
+
 Value Mapping::at(const std::string& key) const {
   if (auto found = find(key)) return *found;
-  throw InputError(value_.where, "the key '" + key + "' is missing in " + value_.what,
-                   key == "format" ? "add format: 1" : "add " + key + ": ...");
+  throw InputError(value_.where, "the key '" + key + "' is missing in " + value_.what, "add " + example(key));
+}
+
+void Mapping::require(const std::vector<std::string>& keys) const {
+  std::vector<std::string> missing;
+  for (const std::string& key : keys)
+    if (!find(key)) missing.push_back(key);
+  if (missing.empty()) return;
+  if (missing.size() == 1) (void)at(missing.front());
+  throw InputError(value_.where, "the keys " + join(missing) + " are missing in " + value_.what,
+                   "add " + example(missing.front()) + " and the others");
 }
 
 std::string suggest(const std::string& wrong, const std::vector<std::string>& known, const std::string& plural) {

@@ -16,7 +16,8 @@ struct Value {
   Node node;
   std::string what;
   core::SourcePosition where;
-  std::string field = {};  ///< the key that says what its numbers measure (mechanism/units.hpp)
+  std::string field = {};    ///< the key that says what its numbers measure (mechanism/units.hpp)
+  std::string example = {};  ///< such as "units: {length: mm}", where it stands under a key that has one
 
   bool is_scalar() const { return node.IsScalar(); }
   bool is_sequence() const { return node.IsSequence(); }
@@ -52,16 +53,22 @@ bool boolean_of(const Value& value);
 /// A mapping with a fixed set of keys.
 class Mapping {
  public:
-  /// Throws for an unknown key, naming the nearest known one. `what`: "link A1B1".
-  Mapping(const Value& value, const std::vector<std::string>& known_keys);
+  /// Throws for an unknown key, naming the nearest known one. `what`: "link A1B1". `has_examples`: refusals show what
+  /// example_of (mechanism/other_words.hpp) says of the keys.
+  Mapping(const Value& value, const std::vector<std::string>& known_keys, bool has_examples = false);
 
   /// The value under a key, if present; its `what` becomes "the <key> of <mapping>".
   std::optional<Value> find(const std::string& key) const;
   /// The value under a key. Throws where it is missing.
   Value at(const std::string& key) const;
+  /// Throws where some of the keys are missing, and names them all.
+  void require(const std::vector<std::string>& keys) const;
 
  private:
+  std::string example(const std::string& key) const;
+
   Value value_;
+  bool has_examples_;
   std::vector<Entry> entries_;
 };
 

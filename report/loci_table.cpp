@@ -259,16 +259,20 @@ std::string notes(const core::LocusMap& map) {
   return out.empty() ? "" : "\n" + out;
 }
 
+/// Of a map without a curve, a surface or a point.
+std::string nothing_words(const core::LocusMap& map) {
+  if (map.out_of_time) return "nothing was found before the time limit";
+  if (map.tower.coordinates.size() == 1) return "out of reach in the whole range";
+  return map.tower.coordinates.size() == 3 ? "nothing vanishes in the box" : "no curves";
+}
+
 }  // namespace
 
 std::string loci_table(const core::LocusMap& in_si, bool exact) {
   const core::LocusMap map = in_file_units(in_si);
   std::string out = printable(map.mechanism) + "\n" + parameter_line(map.parameters, exact);
   std::vector<core::WorkingMode> modes = modes_of(map);
-  if (modes.empty())
-    out += map.tower.coordinates.size() == 1   ? "\nout of reach in the whole range\n"
-           : map.tower.coordinates.size() == 3 ? "\nnothing vanishes in the box\n"
-                                               : "\nno curves\n";
+  if (modes.empty()) out += "\n" + nothing_words(map) + "\n";
   for (const auto& mode : modes) {
     const std::string words = printable(mode_words(map.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";

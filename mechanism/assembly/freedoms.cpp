@@ -354,6 +354,16 @@ LinkIndex carrier_of(const Drawing& d, const Joint& mesh) {
                    "pin both wheels to one carrier, a link or the ground");
 }
 
+/// A coordinate that only constructions use moves no link that is drawn.
+void refuse_plain(const Drawing& d, const std::vector<LinkIndex>& loose) {
+  for (const DrawnCoordinate& own : d.coordinates)
+    if (own.kind == DrawnCoordinate::Kind::plain)
+      throw InputError(own.where,
+                       link_words(d, loose) + (loose.size() == 1 ? " moves" : " move") + " while coordinate " +
+                           own.name + " stands still: it is the angle of no link",
+                       "say of which link it is, such as of: " + d.name_of(loose.front()));
+}
+
 void check_drawing(const Drawing& d) {
   check_every_link_joined(d);
   check_links_drawn_apart(d);
@@ -385,7 +395,9 @@ void check_drawing(const Drawing& d) {
     throw InputError(
         place_of(d, loose),
         link_words(d, loose) + (loose.size() == 1 ? " moves" : " move") + " freely: " + counts(d, freedoms),
-        "actuate another joint, or name a coordinate of it under workspace");
+        "join " + std::string(loose.size() == 1 ? "it" : "one of them") +
+            " to another link, actuate another joint, or name a coordinate of it under workspace");
+  if (!loose.empty()) refuse_plain(d, loose);
   if (!loose.empty())
     throw InputError(place_of(d, loose),
                      link_words(d, loose) + (loose.size() == 1 ? " moves" : " move") +

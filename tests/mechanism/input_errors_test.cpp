@@ -43,6 +43,14 @@ std::string mistake_name(const testing::TestParamInfo<Mistake>& info) { return i
 INSTANTIATE_TEST_SUITE_P(
     Structure, InputErrors,
     testing::Values(
+        Mistake{"NoJoints", "joints:", "frames:", 1, 1, "the key 'joints' is missing in the file; add joints: {O: {"},
+        Mistake{"NoWorkspaceNoPoints", "workspace:\n  x: [-0.5, 1.0]\n  y: [-1.0, 1.0]\npoints:", "frames:", 1, 1,
+                "the keys workspace, points are missing in the file; add workspace: {x: "},
+        Mistake{"UnitsAsAWord", "space: planar", "units: mm", 3, 8, "write it such as units: {length: mm}"},
+        Mistake{"LinkAsAList", "A1B1: {points: [A1, B1], mass: 1}", "A1B1: [A1, B1]", 17, 9,
+                "write it as {points: ...}; its keys are points, mass"},
+        Mistake{"ClearanceAsANumber", "clearance: {radial: 10e-6}", "clearance: 10e-6", 23, 50,
+                "write it as {radial: ...}"},
         Mistake{"UnknownTopKey", "loads:", "laods:", 28, 1, "did you mean 'loads'?"},
         Mistake{"UnknownKeyOfALink", "mass: 1}", "mas: 1}", 17, 28,
                 "unknown key 'mas' in link A1B1; did you mean 'mass'?"},
@@ -154,7 +162,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"SamePointTwice", "dyad: [A1, P]", "dyad: [P, P]", 14, 18, "names the point P twice"},
         Mistake{"DyadOfThree", "dyad: [A1, P]", "dyad: [A1, P, A2]", 14, 14, "list of 2, not of 3"},
         Mistake{"OneLength", "lengths: [L, L]", "lengths: [L]", 14, 32, "list of 2, not of 1"},
-        Mistake{"ThreeCoordinates", "A1: [0, 0]", "A1: [0, 0, 0]", 11, 7, "list of 2, not of 3"},
+        Mistake{"ThreeCoordinates", "A1: [0, 0]", "A1: [0, 0, 0]", 11, 7,
+                "three components, but the mechanism is planar"},
         Mistake{"NeitherSide", "side: right", "side: up", 14, 46, "write left or right"},
         Mistake{"NoForm", "A1: [0, 0]", "A1: {at: [0, 0]}", 11, 8, "none of the forms"},
         Mistake{"MisspeltForm", "{dyad: [A1, P]", "{dyda: [A1, P]", 14, 8, "did you mean 'dyad'?"},
@@ -241,7 +250,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"LoadOnGround", "{link: PB2, at: P, force", "{link: ground, at: P, force", 29, 12, "is the ground"},
         Mistake{"ForceWithoutPoint", "at: P, force", "force", 29, 5, "no point where it acts"},
         Mistake{"EmptyLoad", ", force: [0, -100]", "", 29, 5, "neither a force nor a couple"},
-        Mistake{"ForceOfThree", "force: [0, -100]", "force: [0, 0, 1]", 29, 31, "list of 2, not of 3"},
+        Mistake{"ForceOfThree", "force: [0, -100]", "force: [0, 0, 1]", 29, 31,
+                "three components, but the mechanism is planar"},
         Mistake{"ScalarGravity", "loads:", "gravity: 9.81\nloads:", 28, 10, "list of 2, not '9.81'"}),
     mistake_name);
 

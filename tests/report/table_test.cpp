@@ -59,6 +59,15 @@ TEST(LociTable, NotesUncertaintyAndIncompletenessAreSaid) {
   EXPECT_TRUE(has(table, "M_A2 vanishes in every pose"));
 }
 
+TEST(LociTable, NothingIsSaidOfWhatTheTimeLimitCutOff) {
+  core::LocusMap map = fixture::five_bar_map();
+  map.curves.clear();
+  map.isolated_points.clear();
+  map.out_of_time = true;
+  EXPECT_TRUE(has(loci_table(map), "nothing was found before the time limit"));
+  EXPECT_FALSE(has(loci_table(map), "no curves"));
+}
+
 TEST(LociTable, OpenPlacesAreCountedBesideTheirCurve) {
   core::LocusMap map = fixture::five_bar_map();
   map.complete = false;
