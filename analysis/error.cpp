@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/coordinate_errors.hpp"
+#include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
 #include "analysis/request_limits.hpp"
@@ -111,6 +112,9 @@ Errors find_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& gi
   for (const mechanism::Joint& joint : mechanism.joints) errors.joints.push_back(joint.name);
   errors.notes = mechanism::fit_notes(mechanism);
   for (std::string& note : mechanism::notes_of(mechanism)) errors.notes.push_back(std::move(note));
+  if (meshes(mechanism))
+    errors.notes.emplace_back(
+        "only poses in which the teeth of gears push on the flanks of the working mode and no span of a belt is slack");
   core::Zones zones;
   if (request.with_zones)
     zones = find_zones(mechanism, {.loci = request.loci, .cells = request.zone_cells, .grid = request.grid});

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/shown_units.hpp"
+#include "mechanism/evaluate.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 
@@ -94,6 +96,22 @@ void check_turns(const Mechanism& m, const Joint& belt, const PosturePoints& bef
                          "write the points of both by one angle");
 }
 
+/// The distance that the file gives, in every posture.
+void check_distance(const Mechanism& m, const Joint& gear) {
+  if (!gear.meshing->distance || !gear.meshing->second) return;
+  constexpr double rounding = 1e-9;
+  const double given = core::to_double(value_of(*gear.meshing->distance, m));
+  for (const SampledPosture& own : sample_poses(m, working_mode(m), gear_postures)) {
+    const Flat p = place(own.points, gear.meshing->first), q = place(own.points, *gear.meshing->second);
+    const double far = std::hypot(q[0] - p[0], q[1] - p[1]);
+    if (std::abs(far - given) > rounding * (far + given))
+      throw core::InputError(gear.where,
+                             "the centres of " + words_of(gear) + " are " + core::told(far, "m", m.units) +
+                                 " apart, but its distance is " + core::told(given, "m", m.units),
+                             "correct the distance, or leave it out where the centres stand still");
+  }
+}
+
 void check_mesh(const Mechanism& m, const Joint& gear) {
   const std::vector<int> mode = working_mode(m);
   for (const SampledPosture& own : sample_poses(m, mode, gear_postures))
@@ -139,6 +157,7 @@ void check_gears(const Mechanism& mechanism) {
   for (const Joint& joint : mechanism.joints) {
     if (!joint.meshing) continue;
     check_carrier(mechanism, joint);
+    check_distance(mechanism, joint);
     check_mesh(mechanism, joint);
   }
 }

@@ -37,6 +37,7 @@ class Change {
       if (joint.meshing) {
         if (actuator_quantity(joint) == core::Quantity::M) joint.meshing->most = scaled(joint.meshing->most, 1);
         joint.meshing->radius = scaled(joint.meshing->radius, 1);
+        if (joint.meshing->distance) joint.meshing->distance = scaled(*joint.meshing->distance, 1);
       }
       if (joint.within && !traits(joint).slides) {
         joint.within->first /= frame_.scale;

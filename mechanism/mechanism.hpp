@@ -198,11 +198,12 @@ struct FreeEffort {
 /// Two wheels, or a wheel and a rack, whose teeth touch at the pitch point; or two pulleys. The joint's axis is the
 /// line of action; a belt over pulleys of one size has none and carries a couple.
 struct Meshing {
-  PointIndex first = 0;              ///< centre of `from`
-  std::optional<PointIndex> second;  ///< centre of `to`; none of a rack
-  std::optional<PointIndex> flank;   ///< of a gear: where the line of action touches the base circle of `from`
-  Expression most = {};              ///< of a belt: the couple or force beyond which a span is slack, N m or N
-  Expression radius = {};            ///< of the pitch circle of `from`, m
+  PointIndex first = 0;                     ///< centre of `from`
+  std::optional<PointIndex> second;         ///< centre of `to`; none of a rack
+  std::optional<PointIndex> flank;          ///< of a gear: where the line of action touches the base circle of `from`
+  Expression most = {};                     ///< of a belt: the couple or force beyond which a span is slack, N m or N
+  Expression radius = {};                   ///< of the pitch circle of `from`, m
+  std::optional<Expression> distance = {};  ///< of the centres, m, where the file gives it
 };
 
 /// The reaction is what link `from` exerts on link `to`, at point `at`. Axes: one of a prismatic and a cylindrical

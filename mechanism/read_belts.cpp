@@ -44,8 +44,11 @@ class WrittenBelt {
     for (std::size_t i = 0; i < 2; ++i)
       radii_.at(i) = read_number(m_, told(written[i], "a radius of " + what_, "length"), Sign::any);
     if (radii_[0].value <= 0 || radii_[1].value == 0)
-      throw InputError(written[radii_[0].value <= 0 ? 0 : 1].where, what_ + " has a pulley without a radius",
-                       "write two radii, such as [25, 25]; the second one negative where the belt is crossed");
+      throw InputError(
+          written[radii_[0].value <= 0 ? 0 : 1].where,
+          what_ + " has a pulley " +
+              (radii_[radii_[0].value <= 0 ? 0 : 1].value == 0 ? "without a radius" : "of negative radius"),
+          "write two radii, such as [25, 25]; the second one negative where the belt is crossed");
   }
 
   const std::string& what() const { return what_; }
@@ -148,6 +151,7 @@ Joint read_belt(Mechanism& mechanism, const Entry& entry) {
   joint.actuated = true;
   const Expression both = times(Expression::number(2), belt.tension());
   joint.meshing = Meshing{belt.centre(0), belt.centre(1), std::nullopt, times(both, belt.radius()), belt.radius()};
+  joint.meshing->distance = given_distance(mechanism, belt.mapping(), belt.what());
   const std::optional<Expression> play = belt.play();
   if (play) joint.clearance = Clearance{};
   if (!belt.has_pitch_point()) {

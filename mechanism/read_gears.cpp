@@ -155,6 +155,12 @@ std::vector<Entry> gears_among(const Value& joints) {
   return all;
 }
 
+Value part_named(const Value& mesh, const std::string& key) {
+  for (const Entry& part : entries(mesh))
+    if (part.key == key) return part.value;
+  throw InputError(mesh.where, "the key '" + key + "' is missing in " + mesh.what, "add " + key + ": [from, to]");
+}
+
 std::string flank_name(const std::string& gear) { return "flank_" + gear; }
 
 const BodyFrame* frame_of(const Mechanism& mechanism, const std::string& link) {
@@ -194,9 +200,14 @@ PointIndex pitch_point(const Mechanism& mechanism, const std::string& name) {
   return static_cast<PointIndex>(found - mechanism.points.begin());
 }
 
+std::optional<Expression> given_distance(const Mechanism& mechanism, const Mapping& mapping, const std::string& what) {
+  const auto written = mapping.find("distance");
+  if (!written) return std::nullopt;
+  return read_number(mechanism, part_of(*written, "the distance of " + what, "length"), Sign::positive).expression;
+}
+
 Number centre_distance(const Mechanism& mechanism, const Mapping& mapping, const std::string& what) {
-  if (const auto written = mapping.find("distance"))
-    return read_number(mechanism, part_of(*written, "the distance of " + what, "length"), Sign::positive);
+  if (const auto given = given_distance(mechanism, mapping, what)) return {*given, value_of(*given, mechanism)};
   const std::vector<Value> centres = elements(mapping.at("centres"), 2);
   const auto place = [&](std::size_t wheel) -> const std::vector<Expression>& {
     const PointIndex point = read_point_name(mechanism, centres[wheel]);
@@ -250,6 +261,7 @@ Joint read_gear(const Mechanism& mechanism, const Entry& entry) {
   joint.actuated = true;
   joint.meshing = Meshing{gear.centre(0), std::nullopt, flank, {}, gear.radius()};
   if (!gear.is_rack()) joint.meshing->second = gear.centre(1);
+  joint.meshing->distance = given_distance(mechanism, gear.mapping(), "gear " + entry.key);
   if (const auto written = gear.mapping().find("clearance")) {
     const Mapping clearance(*written, {"backlash"});
     joint.clearance = Clearance{};
@@ -262,6 +274,40 @@ Joint read_gear(const Mechanism& mechanism, const Entry& entry) {
     }
   }
   return joint;
+}
+
+void check_wheels(const Mechanism& mechanism, const std::optional<Value>& joints) {
+  if (!joints || mechanism.space == Space::spatial || !joints->is_map()) return;
+  for (const Entry& entry : entries(*joints)) {
+    if (!is_gear(entry.value) && !is_belt(entry.value)) continue;
+    const std::string what = (is_gear(entry.value) ? "gear " : "belt ") + entry.key;
+    (void)teeth_of(mechanism, entry);  // says what is wrong with its keys and numbers
+    for (const Entry& part : entries(entry.value)) {
+      if (part.key != "centres") continue;
+      const std::vector<Value> two = elements(part.value, 2);
+      if (two[0].is_scalar() && two[1].is_scalar() && two[0].node.Scalar() == two[1].node.Scalar())
+        throw InputError(two[1].where, what + " has both centres at " + two[0].node.Scalar(),
+                         "name the centres of both wheels");
+    }
+  }
+}
+
+void explain_missing_wheel(const Mechanism& mechanism, const Value& point, const std::optional<Value>& joints) {
+  if (!joints || !joints->is_map() || !point.is_map()) return;
+  std::optional<Value> in;
+  for (const Entry& part : entries(point))
+    if (part.key == "in" && part.value.is_scalar()) in = part.value;
+  if (!in || frame_of(mechanism, in->node.Scalar()) != nullptr) return;
+  const auto is_it = [&](const Value& wheel) { return wheel.is_scalar() && wheel.node.Scalar() == in->node.Scalar(); };
+  for (const Entry& entry : entries(*joints)) {
+    if (!is_gear(entry.value) && !is_belt(entry.value)) continue;
+    const std::string kind = is_gear(entry.value) ? "gear" : "belt";
+    const std::vector<Value> wheels = elements(part_named(entry.value, kind), 2);
+    if (is_it(wheels[0]) || is_it(wheels[1]))
+      throw InputError(
+          in->where, point.what + ": " + kind + " " + entry.key + " gives no frame for " + in->node.Scalar() + " here",
+          "write the two centres, which have to stand still, above this point, and a frame for the other wheel");
+  }
 }
 
 void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints) {

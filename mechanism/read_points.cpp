@@ -348,6 +348,7 @@ void read_points(Mechanism& mechanism, const Value& value, const std::optional<V
   const std::vector<Entry> points = entries(value);
   if (points.empty()) throw InputError(value.where, "there are no points", "write such as A: [0, 0]");
   check_order(points, links);
+  check_wheels(mechanism, joints);
   for (const Entry& entry : points) {
     if (is_group(entry.value)) {
       read_group(mechanism, entry);
@@ -357,6 +358,7 @@ void read_points(Mechanism& mechanism, const Value& value, const std::optional<V
     check_label(entry.key, entry.where, "a point");
     Value form = entry.value;
     form.what = "point " + entry.key;
+    explain_missing_wheel(mechanism, form, joints);
     mechanism.points.push_back({entry.key, read_point_form(mechanism, form), false, entry.where});
     read_known();
   }

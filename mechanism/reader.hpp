@@ -177,12 +177,18 @@ bool is_gear(const Value& value);
 Joint read_gear(const Mechanism& mechanism, const Entry& entry);
 /// What the turns of both wheels, from their carrier, sum up to 0 with; of a belt over two radii; none of a rack.
 std::optional<std::array<Rational, 2>> teeth_of(const Mechanism& mechanism, const Entry& mesh);
+/// Throws where the keys or numbers of a gear or a belt are wrong, before points need its wheels' frames.
+void check_wheels(const Mechanism& mechanism, const std::optional<Value>& joints);
+/// Throws where a point is in the frame of a wheel, which its gear or belt gives no frame yet.
+void explain_missing_wheel(const Mechanism& mechanism, const Value& point, const std::optional<Value>& joints);
 /// Frames of wheels and pulleys that turn with another one, whose frame is known: frames have the names of the links.
 void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints);
 /// A point of a gear or a belt, which has the joint's name or is made of it. Throws where another one has the name.
 void add_pitch_point(Mechanism& mechanism, const Entry& joint, const std::string& name, PointForm form);
 /// A point that was added so.
 PointIndex pitch_point(const Mechanism& mechanism, const std::string& name);
+/// The key `distance` of a gear or a belt, m.
+std::optional<Expression> given_distance(const Mechanism& mechanism, const Mapping& mapping, const std::string& what);
 /// Between the `centres` of a gear or a belt, m: `distance`, else that of two fixed points.
 Number centre_distance(const Mechanism& mechanism, const Mapping& mapping, const std::string& what);
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "numeric/reactions.hpp"
 
 namespace clearloci::numeric {
 
@@ -17,7 +18,7 @@ constexpr double nearest = 1e-5;
 RangePose pose_at(const NumericModel& model, std::span<const int> mode, double at) {
   RangePose pose{at, false, {}};
   const Posture there = posture(model, std::span(&at, 1), mode);
-  pose.reachable = there.reachable();
+  pose.reachable = there.reachable() && reachable(model, std::span(&at, 1), mode);
   if (!pose.reachable) return pose;
   const std::vector<Bounded> exactly = {Bounded(at)};
   pose.accuracy = pose_accuracy(model, there, lost_contacts(model, exactly, mode));

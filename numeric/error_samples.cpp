@@ -5,12 +5,25 @@
 
 #include "core/errors.hpp"
 #include "numeric/pose_batch.hpp"
+#include "numeric/reactions.hpp"
 
 namespace clearloci::numeric {
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Of every pose whether the teeth push and no span is slack; empty without gears and belts.
+std::vector<bool> within_efforts(const NumericModel& model, std::span<const double> poses, std::span<const int> mode) {
+  const auto& joints = model.mechanism.joints;
+  std::vector<bool> within;
+  if (std::none_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.meshing.has_value(); }))
+    return within;
+  ReactionField field;
+  reaction_field(model, poses, mode, field);
+  for (std::size_t i = 0; i < field.poses; ++i) within.push_back(field.reachable(i));
+  return within;
+}
 
 }  // namespace
 
@@ -24,6 +37,7 @@ ErrorSamples error_samples(const NumericModel& model, std::span<const double> po
   samples.error.assign(under_load ? count : 0, {none, none});
   samples.worst.assign(worst_case ? count : 0, {none, none, nan, nan});
   samples.reachable.assign(count, false);
+  const std::vector<bool> within = within_efforts(model, poses, mode);
   PoseBatch batch(model, mode);
   constexpr int lanes = PoseBatch::lanes;
   for (std::size_t first = 0; first < count; first += lanes) {
@@ -35,8 +49,9 @@ ErrorSamples error_samples(const NumericModel& model, std::span<const double> po
     batch.run_tape();
     bool any = false;
     for (int l = 0; l < used; ++l) {
-      const bool here = batch.reachable(l);
-      samples.reachable[first + static_cast<std::size_t>(l)] = here;
+      const std::size_t pose = first + static_cast<std::size_t>(l);
+      const bool here = batch.reachable(l) && (within.empty() || within[pose]);
+      samples.reachable[pose] = here;
       any = any || here;
     }
     if (!any) continue;

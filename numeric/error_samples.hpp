@@ -12,7 +12,7 @@ namespace clearloci::numeric {
 struct ErrorSamples {
   std::vector<PoseError> error;  ///< NaN where unreachable or undefined; empty unless asked for
   std::vector<WorstCase> worst;  ///< over all take-ups, without the rotation's size; NaN where unreachable; likewise
-  std::vector<bool> reachable;
+  std::vector<bool> reachable;   ///< the teeth of gears push, and no span of a belt is slack, besides
 };
 
 /// `mode`: a sign for each of the model's dyads. `poses`: pose after pose, one value a free coordinate. `under_load`:

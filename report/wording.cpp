@@ -137,7 +137,7 @@ std::string vanishing_words(core::LocusKind kind, std::span<const core::Vanishin
       {core::Quantity::N, margin ? "normal force margin lost" : "normal force zero"},
       {core::Quantity::T, "couple zero"},
       {core::Quantity::M, margin ? "couple margin lost" : "backlash"},
-      {core::Quantity::F, margin ? "axial force margin lost" : "backlash along the axis"},
+      {core::Quantity::F, margin ? "force margin lost" : "linear backlash"},
       {core::Quantity::fx, "fx = 0"},
       {core::Quantity::fy, "fy = 0"},
       {core::Quantity::fz, "fz = 0"},

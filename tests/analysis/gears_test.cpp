@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "clearloci/error.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/pose.hpp"
 #include "clearloci/trajectory.hpp"
@@ -60,6 +61,45 @@ struct GearedFiveBar {
   /// `sense`, and its direction.
   Vector2d line(double sense, double alpha) const { return {std::sin(alpha), sense * std::cos(alpha)}; }
 };
+
+TEST(GearedFiveBar, ErrorsAreOfPosesInWhichTheTeethPush) {
+  const Model model = shipped("geared_five_bar.yaml");
+  ErrorRequest request;
+  request.with_loci = false;
+  const Errors errors = find_errors(model, request);
+  const core::FieldMap& map = errors.modes.front().map;
+  const auto field = std::find_if(map.fields.begin(), map.fields.end(), [](const auto& f) { return f.name == "dp"; });
+  ASSERT_NE(field, map.fields.end());
+  std::size_t pushed = 0, pulled = 0;
+  for (std::size_t k = 0; k < map.size(); ++k) {
+    const GearedFiveBar by_hand(map.axes[0][k]);
+    const Vector2d W(0.04, 0);
+    const double left = -by_hand.on_second() / moment(W - by_hand.O2, by_hand.line(-1, 20 * degree));
+    EXPECT_EQ(std::isfinite(field->values[k]), left > 0) << map.axes[0][k];
+    ++(left > 0 ? pushed : pulled);
+  }
+  EXPECT_GT(pushed, 100u);
+  EXPECT_GT(pulled, 100u);
+  EXPECT_EQ(errors.modes.front().reachable, pushed);
+}
+
+TEST(ScaraWithABelt, ErrorsAreOfPosesInWhichNoSpanIsSlack) {
+  Model model = shipped("scara_belt.yaml");
+  ErrorRequest request;
+  request.with_loci = false;
+  request.worst_case = false;
+  request.grid = {40, 40};
+  const std::size_t tight = find_errors(model, request).modes.front().reachable;
+  model = model.with({{"T0", "20"}});
+  const Errors loose = find_errors(model, request);
+  EXPECT_LT(loose.modes.front().reachable, tight);
+  const core::FieldMap& map = loose.modes.front().map;
+  for (std::size_t k = 0; k < map.size(); k += 7) {
+    if (!std::isfinite(map.fields.front().values[k])) continue;
+    const Pose pose = solve_pose(model, {map.place(k)[0], map.place(k)[1]});
+    EXPECT_LE(std::abs(part(pose, "T", Quantity::M)), 2 * 20 * 0.025) << k;
+  }
+}
 
 TEST(GearedFiveBar, TeethHoldTheSecondCrank) {
   const Model model = shipped("geared_five_bar.yaml");

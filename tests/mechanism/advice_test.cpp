@@ -2,6 +2,7 @@
 // together, what to write for what does not exist. The mends are tried: the mechanism is read then.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "mechanism/read.hpp"
 #include "mechanism/redundancy.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -127,6 +129,20 @@ TEST(Advice, NamesTheLinksOfACycleOfPoints) {
                                                        "  C: {on: [A, B], offset: [60, 100]}\n"
                                                        "  D: {dyad: [C, O6], lengths: [140, 40], side: left}\n");
   EXPECT_EQ(refusal(driven), "");
+}
+
+TEST(Advice, SaysWhatIsWrongWithAGearBeforeItsFrameIsMissed) {
+  const std::string text = example_text("geared_five_bar");
+  ASSERT_EQ(refusal(text), "");
+  for (const auto& [from, to, words] : std::vector<std::array<std::string, 3>>{
+           {"teeth: [40, 20]", "radii: [40, 20]", "unknown key 'radii' in gear W"},
+           {"teeth: [40, 20]", "teeth: [40.5, 20]", "the teeth of gear W are no whole number"},
+           {"centres: [O1, O2]", "centres: [O1, O1]", "gear W has both centres at O1"},
+           {"centres: [O1, O2]", "centres: [O1, T2]", "point T2: gear W gives no frame for wheel2 here"},
+           {"teeth: [40, 20]", "distance: 50, teeth: [40, 20]",
+            "the centres of gear W are 60 mm apart, but its distance is 50 mm"}})
+    EXPECT_TRUE(says(refusal(replaced(text, from, to)), words)) << refusal(replaced(text, from, to));
+  EXPECT_EQ(refusal(replaced(text, "teeth: [40, 20]", "distance: 60, teeth: [40, 20]")), "");
 }
 
 TEST(Advice, SaysWhatExistsForWhatDoesNot) {
