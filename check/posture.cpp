@@ -25,6 +25,8 @@ class Placing {
     }
     for (const mechanism::Limit& limit : m_.limits)
       if (!result_.stopped_by) hold(limit);
+    for (const mechanism::JointIndex joint : mechanism::bounded_laws(m_))
+      if (!result_.stopped_by) hold(m_.joints[static_cast<std::size_t>(joint)]);
     for (const mechanism::Spring& spring : m_.springs)
       if (!result_.stopped_by) hold(spring);
     for (const mechanism::Joint& joint : m_.joints)
@@ -109,6 +111,13 @@ class Placing {
     const Number cosine = dot(unit(own(0) - own(1)), unit(own(2) - own(1)));
     if (limit.keeps_lower()) square(values_.function(Expression::Kind::cos, limit.lower) - cosine);
     if (limit.keeps_upper()) square(cosine - values_.function(Expression::Kind::cos, limit.upper));
+  }
+
+  /// The bounds of an effort that follows a law.
+  void hold(const mechanism::Joint& joint) {
+    const Number effort = value(*joint.effort);
+    square(effort - values_.number(joint.law_within->first));
+    square(values_.number(joint.law_within->second) - effort);
   }
 
   void hold(const mechanism::Spring& spring);

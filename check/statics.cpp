@@ -42,6 +42,7 @@ std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Int
 std::size_t limit_ends(const Mechanism& m) {
   std::size_t count = 0;
   for (const mechanism::Spring& spring : m.springs) count += spring.kind == mechanism::Spring::Kind::torsion ? 1U : 0U;
+  count += 2 * mechanism::bounded_laws(m).size();
   for (const mechanism::Limit& limit : m.limits)
     count += (limit.keeps_lower() ? 1U : 0U) + (limit.keeps_upper() ? 1U : 0U);
   return count;

@@ -97,8 +97,19 @@ std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upp
   const HeldByLinks held = held_by_links(mechanism);
   if (left < held.distances.size()) return words_of(mechanism, held.distances[left]);
   left -= held.distances.size();
-  core::ensure(left < held.turns.size(), "a limit, a torsion spring or what a rigid link holds");
-  return words_of(mechanism, held.turns[left]);
+  if (left < held.turns.size()) return words_of(mechanism, held.turns[left]);
+  left -= held.turns.size();
+  const std::vector<JointIndex> laws = bounded_laws(mechanism);
+  core::ensure(left < laws.size(), "a limit, a torsion spring, what a rigid link holds or a law");
+  const Joint& joint = mechanism.joints[static_cast<std::size_t>(laws[left])];
+  return words_of_law(mechanism, joint, upper ? joint.law_within->second : joint.law_within->first);
+}
+
+std::vector<JointIndex> bounded_laws(const Mechanism& mechanism) {
+  std::vector<JointIndex> laws;
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
+    if (mechanism.joints[j].law_within) laws.push_back(static_cast<JointIndex>(j));
+  return laws;
 }
 
 VectorExpression direction_of(const Mechanism& mechanism, LinkIndex link) {

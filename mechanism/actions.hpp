@@ -47,6 +47,12 @@ core::Rational least_torsion_cosine();
 std::string words_of_reach(const Spring& spring);
 
 /// What a pose may be beyond: the file's limits, its torsion springs, then what rigid links hold (rigidity.hpp).
+/// "effort of joint B2 at 30 N m": of a law, at a bound.
+std::string words_of_law(const Mechanism& mechanism, const Joint& joint, const Rational& value);
+
+/// Efforts that follow a law with bounds.
+std::vector<JointIndex> bounded_laws(const Mechanism& mechanism);
+
 std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upper);
 
 /// Of a link's first two points, the way from one to the other; the x axis of the ground: what torsion springs measure.

@@ -39,10 +39,11 @@ class Change {
         joint.meshing->radius = scaled(joint.meshing->radius, 1);
         if (joint.meshing->distance) joint.meshing->distance = scaled(*joint.meshing->distance, 1);
       }
-      if (joint.within && !traits(joint).slides) {
-        joint.within->first /= frame_.scale;
-        joint.within->second /= frame_.scale;
-      }
+      for (auto* within : {&joint.within, &joint.law_within})
+        if (*within && !traits(joint).slides) {
+          (*within)->first /= frame_.scale;
+          (*within)->second /= frame_.scale;
+        }
       if (!joint.clearance) continue;
       for (Expression* length :
            {&joint.clearance->radial, &joint.clearance->gap, &joint.clearance->half_length, &joint.clearance->axial})

@@ -3,6 +3,8 @@
 #include <set>
 
 #include "core/errors.hpp"
+#include "core/shown_units.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/reader.hpp"
@@ -24,9 +26,19 @@ bool is_free_effort(const Value& effort) { return effort.is_scalar() && text_of(
 
 std::string free_effort_parameter(const std::string& joint) { return prefix + joint; }
 
-void refuse_effort(const Joint& joint, const core::SourcePosition& where) {
-  throw InputError(where, "the effort of joint " + joint.name + " is beyond its range",
-                   "choose one that the motor can exert");
+std::string words_of_law(const Mechanism& mechanism, const Joint& joint, const Rational& value) {
+  const std::string unit = core::unit_of(actuator_quantity(joint));
+  return (is_cable(joint) ? "tension of cable " : "effort of joint ") + joint.name + " at " +
+         core::told(core::to_double(value), unit, mechanism.units);
+}
+
+void refuse_effort(const Mechanism& mechanism, const Joint& joint, const Rational& value,
+                   const std::pair<Rational, Rational>& within, const core::SourcePosition& where) {
+  const auto told = [&](const Rational& own) {
+    return core::told(core::to_double(own), core::unit_of(actuator_quantity(joint)), mechanism.units);
+  };
+  throw InputError(where, "the " + words_of_law(mechanism, joint, value) + " is beyond its bounds",
+                   "choose one from " + told(within.first) + " to " + told(within.second));
 }
 
 std::vector<Entry> written_free_efforts(const Value& joints) {
@@ -73,6 +85,23 @@ std::vector<Entry> free_effort_parameters(const Value& joints, const GivenEffort
   return parameters;
 }
 
+void check_given_efforts(const Value& joints, const std::optional<Value>& parameters, const GivenEfforts& efforts) {
+  if (!joints.is_map()) return;
+  std::vector<std::string> known;
+  for (const Entry& own : written_free_efforts(joints)) known.push_back(own.key.substr(std::string(prefix).size()));
+  for (const Entry& joint : entries(joints))
+    if (joint.value.is_map() && joint.value.node.has(std::string(to_string(JointType::cable)).c_str()))
+      known.push_back(joint.key);
+  for (const std::string& name : names_of_efforts(efforts)) {
+    if (!name.starts_with(prefix) || (parameters && parameters->is_map() && parameters->node.has(name.c_str())))
+      continue;
+    const std::string joint = name.substr(std::string(prefix).size());
+    if (std::find(known.begin(), known.end(), joint) == known.end())
+      throw InputError({.file = "--preload"}, "there is no joint of free effort called '" + joint + "'",
+                       suggest(joint, known, "joints of free effort"));
+  }
+}
+
 GivenEfforts given_efforts(const Value& workspace, const std::vector<Override>& overrides) {
   std::set<std::string> coordinates;
   for (const Entry& own : entries(workspace)) coordinates.insert(own.key);
@@ -102,13 +131,15 @@ void give_free_efforts(Mechanism& mechanism, const GivenEfforts& efforts) {
       joint.effort = read_varying(mechanism, {Node::scalar(*law, where), "the effort of joint " + joint.name, where,
                                               traits(joint).actuator == core::Quantity::F ? "force" : "couple"});
       std::erase_if(mechanism.parameters, [&](const Parameter& each) { return each.name == own.parameter; });
+      joint.law_within = own.within;
       joint.free_effort.reset();
       continue;
     }
     own.given = given(efforts.values, own.parameter) != nullptr;
     if (!own.given || !own.within) continue;
     const Rational value = value_of(*joint.effort, mechanism);
-    if (value < own.within->first || value > own.within->second) refuse_effort(joint, joint.where);
+    if (value < own.within->first || value > own.within->second)
+      refuse_effort(mechanism, joint, value, *own.within, {.file = "--preload"});
   }
 }
 

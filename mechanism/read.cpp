@@ -74,6 +74,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   mechanism.name = name_of(root.find("name"), file);
   mechanism.units = read_units(root.find("units"));
   const GivenEfforts efforts = given_efforts(root.at("workspace"), overrides);
+  check_given_efforts(root.at("joints"), root.find("parameters"), efforts);
   read_parameters(mechanism, root.find("parameters"), free_effort_parameters(root.at("joints"), efforts),
                   efforts.values);
   read_workspace(mechanism, root.at("workspace"));

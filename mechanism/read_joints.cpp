@@ -216,10 +216,14 @@ void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint)
   joint.effort = read_varying(mechanism, effort);
   if (!within) return;
   within->what = "the range of the effort of joint " + joint.name;
-  const auto [least, most] = read_within(mechanism, *within, effort.field);
-  if (!symbols(*joint.effort).empty()) return;
-  if (const Rational given = value_of(*joint.effort, mechanism); given < least || given > most)
-    refuse_effort(joint, within->where);
+  const auto range = read_within(mechanism, *within, effort.field);
+  const std::set<std::string> names = symbols(*joint.effort);
+  if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                  [&](const Coordinate& own) { return names.contains(own.name); }))
+    joint.law_within = range;
+  if (!names.empty()) return;
+  if (const Rational given = value_of(*joint.effort, mechanism); given < range.first || given > range.second)
+    refuse_effort(mechanism, joint, given, range, within->where);
 }
 
 void read_joined_links(const Mechanism& mechanism, const Value& links, const std::string& what, Joint& joint) {

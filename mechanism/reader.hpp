@@ -108,7 +108,8 @@ void fill_inertia(Mechanism& mechanism);
 /// The word `free`.
 bool is_free_effort(const Value& effort);
 std::string free_effort_parameter(const std::string& joint);
-[[noreturn]] void refuse_effort(const Joint& joint, const core::SourcePosition& where);
+[[noreturn]] void refuse_effort(const Mechanism& mechanism, const Joint& joint, const Rational& value,
+                                const std::pair<Rational, Rational>& within, const core::SourcePosition& where);
 /// Of joints as they are written: the word `free` of every effort that is, by the name of its parameter.
 std::vector<Entry> written_free_efforts(const Value& joints);
 /// Overrides: efforts that vary with the pose, by the names of their parameters, and all else.
@@ -118,6 +119,8 @@ struct GivenEfforts {
 GivenEfforts given_efforts(const Value& workspace, const std::vector<Override>& overrides);
 /// The others.
 std::vector<Override> without_efforts(std::vector<Override> overrides);
+/// Throws for one of a joint whose effort is not free. `parameters`: of the file, which may have such a name.
+void check_given_efforts(const Value& joints, const std::optional<Value>& parameters, const GivenEfforts& efforts);
 /// The parameters that they name.
 std::vector<std::string> names_of_efforts(const GivenEfforts& efforts);
 /// A parameter for each free effort that has no law, and for each cable whose tension is given.

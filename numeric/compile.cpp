@@ -42,6 +42,7 @@ class ModelBuilder {
     for (const Action& action : mechanism::actions(m_))
       if (action.law == Action::Law::torsion) add_reach(action, model);
     hold_links(model);
+    for (const mechanism::JointIndex joint : mechanism::bounded_laws(m_)) add_law(joint, model);
     if (!m_.gravity.empty()) model.gravity = geometry_.components(m_.gravity);
     model.loads = loads(model);
     model.posture_size = tape_.size();
@@ -179,6 +180,16 @@ class ModelBuilder {
   void add_reach(const Action& action, NumericModel& model) {
     const Register least = tape_.constant(core::to_double(mechanism::least_torsion_cosine()));
     keep({tape_.subtract(tape_.cos(off_rest(action, axis_of(action))), least), std::nullopt}, model);
+  }
+
+  /// Slack to the bounds of an effort that follows a law, over its range.
+  void add_law(mechanism::JointIndex index, NumericModel& model) {
+    const mechanism::Joint& joint = m_.joints[static_cast<std::size_t>(index)];
+    const double least = core::to_double(joint.law_within->first), most = core::to_double(joint.law_within->second);
+    const Register effort = compile(*joint.effort), range = tape_.constant(most - least);
+    keep({tape_.divide(tape_.subtract(effort, tape_.constant(least)), range),
+          tape_.divide(tape_.subtract(tape_.constant(most), effort), range)},
+         model);
   }
 
   /// What is left of the rounding by which a distance or a turn of a rigid link may be off.

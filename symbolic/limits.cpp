@@ -11,6 +11,7 @@ namespace clearloci::symbolic {
 namespace {
 
 using core::Expression;
+using core::Rational;
 
 std::vector<Poly> components(const Geometry& geometry, mechanism::PointIndex from, mechanism::PointIndex to) {
   std::vector<Poly> list;
@@ -53,6 +54,16 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
     if (limit.keeps_lower())
       all.push_back({square - lower * lower, mechanism::words_of(m, limit, false), limit.where, {}, i});
     all.push_back({upper * upper - square, mechanism::words_of(m, limit, true), limit.where, {}, i});
+  }
+  for (const mechanism::JointIndex j : mechanism::bounded_laws(m)) {
+    const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(j)];
+    const auto& [least, most] = *joint.law_within;
+    const Poly effort = geometry.poly(geometry.expression(*joint.effort).expand());
+    const auto add = [&](const Poly& left, const Rational& bound) {
+      all.push_back({left, mechanism::words_of_law(m, joint, bound), joint.where, {}, m.limits.size()});
+    };
+    add(effort - Poly(geometry.ring(), least), least);
+    add(Poly(geometry.ring(), most) - effort, most);
   }
   for (const TorsionAngle& angle : geometry.torsion_angles()) {
     if (angle.tangent) continue;  // it is cut nowhere

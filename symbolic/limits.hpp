@@ -1,6 +1,7 @@
 // Limits of the workspace as natural polynomials. Private to symbolic/.
 //
 //   distance of A, B within [l, u]:         |B - A|^2 - l^2 >= 0,   u^2 - |B - A|^2 >= 0
+//   effort p(x, y) within [l, u]:           p - l >= 0,   u - p >= 0
 //   torsion spring off its rest:            (v . w) / (|v| |w|) - c >= 0 for the directions v (turned by the rest), w
 //   angle of the ways v, w within [a, b]:   cos a - (v . w) / (|v| |w|) >= 0,   (v . w) / (|v| |w|) - cos b >= 0
 #pragma once
@@ -18,7 +19,7 @@ struct LimitCondition {
   std::string words;  ///< "distance A1-P at 0.52 m"
   core::SourcePosition where;
   std::string bounds = {};  ///< core::Root::bounds
-  std::size_t limit = 0;    ///< of the mechanism; of a torsion spring as many as there are
+  std::size_t limit = 0;    ///< of the mechanism; of a law or a torsion spring as many as there are
 };
 
 /// One for each end of a limit that some pose may be beyond.

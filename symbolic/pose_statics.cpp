@@ -61,6 +61,7 @@ class StaticsBuilder {
     const std::vector<bool> idle = mechanism::idle_limits(m_);
     for (std::size_t i = 0; i < idle.size(); ++i)
       if (!idle[i]) add_limit(m_.limits[i], result.positive);
+    for (const mechanism::JointIndex joint : mechanism::bounded_laws(m_)) add_law(joint, result.positive);
     for (const mechanism::Spring& spring : m_.springs)
       if (spring.kind == mechanism::Spring::Kind::torsion) add_reach(spring, result.positive);
     std::vector<int*> steps;
@@ -329,6 +330,13 @@ class StaticsBuilder {
     const auto [x, y] = off_rest(spring);
     const int size = b_.square_root(b_.add(b_.square(x), b_.square(y)));
     positive.push_back(b_.subtract(b_.divide(x, size), b_.constant(mechanism::least_torsion_cosine())));
+  }
+
+  void add_law(mechanism::JointIndex index, std::vector<int>& positive) {
+    const mechanism::Joint& joint = m_.joints[static_cast<std::size_t>(index)];
+    const int effort = points_.expression(*joint.effort);
+    positive.push_back(b_.subtract(effort, b_.constant(joint.law_within->first)));
+    positive.push_back(b_.subtract(b_.constant(joint.law_within->second), effort));
   }
 
   void add_limit(const mechanism::Limit& limit, std::vector<int>& positive) {

@@ -241,6 +241,31 @@ TEST(Cables, GivenTensionsAreHeldAgainstTheBoundsOfTheOthers) {
   EXPECT_LT(*slack.witness->size, 5);
 }
 
+TEST(Cables, LawsKeepTheBoundsOfTheirTensions) {
+  const Model model = Model::parse(example_text("cables/point"), "m.yaml");
+  // A cable never pushes: K3 would be at -2 N.
+  const Model pushing = model.with({{"preload_K3", "-2 N + 0.001 N/m*x"}, {"preload_K4", "60"}});
+  EXPECT_NE(verdict_of(pushing, "{x: [-0.87, -0.83], y: [-0.02, 0.02]}", "").verdict, Verdict::verified);
+  // K3 is at its least tension of 5 N at x = -0.5.
+  const Model law = model.with({{"preload_K3", "35 N + 60 N/m*x"}, {"preload_K4", "40"}});
+  EXPECT_EQ(verdict_of(law, "{x: [0, 0.02], y: [0, 0.02]}", "").verdict, Verdict::verified);
+  EXPECT_EQ(verdict_of(law, "{x: [-0.51, -0.49], y: [0, 0.02]}", "").verdict, Verdict::refuted);
+  EXPECT_NO_THROW(solve_pose(law, {-0.45, 0}));
+  EXPECT_THROW(solve_pose(law, {-0.55, 0}), std::runtime_error);
+  LociRequest request;
+  const core::LocusMap map = trace_loci(law, request);
+  const auto ends = [](const core::LocusCurve& curve) {
+    return curve.kind == core::LocusKind::workspace_boundary && curve.cause == "limit: tension of cable K3 at 5 N";
+  };
+  ASSERT_TRUE(std::any_of(map.curves.begin(), map.curves.end(), ends));
+  for (const core::LocusCurve& curve : map.curves)
+    for (const core::Arc& arc : curve.arcs)
+      for (const auto& vertex : arc.points) {
+        if (ends(curve)) EXPECT_NEAR(vertex[0], -0.5, 1e-9);
+        EXPECT_GE(vertex[0], -0.5 - 1e-9) << curve.id;
+      }
+}
+
 TEST(Cables, OneConstantChoiceIsFoundForATask) {
   const Model model = Model::parse(example_text("cables/point"), "m.yaml");
   const Verification answer = verdict_of(model, "{x: [-0.1, 0.1], y: [-0.1, 0.1]}", "preload: constant\n");
