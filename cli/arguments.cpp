@@ -50,6 +50,10 @@ std::optional<int> whole_number(std::string_view text) {
 
 }  // namespace
 
+void add_export_argument(CLI::App& command, std::string& formats, const std::string& description) {
+  command.add_option("--export", formats, description)->type_name("LIST")->capture_default_str();
+}
+
 void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
   command.add_option("MODEL", arguments.model, "The mechanism file (YAML), or a file that the command import reads")
       ->required()

@@ -29,6 +29,9 @@ struct CommonArguments {
 
 void add_common_arguments(CLI::App& command, CommonArguments& arguments);
 
+/// --export: names of formats after commas.
+void add_export_argument(CLI::App& command, std::string& formats, const std::string& description);
+
 /// {"L", "0.4"} of "L=0.4".
 std::vector<mechanism::Override> parse_overrides(const std::vector<std::string>& words);
 

@@ -76,9 +76,7 @@ Command add_check_command(CLI::App& program) {
       "Example: clearloci loci examples/five_bar.yaml --certificate out/five_bar.cert\n"
       "         clearloci check examples/five_bar.yaml out/five_bar.cert\n"
       "Exit status: 0 every claim is confirmed; 1 a claim is not; 2 a file cannot be read.");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

@@ -143,18 +143,14 @@ Command add_design_command(CLI::App& program) {
   app->add_option("--threads", arguments->threads,
                   "Number of designs that are checked at the same time (default: the number of cores)")
       ->type_name("COUNT");
-  app->add_option(
-         "--export", arguments->formats,
-         fmt::format("Files besides designs.json, comma-separated: {}", fmt::join(report::study_format_names(), ", ")))
-      ->type_name("LIST")
-      ->capture_default_str();
+  add_export_argument(
+      *app, arguments->formats,
+      fmt::format("Files besides designs.json, comma-separated: {}", fmt::join(report::study_format_names(), ", ")));
   app->footer(
       "Example: clearloci design examples/five_bar.yaml examples/studies/link_lengths.yaml\n"
       "Exit status 3: the time limit was reached; --resume continues. The same study gives the same files with any\n"
       "number of threads.");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

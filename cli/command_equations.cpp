@@ -152,9 +152,7 @@ Command add_equations_command(CLI::App& program) {
   app->footer(
       "Example: clearloci equations examples/five_bar.yaml --symbolic --language latex\n"
       "With -o the text is also written to DIR/equations.txt (.tex, .c, .py, .m, .json).");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

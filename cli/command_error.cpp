@@ -116,11 +116,9 @@ Command add_error_command(CLI::App& program) {
          "Over three coordinates: draw the layer of cells at this value, such as z=0.3 (repeatable; default: the "
          "middle of the last coordinate)")
       ->type_name("NAME=VALUE");
-  app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides error.json, comma-separated: {}; over one coordinate without vtk",
-                              fmt::join(report::error_formats(2), ", ")))
-      ->type_name("LIST")
-      ->capture_default_str();
+  add_export_argument(*app, arguments->formats,
+                      fmt::format("Files besides error.json, comma-separated: {}; over one coordinate without vtk",
+                                  fmt::join(report::error_formats(2), ", ")));
   app->add_flag("--no-loci", arguments->without_loci, "Draw no loci over the pictures");
   app->add_flag("--no-worst-case", arguments->without_worst_case,
                 "Compute only the error under the load of the file, not the worst case over all loads");
@@ -138,9 +136,7 @@ Command add_error_command(CLI::App& program) {
       "the take-up of every joint and the reactions are drawn over it (error.png, take-up.png, reactions.png), and "
       "the\n"
       "table lists the jumps of the end effector at the loci: clearloci error examples/four_bar.yaml");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

@@ -103,11 +103,9 @@ Command add_loci_command(CLI::App& program) {
   add_locus_arguments(*app, arguments->loci);
   add_controlled_argument(*app, arguments->loci);
   add_mesh_argument(*app, arguments->loci);
-  app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides loci.json, comma-separated: {}",
-                              fmt::join(report::format_names<report::LociSheet>(), ", ")))
-      ->type_name("LIST")
-      ->capture_default_str();
+  add_export_argument(*app, arguments->formats,
+                      fmt::format("Files besides loci.json, comma-separated: {}",
+                                  fmt::join(report::format_names<report::LociSheet>(), ", ")));
   app->add_flag("--exact", arguments->exact,
                 "Print irrational numbers of closed forms in the table as roots, not as decimals");
   add_certificate_argument(*app, arguments->certificate, "planar mechanisms over two lengths");
@@ -115,9 +113,7 @@ Command add_loci_command(CLI::App& program) {
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"
       "With three free coordinates the loci are surfaces:\n"
       "  clearloci loci examples/gough_stewart.yaml --mesh-size 1/48 --export png,stl,obj,vtk");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

@@ -118,9 +118,7 @@ Command add_pose_command(CLI::App& program) {
   app->footer(
       "Example: clearloci pose examples/five_bar.yaml --at 0.25,-0.7 --iterate\n"
       "With -o, DIR/pose.json is written.");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

@@ -119,18 +119,14 @@ Command add_trajectory_command(CLI::App& program) {
   app->add_option("--working-mode", arguments->working_mode,
                   "left or right for every dyad, such as right,left (default: the mode of the file)")
       ->type_name("SIDES");
-  app->add_option("--export", arguments->formats,
-                  fmt::format("Files besides trajectory.json, comma-separated: {}",
-                              fmt::join(report::format_names<core::TrajectoryResult>(), ", ")))
-      ->type_name("LIST")
-      ->capture_default_str();
+  add_export_argument(*app, arguments->formats,
+                      fmt::format("Files besides trajectory.json, comma-separated: {}",
+                                  fmt::join(report::format_names<core::TrajectoryResult>(), ", ")));
   app->footer(
       "Example: clearloci trajectory examples/pick_and_place/manipulator.yaml examples/pick_and_place/path.yaml "
       "--periods 0.5:3:0.02\n"
       "Writes trajectory.json, trajectory.csv and pictures.");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

@@ -81,9 +81,7 @@ Command add_validate_command(CLI::App& program) {
   app->footer(
       "Example: clearloci validate examples/five_bar.yaml --grid 400x400\n"
       "Exit status 1 if reactions contradict the loci. With -o, DIR/validation.json is written.");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

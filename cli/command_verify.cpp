@@ -179,19 +179,15 @@ Command add_verify_command(CLI::App& program) {
       ->type_name("nearest|best|largest")
       ->expected(0, 1)
       ->default_str("nearest");
-  app->add_option("--export", arguments->formats,
-                  fmt::format("Pictures besides verify.json, comma-separated: {}",
-                              fmt::join(report::format_names<core::Verification>(), ", ")))
-      ->type_name("LIST")
-      ->capture_default_str();
+  add_export_argument(*app, arguments->formats,
+                      fmt::format("Pictures besides verify.json, comma-separated: {}",
+                                  fmt::join(report::format_names<core::Verification>(), ", ")));
   add_certificate_argument(*app, arguments->certificate, "only if the task is verified");
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
       "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a pose at which the\n"
       "task fails is confirmed numerically; 3 undecided within the time limit or the resolution of doubles.");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

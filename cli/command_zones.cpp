@@ -69,12 +69,10 @@ Command add_zones_command(CLI::App& program) {
   add_tracing_arguments(*app, arguments->loci);
   add_locus_arguments(*app, arguments->loci);
   add_controlled_argument(*app, arguments->loci);
-  app->add_option(
-         "--export", arguments->formats,
-         fmt::format("Files besides zones.json, comma-separated: {}; over other than two lengths {}",
-                     fmt::join(report::zone_formats(2, false), ", "), fmt::join(report::zone_formats(3, true), ", ")))
-      ->type_name("LIST")
-      ->capture_default_str();
+  add_export_argument(
+      *app, arguments->formats,
+      fmt::format("Files besides zones.json, comma-separated: {}; over other than two lengths {}",
+                  fmt::join(report::zone_formats(2, false), ", "), fmt::join(report::zone_formats(3, true), ", ")));
   app->add_option("--cells", arguments->cells,
                   "Over one to three coordinates that are not two lengths: the number of cells in each mode; more "
                   "cells leave less in doubt")
@@ -82,9 +80,7 @@ Command add_zones_command(CLI::App& program) {
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate, "planar mechanisms over two lengths");
   app->footer("Example: clearloci zones examples/five_bar.yaml --working-mode all");
-  return {app, [arguments] {
-            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
-          }};
+  return within_limit(app, arguments, run);
 }
 
 }  // namespace clearloci::cli

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -16,6 +17,7 @@
 #include <thread>
 
 #include "cli/arguments.hpp"
+#include "cli/commands.hpp"
 #include "report/files.hpp"
 
 namespace clearloci::cli {
@@ -61,6 +63,15 @@ class TimeLimit {
 
 /// Runs a command's work. Where it ends with core::LimitReached, what is known is written before that goes on.
 int run_within(const CommonArguments& arguments, const std::function<int(TimeLimit&)>& work);
+
+/// A command whose work is `run`.
+template <class Arguments>
+Command within_limit(CLI::App* app, const std::shared_ptr<Arguments>& arguments,
+                     int (*run)(const Arguments&, TimeLimit&)) {
+  return {app, [arguments, run] {
+            return run_within(arguments->common, [&](TimeLimit& limit) { return run(*arguments, limit); });
+          }};
+}
 
 /// What is left of a result that did not come in time: `file` in the output folder (where a command writes without -o
 /// only if `always`), and with --json the same on standard output. `body`: what is known; "complete": false is added.

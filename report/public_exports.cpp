@@ -105,43 +105,42 @@ std::vector<std::string> verification_formats() { return report::format_names<Ve
 std::vector<std::string> error_formats(std::size_t coordinates) { return report::error_formats(coordinates); }
 std::vector<std::string> trajectory_formats() { return report::format_names<TrajectoryResult>(); }
 
-Paths export_loci(const Model& model, const LocusMap& loci, const std::filesystem::path& folder,
-                  const std::set<std::string>& formats) {
+Paths export_to(const Model& model, const LocusMap& loci, const std::filesystem::path& folder,
+                const std::set<std::string>& formats) {
   told(loci);
   check(formats, loci_formats(loci.tower.coordinates.size()));
   return report::write_loci({loci, sample_sketches(model.content().mechanism, loci)}, folder, formats);
 }
-Paths export_zones(const Zones& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
+Paths export_to(const Zones& zones, const std::filesystem::path& folder, const std::set<std::string>& formats) {
   return write_checked(told(zones), folder, formats, formats_of(zones));
 }
-Paths export_verification(const Verification& answer, const std::filesystem::path& folder,
-                          const std::set<std::string>& formats) {
+Paths export_to(const Verification& answer, const std::filesystem::path& folder, const std::set<std::string>& formats) {
   return write_checked(told(answer), folder, formats);
 }
-Paths export_errors(const Errors& errors, const std::filesystem::path& folder, const std::set<std::string>& formats,
-                    const std::vector<FieldSlice>& slices) {
+Paths export_to(const Errors& errors, const std::filesystem::path& folder, const std::set<std::string>& formats,
+                const std::vector<FieldSlice>& slices) {
   return write_checked(sheet_of(errors, slices), folder, formats, formats_of(errors));
 }
-Paths export_trajectory(const TrajectoryResult& result, const std::filesystem::path& folder,
-                        const std::set<std::string>& formats) {
+Paths export_to(const TrajectoryResult& result, const std::filesystem::path& folder,
+                const std::set<std::string>& formats) {
   return write_checked(told(result), folder, formats);
 }
 
-std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats) {
+std::vector<ExportedFile> files_of(const Model& model, const LocusMap& loci, const std::set<std::string>& formats) {
   const std::vector<core::ModeSketch> sketches = sample_sketches(model.content().mechanism, told(loci));
   return files_checked(report::LociSheet{loci, sketches}, formats, loci_formats(loci.tower.coordinates.size()));
 }
-std::vector<ExportedFile> zone_files(const Zones& zones, const std::set<std::string>& formats) {
+std::vector<ExportedFile> files_of(const Zones& zones, const std::set<std::string>& formats) {
   return files_checked(told(zones), formats, formats_of(zones));
 }
-std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats) {
+std::vector<ExportedFile> files_of(const Verification& answer, const std::set<std::string>& formats) {
   return files_checked(told(answer), formats);
 }
-std::vector<ExportedFile> error_files(const Errors& errors, const std::set<std::string>& formats,
-                                      const std::vector<FieldSlice>& slices) {
+std::vector<ExportedFile> files_of(const Errors& errors, const std::set<std::string>& formats,
+                                   const std::vector<FieldSlice>& slices) {
   return files_checked(sheet_of(errors, slices), formats, formats_of(errors));
 }
-std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const std::set<std::string>& formats) {
+std::vector<ExportedFile> files_of(const TrajectoryResult& result, const std::set<std::string>& formats) {
   return files_checked(told(result), formats);
 }
 

@@ -3,8 +3,8 @@
 //
 //     const clearloci::Model model = clearloci::Model::read("five_bar.yaml");
 //     const clearloci::LocusMap loci = trace_loci(model);
-//     for (const auto& file : export_loci(model, loci, "out", {"svg", "dxf"})) std::cout << file << "\n";
-//     export_errors(find_errors(model), "out", {"png", "vtk"});
+//     for (const auto& file : export_to(model, loci, "out", {"svg", "dxf"})) std::cout << file << "\n";
+//     export_to(find_errors(model), "out", {"png", "vtk"});
 //
 // Formats are known by name: "json" (always written), "csv", "svg", "png", "pdf", "dxf", "dxf-r12", "geojson", "vtk",
 // "stl", "obj", "html". Coordinates in files are m and rad.
@@ -37,20 +37,19 @@ std::vector<std::string> trajectory_formats();
 /// Write the answer into a folder, which is made where it is missing, and return the files in the order written. The
 /// pictures of loci over x and y show the mechanism in a posture. Throw InputError for a format that the answer has
 /// not, and where the folder cannot be written.
-std::vector<std::filesystem::path> export_loci(const Model& model, const LocusMap& loci,
-                                               const std::filesystem::path& folder,
-                                               const std::set<std::string>& formats = {"svg", "png", "csv"});
-std::vector<std::filesystem::path> export_zones(const Zones& zones, const std::filesystem::path& folder,
-                                                const std::set<std::string>& formats = {"svg", "png"});
-std::vector<std::filesystem::path> export_verification(const Verification& answer, const std::filesystem::path& folder,
-                                                       const std::set<std::string>& formats = {"svg", "png"});
+std::vector<std::filesystem::path> export_to(const Model& model, const LocusMap& loci,
+                                             const std::filesystem::path& folder,
+                                             const std::set<std::string>& formats = {"svg", "png", "csv"});
+std::vector<std::filesystem::path> export_to(const Zones& zones, const std::filesystem::path& folder,
+                                             const std::set<std::string>& formats = {"svg", "png"});
+std::vector<std::filesystem::path> export_to(const Verification& answer, const std::filesystem::path& folder,
+                                             const std::set<std::string>& formats = {"svg", "png"});
 /// `slices`: over three coordinates the layers of cells that are drawn; none: the one in the middle of the last one.
-std::vector<std::filesystem::path> export_errors(const Errors& errors, const std::filesystem::path& folder,
-                                                 const std::set<std::string>& formats = {"png"},
-                                                 const std::vector<FieldSlice>& slices = {});
-std::vector<std::filesystem::path> export_trajectory(const TrajectoryResult& result,
-                                                     const std::filesystem::path& folder,
-                                                     const std::set<std::string>& formats = {"png", "csv"});
+std::vector<std::filesystem::path> export_to(const Errors& errors, const std::filesystem::path& folder,
+                                             const std::set<std::string>& formats = {"png"},
+                                             const std::vector<FieldSlice>& slices = {});
+std::vector<std::filesystem::path> export_to(const TrajectoryResult& result, const std::filesystem::path& folder,
+                                             const std::set<std::string>& formats = {"png", "csv"});
 
 /// A file that is not written.
 struct ExportedFile {
@@ -58,12 +57,12 @@ struct ExportedFile {
 };
 
 /// What the above would write in these formats alone, in memory.
-std::vector<ExportedFile> loci_files(const Model& model, const LocusMap& loci, const std::set<std::string>& formats);
-std::vector<ExportedFile> zone_files(const Zones& zones, const std::set<std::string>& formats);
-std::vector<ExportedFile> verification_files(const Verification& answer, const std::set<std::string>& formats);
-std::vector<ExportedFile> error_files(const Errors& errors, const std::set<std::string>& formats,
-                                      const std::vector<FieldSlice>& slices = {});
-std::vector<ExportedFile> trajectory_files(const TrajectoryResult& result, const std::set<std::string>& formats);
+std::vector<ExportedFile> files_of(const Model& model, const LocusMap& loci, const std::set<std::string>& formats);
+std::vector<ExportedFile> files_of(const Zones& zones, const std::set<std::string>& formats);
+std::vector<ExportedFile> files_of(const Verification& answer, const std::set<std::string>& formats);
+std::vector<ExportedFile> files_of(const Errors& errors, const std::set<std::string>& formats,
+                                   const std::vector<FieldSlice>& slices = {});
+std::vector<ExportedFile> files_of(const TrajectoryResult& result, const std::set<std::string>& formats);
 
 /// The bytes of loci.json, zones.json, verify.json, error.json, trajectory.json, pose.json, validation.json. Required
 /// of a Pose: it is within reach, and where it was iterated it converged.

@@ -146,11 +146,13 @@ class Judge {
   template <class Use>
   void for_each_batch(const std::vector<std::size_t>& cells, const Use& use) {
     std::array<SheetCells::Target, SheetCells::size> places;
+    std::array<std::array<Interval, 2>, SheetCells::size> ranges;
     for (std::size_t first = 0; first < cells.size(); first += SheetCells::size) {
       const std::size_t count = std::min(SheetCells::size, cells.size() - first);
       for (std::size_t lane = 0; lane < count; ++lane) {
         const PlaneCell& cell = (*cells_)[cells[first + lane]];
-        places[lane] = {cell.x, cell.y};
+        ranges[lane] = {cell.x, cell.y};
+        places[lane] = {ranges[lane]};
       }
       side_by_side_.enter(places, count);
       use({cells.begin() + static_cast<std::ptrdiff_t>(first),

@@ -128,7 +128,7 @@ void ZeroSearch::enclose(const Group& group, Extent extent, bool with_slopes, co
     for (const std::size_t index : group) {
       Candidate& candidate = candidates_[index];
       const Box& own = *candidate.own;
-      const bool entered = extent == Extent::cell ? cell_.enter(own.cell.x, own.cell.y, own.roots)
+      const bool entered = extent == Extent::cell ? cell_.enter(std::array{own.cell.x, own.cell.y}, own.roots)
                                                   : cell_.enter_local(candidate.box, candidate.lifted);
       if (entered && with_slopes) cell_.differentiate();
       show(candidate, cell_, entered);
@@ -139,12 +139,14 @@ void ZeroSearch::enclose(const Group& group, Extent extent, bool with_slopes, co
   for (std::size_t first = 0; first < group.size(); first += size) {
     const std::size_t count = std::min(size, group.size() - first);
     std::array<SheetCells::Target, size> places;
+    std::array<std::array<Interval, 2>, size> ranges;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Candidate& candidate = candidates_[group[first + lane]];
+      ranges[lane] = {candidate.own->cell.x, candidate.own->cell.y};
       if (extent == Extent::cell)
-        places[lane] = {candidate.own->cell.x, candidate.own->cell.y, &candidate.own->roots};
+        places[lane] = {ranges[lane], &candidate.own->roots};
       else
-        places[lane] = {{}, {}, nullptr, &candidate.box, &candidate.lifted};
+        places[lane] = {{}, nullptr, &candidate.box, &candidate.lifted};
     }
     side_by_side_->enter(places, count);
     if (with_slopes) side_by_side_->differentiate();
@@ -390,7 +392,7 @@ void ZeroSearch::narrow_all(const Group& group) {
       std::array<SheetCells::Target, size> places;
       for (std::size_t lane = 0; lane < count; ++lane) {
         const Narrowing& own = active[first + lane];
-        places[lane] = {{}, {}, nullptr, &own.place(), &own.lifted()};
+        places[lane] = {{}, nullptr, &own.place(), &own.lifted()};
       }
       side_by_side_->enter(places, count);
       side_by_side_->differentiate();

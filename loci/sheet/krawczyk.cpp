@@ -33,7 +33,9 @@ struct SquareMatrix {
 ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Interval>& image) {
   const int given = static_cast<int>(system.functions.size());
   const int n = given + static_cast<int>(cell.lifted().size());
-  const auto coordinate = [&](int column) { return column < given ? system.free[column] : 2 + column - given; };
+  const auto coordinate = [&](int column) {
+    return column < given ? system.free[column] : cell.coordinates() + column - given;
+  };
   const auto slope = [&](int row, int column) -> const Interval& {
     const int c = coordinate(column);
     return row < given ? cell.slope(system.functions[row], c) : cell.bond_slope(row - given, c);

@@ -12,7 +12,7 @@ namespace clearloci::loci::sheet {
 
 enum class ZeroCount { none, unique, unknown };
 
-/// As many functions as free plane coordinates (0: x, 1: y); lifted roots are free and bound by their G_l.
+/// As many functions as free coordinates; lifted roots are free and bound by their G_l.
 struct System {
   std::vector<int> functions = {0, 1};
   std::vector<int> free = {0, 1};

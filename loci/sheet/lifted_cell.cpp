@@ -43,238 +43,80 @@ Matrix middle_slopes(const LiftedCell& cell, const std::vector<std::size_t>& row
   return a;
 }
 
+LiftedLook values_of(const sheet::SheetCell& cell) {
+  LiftedLook look{{}, cell.lifted(), {}, {}, {}};
+  for (int c = 0; c < cell.dimension(); ++c) look.box.push_back(cell.local(c));
+  for (int f = 0; f < cell.program().functions(); ++f) look.values.push_back(cell.value(f));
+  for (const int root : look.lifted) look.values.push_back(squared(cell.root(root)) - cell.square(root));
+  return look;
+}
+
+void add_slopes(const sheet::SheetCell& cell, LiftedLook& look) {
+  const int functions = cell.program().functions();
+  look.slopes.clear();
+  look.at_middle.clear();
+  for (int f = 0; f < functions; ++f) {
+    for (int c = 0; c < cell.dimension(); ++c) look.slopes.push_back(cell.slope(f, c));
+    look.at_middle.push_back(cell.middle_value(f));
+  }
+  for (int l = 0; l < cell.dimension() - cell.coordinates(); ++l) {
+    for (int c = 0; c < cell.dimension(); ++c) look.slopes.push_back(cell.bond_slope(l, c));
+    look.at_middle.push_back(cell.middle_bond(l));
+  }
+}
+
 }  // namespace
 
 LiftedCell::LiftedCell(const core::LocusProblem& problem, core::WorkingMode mode,
                        const std::vector<sheet::SheetFunction>& all)
     : program_(problem.tower, all),
-      mode_(std::move(mode)),
-      at_(program_.registers<Interval>()),
-      beside_(program_.registers<sheet::IntervalBatch>()),
-      place_(mode_.size(), -1),
-      roots_(mode_.size()) {
+      cell_(program_, mode, sheet::Lifting::at_rims),
+      beside_(program_, mode, sheet::Lifting::at_rims) {
   core::ensure(program_.coordinates() == 3, "three free coordinates");
 }
 
 std::optional<LiftedBox> LiftedCell::lift(const SpaceCell& cell) {
-  lifted_.clear();
-  LiftedBox box(cell.begin(), cell.end());
-  for (int c = 0; c < 3; ++c) at_.set(c, cell[static_cast<std::size_t>(c)]);
-  for (int j = 0; j < program_.roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
-    at_.run_square(j);
-    const Interval& square = at_.square(j);
-    if (square.upper() < 0) return std::nullopt;
-    place_[own] = -1;
-    Interval root = square_root(square);
-    if (square.lower() <= 0) {
-      place_[own] = static_cast<int>(box.size());
-      lifted_.push_back(j);
-      root = Interval(0.0, root.upper());
-    }
-    root = mode_[own] > 0 ? root : -root;
-    if (square.lower() <= 0) box.push_back(root);
-    at_.set(3 + j, root);
-  }
-  dimension_ = box.size();
-  return box;
+  if (!cell_.enter(cell)) return std::nullopt;
+  now_ = values_of(cell_);
+  return now_.box;
 }
 
 bool LiftedCell::enter(const LiftedBox& box) {
-  for (int c = 0; c < 3; ++c) at_.set(c, box[static_cast<std::size_t>(c)]);
-  for (int j = 0; j < program_.roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
-    at_.run_square(j);
-    if (place_[own] >= 0) {
-      roots_[own] = box[static_cast<std::size_t>(place_[own])];
-    } else {
-      const Interval& square = at_.square(j);
-      if (square.lower() <= 0) return false;
-      roots_[own] = mode_[own] > 0 ? square_root(square) : -square_root(square);
-    }
-    at_.set(3 + j, roots_[own]);
-  }
-  at_.run_values();
+  if (!cell_.enter_local(box, now_.lifted)) return false;
+  now_ = values_of(cell_);
   return true;
 }
 
-Interval LiftedCell::value(std::size_t row) const {
-  const auto count = static_cast<std::size_t>(functions());
-  if (row < count) return at_.value(static_cast<int>(row));
-  const int root = lifted_[row - count];
-  return squared(roots_[static_cast<std::size_t>(root)]) - at_.square(root);
-}
-
-template <class Partial, class SquarePartial>
-std::vector<Interval> LiftedCell::slopes_of(const std::vector<int>& lifted, const std::vector<int>& place,
-                                            const std::vector<Interval>& roots, const Partial& partial,
-                                            const SquarePartial& square_partial) {
-  const auto count = static_cast<std::size_t>(functions());
-  const std::size_t variables = 3 + mode_.size(), rows = count + lifted.size(), dimension = 3 + lifted.size();
-  std::vector<Interval> slopes(rows * dimension, Interval(0.0));
-  for (std::size_t row = 0; row < rows; ++row) {
-    partial_.assign(variables, Interval(0.0));
-    std::size_t used = variables;
-    if (row < count) {
-      for (std::size_t v = 0; v < variables; ++v) partial_[v] = partial(static_cast<int>(row), static_cast<int>(v));
-    } else {
-      const int root = lifted[row - count];
-      used = 4 + static_cast<std::size_t>(root);
-      for (std::size_t v = 0; v + 1 < used; ++v) partial_[v] = -square_partial(root, static_cast<int>(v));
-      partial_[used - 1] = Interval(2.0) * roots[static_cast<std::size_t>(root)];
-    }
-    Interval* const own_slopes = &slopes[row * dimension];
-    for (std::size_t v = used; v-- > 3;) {
-      const std::size_t root = v - 3;
-      const Interval own = partial_[v];
-      if (own.lower() == 0 && own.upper() == 0) continue;
-      if (place[root] >= 0) {
-        own_slopes[place[root]] = own;
-        continue;
-      }
-      const Interval factor = own * inverse(Interval(2.0) * roots[root]);
-      for (std::size_t w = 0; w < v; ++w)
-        partial_[w] = partial_[w] + factor * square_partial(static_cast<int>(root), static_cast<int>(w));
-    }
-    for (std::size_t c = 0; c < 3; ++c) own_slopes[c] = partial_[c];
-  }
-  return slopes;
-}
-
 void LiftedCell::differentiate() {
-  at_.run_gradients();
-  slopes_ = slopes_of(
-      lifted_, place_, roots_, [&](int f, int v) { return at_.partial(f, v); },
-      [&](int root, int v) { return at_.square_partial(root, v); });
-}
-
-void LiftedCell::lift(const std::vector<SpaceCell>& cells, std::vector<LiftedLook>& looks) {
-  beside_.use_lanes(cells.size());
-  for (std::size_t c = 0; c < 3; ++c) {
-    sheet::IntervalBatch own;
-    for (std::size_t l = 0; l < cells.size(); ++l) own.lanes[l] = cells[l][c];
-    beside_.set(static_cast<int>(c), own);
-  }
-  for (const SpaceCell& cell : cells) {
-    LiftedLook& look = looks.emplace_back();
-    look.box.assign(cell.begin(), cell.end());
-    look.place.assign(mode_.size(), -1);
-  }
-  for (int j = 0; j < program_.roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
-    beside_.run_square(j);
-    sheet::IntervalBatch roots;
-    for (std::size_t l = 0; l < cells.size(); ++l) {
-      LiftedLook& look = looks[l];
-      const Interval& square = beside_.square(j).lanes[l];
-      look.any = look.any && !(square.upper() < 0);
-      Interval root = square_root(Interval(square.lower(), std::max(square.upper(), 0.0)));
-      if (square.lower() <= 0) {
-        look.place[own] = static_cast<int>(look.box.size());
-        look.lifted.push_back(j);
-        root = Interval(0.0, root.upper());
-      }
-      root = mode_[own] > 0 ? root : -root;
-      if (square.lower() <= 0) look.box.push_back(root);
-      look.roots.push_back(root);
-      roots.lanes[l] = root;
-    }
-    beside_.set(3 + j, roots);
-  }
-}
-
-std::vector<Interval> LiftedCell::values(const LiftedLook& look, const std::vector<Interval>& roots,
-                                         std::size_t lane) const {
-  std::vector<Interval> result;
-  for (int f = 0; f < functions(); ++f) result.push_back(beside_.value(f).lanes[lane]);
-  for (const int root : look.lifted)
-    result.push_back(squared(roots[static_cast<std::size_t>(root)]) - beside_.square(root).lanes[lane]);
-  return result;
-}
-
-void LiftedCell::enter_middles(std::vector<LiftedLook>& looks, std::vector<bool>& real,
-                               std::vector<std::vector<Interval>>& roots) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    sheet::IntervalBatch own;
-    for (std::size_t l = 0; l < looks.size(); ++l) own.lanes[l] = Interval(looks[l].box[c].middle());
-    beside_.set(static_cast<int>(c), own);
-  }
-  for (int j = 0; j < program_.roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
-    beside_.run_square(j);
-    sheet::IntervalBatch root;
-    for (std::size_t l = 0; l < looks.size(); ++l) {
-      const LiftedLook& look = looks[l];
-      const Interval& square = beside_.square(j).lanes[l];
-      if (look.place[own] >= 0)
-        root.lanes[l] = Interval(look.box[static_cast<std::size_t>(look.place[own])].middle());
-      else if (square.lower() <= 0)
-        real[l] = false;
-      else
-        root.lanes[l] = mode_[own] > 0 ? square_root(square) : -square_root(square);
-      roots[l].push_back(root.lanes[l]);
-    }
-    beside_.set(3 + j, root);
-  }
+  cell_.differentiate();
+  add_slopes(cell_, now_);
 }
 
 std::vector<LiftedLook> LiftedCell::look_at(const std::vector<SpaceCell>& cells,
                                             const std::function<bool(const std::vector<Interval>&)>& wanted) {
-  core::ensure(cells.size() <= sheet::IntervalBatch::size, "cells that go side by side");
-  std::vector<LiftedLook> looks;
-  lift(cells, looks);
-  beside_.run_values();
-  std::vector<std::size_t> open;
-  for (std::size_t l = 0; l < looks.size(); ++l) {
-    looks[l].values = values(looks[l], looks[l].roots, l);
-    if (looks[l].any && wanted(looks[l].values)) open.push_back(l);
+  core::ensure(cells.size() <= sheet::SheetCells::size, "cells that go side by side");
+  std::array<sheet::SheetCells::Target, sheet::SheetCells::size> places;
+  for (std::size_t l = 0; l < cells.size(); ++l) places[l] = {cells[l]};
+  beside_.enter(places, cells.size());
+  std::vector<LiftedLook> looks(cells.size());
+  for (std::size_t l = 0; l < cells.size(); ++l) {
+    if (beside_.inside(l)) looks[l] = values_of(beside_[l]);
+    if (beside_.inside(l) && !wanted(looks[l].values)) beside_.leave(l);
   }
-  if (open.empty()) return looks;
-  beside_.run_gradients();
-  for (const std::size_t l : open)
-    looks[l].slopes = slopes_of(
-        looks[l].lifted, looks[l].place, looks[l].roots, [&](int f, int v) { return beside_.partial(f, v).lanes[l]; },
-        [&](int root, int v) { return beside_.square_partial(root, v).lanes[l]; });
-  std::vector<bool> real(looks.size(), true);
-  std::vector<std::vector<Interval>> roots(looks.size());
-  enter_middles(looks, real, roots);
-  beside_.run_values();
-  for (const std::size_t l : open)
-    if (real[l]) looks[l].at_middle = values(looks[l], roots[l], l);
+  beside_.differentiate();
+  for (std::size_t l = 0; l < cells.size(); ++l)
+    if (beside_.inside(l)) add_slopes(beside_[l], looks[l]);
   return looks;
 }
 
-void LiftedCell::take(const LiftedLook& look) {
-  lifted_ = look.lifted;
-  place_ = look.place;
-  roots_ = look.roots;
-  slopes_ = look.slopes;
-  dimension_ = look.box.size();
-}
-
-LiftedBox middle_of(const LiftedBox& box) {
-  LiftedBox middle;
-  for (const Interval& own : box) middle.emplace_back(own.middle());
-  return middle;
-}
-
-std::vector<Interval> values_at(LiftedCell& cell, const LiftedBox& box) {
-  if (!cell.enter(box)) return {};
-  std::vector<Interval> values;
-  for (std::size_t row = 0; row < cell.rows(); ++row) values.push_back(cell.value(row));
-  return values;
-}
-
-bool excludes_zero(LiftedCell& cell, std::size_t row, const LiftedBox& box, const std::vector<Interval>& at_middle) {
-  if (at_middle.empty()) return false;
-  Interval sum = at_middle[row];
+bool excludes_zero(const LiftedCell& cell, std::size_t row, const LiftedBox& box) {
+  Interval sum = cell.at_middle(row);
   for (std::size_t d = 0; d < box.size(); ++d) sum = sum + cell.slope(row, d) * (box[d] - Interval(box[d].middle()));
   return sum.sign() != 0;
 }
 
-bool excludes_zero_with(LiftedCell& cell, std::size_t row, const std::vector<std::size_t>& others, const LiftedBox& box,
-                        const std::vector<Interval>& at_middle) {
-  if (at_middle.empty()) return false;
+bool excludes_zero_with(const LiftedCell& cell, std::size_t row, const std::vector<std::size_t>& others,
+                        const LiftedBox& box) {
   const std::size_t n = box.size();
   const auto slopes_of = [&](std::size_t which) {
     std::vector<double> slopes(n);
@@ -310,8 +152,8 @@ bool excludes_zero_with(LiftedCell& cell, std::size_t row, const std::vector<std
     for (std::size_t d = 0; d < n; ++d) rest[d] -= times * square[i][d];
     for (std::size_t j = 0; j < multiples.size(); ++j) multiples[j] += times * made_of[i][j];
   }
-  Interval sum = at_middle[row];
-  for (std::size_t k = 0; k < others.size(); ++k) sum = sum - Interval(multiples[k]) * at_middle[others[k]];
+  Interval sum = cell.at_middle(row);
+  for (std::size_t k = 0; k < others.size(); ++k) sum = sum - Interval(multiples[k]) * cell.at_middle(others[k]);
   for (std::size_t d = 0; d < n; ++d) {
     Interval slope = cell.slope(row, d);
     for (std::size_t k = 0; k < others.size(); ++k) slope = slope - Interval(multiples[k]) * cell.slope(others[k], d);
@@ -324,10 +166,7 @@ Zeros krawczyk(LiftedCell& cell, const Square& system, const LiftedBox& box, Lif
   const std::size_t n = system.free.size();
   core::ensure(system.rows.size() == n, "a square system");
   image = box;
-  LiftedBox middle = box;
-  for (const std::size_t d : system.free) middle[d] = Interval(box[d].middle());
-  const std::vector<Interval> at_middle = values_at(cell, middle);
-  if (at_middle.empty() || !cell.enter(box)) return Zeros::unknown;
+  if (!cell.enter(box)) return Zeros::unknown;
   cell.differentiate();
   const Matrix inverse = inverted(middle_slopes(cell, system.rows, system.free), n);
   if (inverse.empty()) return Zeros::unknown;
@@ -335,9 +174,12 @@ Zeros krawczyk(LiftedCell& cell, const Square& system, const LiftedBox& box, Lif
   bool is_inside = true;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t d = system.free[i];
-    Interval sum = middle[d];
-    for (std::size_t k = 0; k < n; ++k) sum = sum - Interval(inverse[i * n + k]) * at_middle[system.rows[k]];
-    for (std::size_t j = 0; j < n; ++j) sum = sum + rest[i * n + j] * (box[system.free[j]] - middle[system.free[j]]);
+    Interval sum = box[d].middle();
+    for (std::size_t k = 0; k < n; ++k) sum = sum - Interval(inverse[i * n + k]) * cell.at_middle(system.rows[k]);
+    for (std::size_t j = 0; j < n; ++j) {
+      const Interval& range = box[system.free[j]];
+      sum = sum + rest[i * n + j] * (range - Interval(range.middle()));
+    }
     if (!std::isfinite(sum.lower()) || !std::isfinite(sum.upper())) return Zeros::unknown;
     if (disjoint(sum, box[d])) return Zeros::none;
     is_inside = is_inside && inside(sum, box[d]);

@@ -12,6 +12,7 @@
 
 #include "core/locus_factor.hpp"
 #include "loci/numbers/numbers.hpp"
+#include "loci/sheet/sheet_cell.hpp"
 
 namespace clearloci::loci::space {
 
@@ -20,68 +21,45 @@ using SpacePoint = std::array<double, 3>;
 using SpaceCell = std::array<Interval, 3>;
 using LiftedBox = std::vector<Interval>;  ///< the three coordinates, then the lifted roots
 
-/// What is known of a cell: of all rows, over the cell lifted.
+/// What is known of a cell, lifted. Rows: the functions, then G_l of every lifted root.
 struct LiftedLook {
-  bool any = true;          ///< some pose of it can be assembled
-  LiftedBox box;            ///< the cell lifted
-  std::vector<int> lifted;  ///< roots
-  std::vector<int> place;   ///< of every root: its dimension, or -1
-  std::vector<Interval> roots;
-  std::vector<Interval> values, at_middle;  ///< the latter empty where there is no pose
-  std::vector<Interval> slopes;             ///< row after row; empty where they were not asked for
+  LiftedBox box;
+  std::vector<int> lifted;                  ///< roots
+  std::vector<Interval> values;             ///< of all rows; empty: no pose of the cell can be assembled
+  std::vector<Interval> slopes, at_middle;  ///< the former row after row; empty where they were not asked for
 };
 
 class LiftedCell {
  public:
   LiftedCell(const core::LocusProblem& problem, core::WorkingMode mode, const std::vector<sheet::SheetFunction>& all);
 
-  /// Side by side, each as lift, enter, differentiate and values_at its middle tell it. `wanted`: by the values,
-  /// whether more has to be known of a cell.
+  /// Side by side, each as lift, enter and differentiate tell it. `wanted`: by the values, whether more has to be known
+  /// of a cell.
   std::vector<LiftedLook> look_at(const std::vector<SpaceCell>& cells,
                                   const std::function<bool(const std::vector<Interval>&)>& wanted);
-  /// As if the cell had been lifted, entered and differentiated, but for its values. Required: its slopes are known.
-  void take(const LiftedLook& look);
+  /// As if the cell had been lifted, entered and differentiated.
+  void take(const LiftedLook& look) { now_ = look; }
 
   /// Chooses the lifted roots of a cell and encloses them; nothing where no pose of it can be assembled.
   std::optional<LiftedBox> lift(const SpaceCell& cell);
-  std::size_t dimension() const { return 3 + lifted_.size(); }
   int functions() const { return program_.functions(); }
   int instructions() const { return program_.instructions(); }
-  /// Rows: the functions, then G_l of every lifted root.
-  std::size_t rows() const { return static_cast<std::size_t>(functions()) + lifted_.size(); }
+  std::size_t rows() const { return static_cast<std::size_t>(functions()) + now_.lifted.size(); }
 
   /// Values over a part of the cell lifted last, or over a box a little larger. False: a root is not real, or may
   /// vanish though it is not lifted.
   bool enter(const LiftedBox& box);
-  Interval value(std::size_t row) const;
-  /// Slopes over the box entered, by the dimensions of the lifted box.
+  const Interval& value(std::size_t row) const { return now_.values[row]; }
+  /// Slopes over the box entered, by the dimensions of the lifted box, and values at its middle.
   void differentiate();
-  const Interval& slope(std::size_t row, std::size_t dimension) const { return slopes_[row * dimension_ + dimension]; }
+  const Interval& slope(std::size_t row, std::size_t d) const { return now_.slopes[row * now_.box.size() + d]; }
+  const Interval& at_middle(std::size_t row) const { return now_.at_middle[row]; }
 
  private:
-  using Batches = sheet::SheetProgram::Registers<sheet::IntervalBatch>;
-
-  /// Sets coordinates and roots of at most IntervalBatch::size cells.
-  void lift(const std::vector<SpaceCell>& cells, std::vector<LiftedLook>& looks);
-  void enter_middles(std::vector<LiftedLook>& looks, std::vector<bool>& real,
-                     std::vector<std::vector<Interval>>& roots);
-  /// Of the lane's rows.
-  std::vector<Interval> values(const LiftedLook& look, const std::vector<Interval>& roots, std::size_t lane) const;
-  /// Of all rows by the dimensions, row after row, from those of the functions and of the squares by all variables.
-  template <class Partial, class SquarePartial>
-  std::vector<Interval> slopes_of(const std::vector<int>& lifted, const std::vector<int>& place,
-                                  const std::vector<Interval>& roots, const Partial& partial,
-                                  const SquarePartial& square_partial);
-
   sheet::SheetProgram program_;
-  core::WorkingMode mode_;
-  sheet::SheetProgram::Registers<Interval> at_;
-  Batches beside_;
-  std::vector<int> lifted_;      ///< roots
-  std::vector<int> place_;       ///< of every root: its dimension, or -1
-  std::vector<Interval> roots_;  ///< as entered
-  std::vector<Interval> slopes_, partial_;
-  std::size_t dimension_ = 3;
+  sheet::SheetCell cell_;
+  sheet::SheetCells beside_;
+  LiftedLook now_;
 };
 
 /// Which rows and dimensions make a square system.
@@ -102,22 +80,17 @@ LiftedBox narrowed(LiftedCell& cell, const Square& system, LiftedBox box);
 /// or there is no pose.
 std::optional<std::vector<double>> newton(LiftedCell& cell, const Square& system, const LiftedBox& at);
 
-/// Mean-value form of a row over the box, which has been entered and differentiated, from its values `at_middle`.
-bool excludes_zero(LiftedCell& cell, std::size_t row, const LiftedBox& box, const std::vector<Interval>& at_middle);
+/// Mean-value form of a row over the box, which has been entered and differentiated.
+bool excludes_zero(const LiftedCell& cell, std::size_t row, const LiftedBox& box);
 
 /// The same where the other rows vanish: with multiples of them subtracted, so that most of the row's slope is gone.
-bool excludes_zero_with(LiftedCell& cell, std::size_t row, const std::vector<std::size_t>& others, const LiftedBox& box,
-                        const std::vector<Interval>& at_middle);
+bool excludes_zero_with(const LiftedCell& cell, std::size_t row, const std::vector<std::size_t>& others,
+                        const LiftedBox& box);
 
 /// Of a box entered and differentiated, for rows one fewer than its dimensions: a dimension of which the others are
 /// functions on the rows' common zeros in the box. The matrix of the other slopes is regular at all its points, and so
 /// is every mean of slopes between two of them.
 std::optional<std::size_t> parameter_of(const LiftedCell& cell, const std::vector<std::size_t>& rows,
                                         const LiftedBox& box);
-
-/// The values of all rows at a point; empty where there is no pose.
-std::vector<Interval> values_at(LiftedCell& cell, const LiftedBox& box);
-
-LiftedBox middle_of(const LiftedBox& box);
 
 }  // namespace clearloci::loci::space

@@ -8,6 +8,7 @@
 #include "loci/sheet/apex.hpp"
 #include "loci/sheet/block_sheet.hpp"
 #include "loci/sheet/boundary_curves.hpp"
+#include "loci/sheet/chain_rule.hpp"
 #include "loci/sheet/fine_zero.hpp"
 #include "loci/sheet/krawczyk.hpp"
 #include "loci/sheet/lifted_cell.hpp"

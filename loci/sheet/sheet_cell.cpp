@@ -5,19 +5,17 @@
 #include <bit>
 
 #include "core/errors.hpp"
+#include "loci/sheet/chain_rule.hpp"
 
 namespace clearloci::loci::sheet {
 
 namespace {
 
-// A root is lifted where its square varies by more than this ratio over the cell: the chain rule's 1/(2 s) then spans
-// a factor 2 or more and loses more than the extra coordinate costs.
-constexpr double lift_ratio = 0.25;
+// A root near a rim is lifted where its square varies by more than this ratio over the cell: the chain rule's 1/(2 s)
+// then spans a factor 2 or more and loses more than the extra coordinate costs.
+constexpr double ratio_near_rims = 0.25;
 // A range of a root is kept as a coordinate where it is this much narrower than what the cell allows.
 constexpr double worth_keeping = 0.75;
-
-/// What does not depend on a variable has a derivative of exactly zero; a product with it would not be.
-bool is_zero(const Interval& a) { return a.lower() == 0 && a.upper() == 0; }
 
 template <class T>
 T signed_root(int sign, const T& square) {
@@ -60,9 +58,11 @@ Interval determinant(const std::vector<std::vector<Interval>>& matrix) {
   return determinant_of(rows.data(), rows.size(), rows.size());
 }
 
-SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)
+SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode, Lifting lifting)
     : program_(&program),
       mode_(std::move(mode)),
+      coordinates_(program.coordinates()),
+      lift_ratio_(lifting == Lifting::near_rims ? ratio_near_rims : 0),
       over_(program.registers<Interval>()),
       at_middle_(program.registers<Interval>()),
       is_lifted_(program.roots()),
@@ -73,11 +73,10 @@ SheetCell::SheetCell(const SheetProgram& program, core::WorkingMode mode)
   core::ensure(static_cast<int>(mode_.size()) == program.roots(), "a working mode has a sign for every root");
 }
 
-void SheetCell::begin(const Interval& x, const Interval& y) {
-  over_.set(0, x);
-  over_.set(1, y);
+void SheetCell::begin(std::span<const Interval> place) {
   lifted_.clear();
-  local_.assign({x, y});
+  local_.assign(place.begin(), place.end());
+  for (int c = 0; c < coordinates_; ++c) over_.set(c, local_[c]);
 }
 
 bool SheetCell::enter_root(int j, const std::vector<Interval>& ranges) {
@@ -92,8 +91,8 @@ bool SheetCell::enter_root(int j, const std::vector<Interval>& ranges) {
     cut = ranges[j].width() < worth_keeping * root.width();
     root = meet(root, ranges[j]);
   }
-  over_.set(2 + j, root);
-  is_lifted_[j] = cut || square.lower() <= lift_ratio * square.upper();
+  over_.set(coordinates_ + j, root);
+  is_lifted_[j] = cut || square.lower() <= 0 || square.lower() <= lift_ratio_ * square.upper();
   if (is_lifted_[j]) {
     lifted_.push_back(j);
     local_.push_back(over_.root(j));
@@ -101,8 +100,8 @@ bool SheetCell::enter_root(int j, const std::vector<Interval>& ranges) {
   return true;
 }
 
-bool SheetCell::enter(const Interval& x, const Interval& y, const std::vector<Interval>& ranges) {
-  begin(x, y);
+bool SheetCell::enter(std::span<const Interval> place, const std::vector<Interval>& ranges) {
+  begin(place);
   for (int j = 0; j < program_->roots(); ++j) {
     over_.run_square(j);
     if (!enter_root(j, ranges)) return false;
@@ -112,20 +111,19 @@ bool SheetCell::enter(const Interval& x, const Interval& y, const std::vector<In
 }
 
 void SheetCell::begin_local(const std::vector<Interval>& local, const std::vector<int>& lifted) {
-  over_.set(0, local[0]);
-  over_.set(1, local[1]);
   lifted_ = lifted;
   local_ = local;
+  for (int c = 0; c < coordinates_; ++c) over_.set(c, local_[c]);
 }
 
 bool SheetCell::enter_local_root(int j, std::size_t& l) {
   is_lifted_[j] = l < lifted_.size() && lifted_[l] == j;
   if (is_lifted_[j]) {
-    over_.set(2 + j, local_[2 + l++]);
+    over_.set(coordinates_ + j, local_[coordinates_ + static_cast<int>(l++)]);
     return true;
   }
   if (over_.square(j).lower() <= 0) return false;
-  over_.set(2 + j, signed_root(mode_[j], over_.square(j)));
+  over_.set(coordinates_ + j, signed_root(mode_[j], over_.square(j)));
   return true;
 }
 
@@ -141,14 +139,9 @@ bool SheetCell::enter_local(const std::vector<Interval>& local, const std::vecto
 }
 
 void SheetCell::reduce(std::vector<Interval>& gradient) const {
-  for (int j = program_->roots() - 1; j >= 0; --j) {
-    if (is_lifted_[j]) continue;
-    if (is_zero(gradient[2 + j])) continue;
-    const Interval factor = gradient[2 + j] * half_inverse_[j];
-    for (int v = 0; v < 2 + j; ++v)
-      if (const Interval& partial = over_.square_partial(j, v); !is_zero(partial))
-        gradient[v] = gradient[v] + factor * partial;
-  }
+  eliminate_roots(
+      gradient, coordinates_, [&](int j) { return is_lifted_[j] ? nullptr : &half_inverse_[j]; },
+      [&](int j, int v) -> const Interval& { return over_.square_partial(j, v); });
 }
 
 void SheetCell::project_slopes() {
@@ -157,9 +150,9 @@ void SheetCell::project_slopes() {
 
   const auto project = [&](std::vector<Interval>& slopes) {
     reduce(gradient_);
-    slopes.reserve(2 + lifted_.size());
-    slopes.assign({gradient_[0], gradient_[1]});
-    for (const int j : lifted_) slopes.push_back(gradient_[2 + j]);
+    slopes.resize(static_cast<std::size_t>(dimension()));
+    auto slope = std::copy_n(gradient_.begin(), coordinates_, slopes.begin());
+    for (const int j : lifted_) *slope++ = gradient_[coordinates_ + j];
   };
   for (int f = 0; f < program_->functions(); ++f) {
     for (int v = 0; v < program_->variables(); ++v) gradient_[v] = over_.partial(f, v);
@@ -169,7 +162,7 @@ void SheetCell::project_slopes() {
   for (std::size_t l = 0; l < lifted_.size(); ++l) {
     const int j = lifted_[l];
     for (int v = 0; v < program_->variables(); ++v) gradient_[v] = -over_.square_partial(j, v);
-    gradient_[2 + j] = gradient_[2 + j] + Interval(2.0) * over_.root(j);
+    gradient_[coordinates_ + j] = gradient_[coordinates_ + j] + Interval(2.0) * over_.root(j);
     project(bond_slopes_[l]);
   }
 }
@@ -182,25 +175,24 @@ bool SheetCell::is_point() const {
 void SheetCell::take_point() {
   for (int f = 0; f < program_->functions(); ++f) middle_values_[f] = over_.value(f);
   for (std::size_t l = 0; l < lifted_.size(); ++l)
-    middle_bonds_[l] = squared(Interval(middle_[2 + l])) - over_.square(lifted_[l]);
+    middle_bonds_[l] = squared(Interval(middle_[coordinates_ + static_cast<int>(l)])) - over_.square(lifted_[l]);
 }
 
 void SheetCell::begin_middle() {
   middle_.clear();
   for (const Interval& range : local_) middle_.push_back(range.middle());
-  at_middle_.set(0, middle_[0]);
-  at_middle_.set(1, middle_[1]);
+  for (int c = 0; c < coordinates_; ++c) at_middle_.set(c, middle_[c]);
   middle_bonds_.resize(lifted_.size());
 }
 
 void SheetCell::place_root_at_middle(int j, std::size_t& l) {
   if (is_lifted_[j]) {
-    at_middle_.set(2 + j, middle_[2 + l]);
-    middle_bonds_[l] = squared(Interval(middle_[2 + l])) - at_middle_.square(j);
+    at_middle_.set(coordinates_ + j, middle_[coordinates_ + static_cast<int>(l)]);
+    middle_bonds_[l] = squared(Interval(middle_[coordinates_ + static_cast<int>(l)])) - at_middle_.square(j);
     ++l;
   } else {
     // The cell proves Q_j > 0; rounding at the middle cannot matter beyond that.
-    at_middle_.set(2 + j, meet(signed_root(mode_[j], at_middle_.square(j)), over_.root(j)));
+    at_middle_.set(coordinates_ + j, meet(signed_root(mode_[j], at_middle_.square(j)), over_.root(j)));
   }
 }
 
@@ -248,21 +240,20 @@ bool is_fine_enough(const DoubleDouble& value, double spread) {
 template <class Number>
 bool SheetCell::sharpen_by(std::optional<SheetProgram::Registers<Number>>& registers) {
   if (!registers) registers = program_->registers<Number>();
-  registers->set(0, Number(middle_[0]));
-  registers->set(1, Number(middle_[1]));
+  for (int c = 0; c < coordinates_; ++c) registers->set(c, Number(middle_[c]));
   std::size_t next = 0;
   bool fine = true;
   for (int j = 0; j < program_->roots(); ++j) {
     registers->run_square(j);
     if (is_lifted_[j]) {
-      const Number s(middle_[2 + next]);
+      const Number s(middle_[coordinates_ + static_cast<int>(next)]);
       const Number bond = squared(s) - registers->square(j);
       fine = fine && is_fine_enough(bond, spread(bond_slopes_[next], resolution));
       middle_bonds_[next] = as_interval(bond);
-      registers->set(2 + j, s);
+      registers->set(coordinates_ + j, s);
       ++next;
     } else {
-      registers->set(2 + j, signed_root(mode_[j], registers->square(j)));
+      registers->set(coordinates_ + j, signed_root(mode_[j], registers->square(j)));
     }
   }
   registers->run_values();
@@ -289,7 +280,7 @@ Interval SheetCell::centred(int function) const {
 
 bool SheetCell::is_beyond_a_rim() const {
   for (std::size_t l = 0; l < lifted_.size(); ++l) {
-    const std::size_t own = 2 + l;
+    const std::size_t own = static_cast<std::size_t>(coordinates_) + l;
     Interval square = squared(Interval(middle_[own])) - middle_bonds_[l];
     for (std::size_t c = 0; c < local_.size(); ++c)
       if (c != own && !is_zero(bond_slopes_[l][c]))
@@ -314,17 +305,28 @@ Interval SheetCell::tangent(int function, int c) const {
   return c % 2 == 0 ? value : -value;
 }
 
-SheetCells::SheetCells(const SheetProgram& program, const core::WorkingMode& mode)
+SheetCells::SheetCells(const SheetProgram& program, const core::WorkingMode& mode, Lifting lifting)
     : program_(&program),
+      coordinates_(program.coordinates()),
       over_(program.registers<IntervalBatch>()),
       at_middle_(program.registers<IntervalBatch>()),
-      cells_(size, SheetCell(program, mode)) {}
+      cells_(size, SheetCell(program, mode, lifting)) {}
+
+/// Sets the coordinates of those inside, `of(cell, c)` each.
+template <class Of>
+void SheetCells::set_coordinates(SheetProgram::Registers<IntervalBatch>& registers, const Of& of) {
+  for (int c = 0; c < coordinates_; ++c) {
+    IntervalBatch own;
+    for (std::size_t lane = 0; lane < size; ++lane)
+      if (inside_[lane]) own.lanes[lane] = of(cells_[lane], c);
+    registers.set(c, own);
+  }
+}
 
 void SheetCells::enter(const std::array<Target, size>& places, std::size_t count) {
   static const std::vector<Interval> all;
   over_.use_lanes(count);
   at_middle_.use_lanes(count);
-  IntervalBatch x, y;
   std::array<std::size_t, size> lifted{};
   for (std::size_t lane = 0; lane < size; ++lane) {
     inside_[lane] = lane < count;
@@ -333,12 +335,9 @@ void SheetCells::enter(const std::array<Target, size>& places, std::size_t count
     if (place.local != nullptr)
       cells_[lane].begin_local(*place.local, *place.lifted);
     else
-      cells_[lane].begin(place.x, place.y);
-    x.lanes[lane] = cells_[lane].local(0);
-    y.lanes[lane] = cells_[lane].local(1);
+      cells_[lane].begin(place.place);
   }
-  over_.set(0, x);
-  over_.set(1, y);
+  set_coordinates(over_, [](const SheetCell& cell, int c) { return cell.local(c); });
   for (int j = 0; j < program_->roots(); ++j) {
     over_.run_square(j);
     IntervalBatch roots;
@@ -351,7 +350,7 @@ void SheetCells::enter(const std::array<Target, size>& places, std::size_t count
                                              : cell.enter_root(j, place.ranges != nullptr ? *place.ranges : all);
       if (inside_[lane]) roots.lanes[lane] = cell.root(j);
     }
-    over_.set(2 + j, roots);
+    over_.set(coordinates_ + j, roots);
   }
   over_.run_values();
   for (std::size_t lane = 0; lane < count; ++lane)
@@ -360,7 +359,6 @@ void SheetCells::enter(const std::array<Target, size>& places, std::size_t count
 
 void SheetCells::differentiate() {
   over_.run_gradients();
-  IntervalBatch x, y;
   std::array<std::size_t, size> lifted{};
   bool are_points = true;
   for (std::size_t lane = 0; lane < size; ++lane) {
@@ -369,8 +367,6 @@ void SheetCells::differentiate() {
     cell.over_.take_gradients(over_, lane);
     cell.project_slopes();
     cell.begin_middle();
-    x.lanes[lane] = cell.middle(0);
-    y.lanes[lane] = cell.middle(1);
     are_points = are_points && cell.is_point();
   }
   if (are_points) {
@@ -378,8 +374,7 @@ void SheetCells::differentiate() {
       if (inside_[lane]) cells_[lane].take_point();
     return;
   }
-  at_middle_.set(0, x);
-  at_middle_.set(1, y);
+  set_coordinates(at_middle_, [](const SheetCell& cell, int c) { return Interval(cell.middle(c)); });
   for (int j = 0; j < program_->roots(); ++j) {
     at_middle_.run_square(j);
     IntervalBatch roots;
@@ -390,7 +385,7 @@ void SheetCells::differentiate() {
       cell.place_root_at_middle(j, lifted[lane]);
       roots.lanes[lane] = cell.at_middle_.root(j);
     }
-    at_middle_.set(2 + j, roots);
+    at_middle_.set(coordinates_ + j, roots);
   }
   at_middle_.run_values();
   for (std::size_t lane = 0; lane < size; ++lane) {

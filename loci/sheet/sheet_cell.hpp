@@ -1,38 +1,43 @@
-// Enclosures of a SheetProgram over a cell X x Y of one working mode's sheet.
+// Enclosures of a SheetProgram over a cell of one working mode's sheet, over any number of coordinates x.
 //
-// Roots far from 0 on the cell are functions of (x, y): ds_j/dv = (dQ_j/dv + sum_{i<j} dQ_j/ds_i ds_i/dv) / (2 s_j).
-// Next to Q_j = 0 that slope is unbounded, so there s_j becomes a coordinate of its own, bound by the equation
-// G_j = s_j^2 - Q_j = 0: the cell is *lifted* to X x Y x S_j, where the sheet is smooth. The coordinates that remain,
-// (x, y, lifted s_j ...), are the cell's local coordinates; slopes are derivatives with respect to them.
+// Roots far from 0 on the cell are functions of x (chain_rule.hpp). Next to Q_j = 0 their slope is unbounded, so there
+// s_j becomes a coordinate of its own, bound by the equation G_j = s_j^2 - Q_j = 0: the cell is *lifted* to X x S_j,
+// where the sheet is smooth. The coordinates that remain, (x, lifted s_j ...), are the cell's local coordinates; slopes
+// are derivatives with respect to them.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::sheet {
 
+/// Which roots become coordinates: those that vary much over the cell, or only those that may vanish in it.
+enum class Lifting { near_rims, at_rims };
+
 class SheetCell {
  public:
-  SheetCell(const SheetProgram& program, core::WorkingMode mode);
+  SheetCell(const SheetProgram& program, core::WorkingMode mode, Lifting lifting = Lifting::near_rims);
 
   /// Moves to the cell and encloses roots and values, choosing which roots to lift. False: proven to lie outside the
   /// workspace (some Q_j < 0 all over it).
-  bool enter(const Interval& x, const Interval& y) { return enter(x, y, {}); }
-  /// The same with the roots in given ranges; none where `ranges` is empty.
-  bool enter(const Interval& x, const Interval& y, const std::vector<Interval>& ranges);
+  /// `ranges`: of the roots, where it is not empty.
+  bool enter(std::span<const Interval> place, const std::vector<Interval>& ranges = {});
+  bool enter(const Interval& x, const Interval& y) { return enter(std::array{x, y}); }
 
-  /// Moves to a box in given local coordinates. `lifted`: roots in ascending order; `local`: (x, y, lifted s_j ...),
-  /// of either sign. False: another root is not proven to be away from 0, the box is too wide to work on.
+  /// Moves to a box in given local coordinates. `lifted`: roots in ascending order; `local`: (x, lifted s_j ...), of
+  /// either sign. False: another root is not proven to be away from 0, the box is too wide to work on.
   bool enter_local(const std::vector<Interval>& local, const std::vector<int>& lifted);
 
   const SheetProgram& program() const { return *program_; }
   const core::WorkingMode& mode() const { return mode_; }
   const std::vector<int>& lifted() const { return lifted_; }
-  int dimension() const { return 2 + static_cast<int>(lifted_.size()); }
+  int coordinates() const { return coordinates_; }
+  int dimension() const { return coordinates_ + static_cast<int>(lifted_.size()); }
   const Interval& local(int c) const { return local_[c]; }
   const Interval& root(int j) const { return over_.root(j); }
   const Interval& square(int j) const { return over_.square(j); }
@@ -68,7 +73,7 @@ class SheetCell {
  private:
   friend class SheetCells;
 
-  void begin(const Interval& x, const Interval& y);
+  void begin(std::span<const Interval> place);
   /// Once its square is enclosed. False: proven to lie outside the workspace.
   bool enter_root(int j, const std::vector<Interval>& ranges);
   void begin_local(const std::vector<Interval>& local, const std::vector<int>& lifted);
@@ -94,6 +99,8 @@ class SheetCell {
 
   const SheetProgram* program_;
   core::WorkingMode mode_;
+  int coordinates_;
+  double lift_ratio_;
   SheetProgram::Registers<Interval> over_, at_middle_;
   std::optional<SheetProgram::Registers<DoubleDouble>> fine_;
   std::optional<SheetProgram::Registers<MultiInterval>> precise_;
@@ -112,12 +119,12 @@ class SheetCells {
  public:
   static constexpr std::size_t size = IntervalBatch::size;
 
-  SheetCells(const SheetProgram& program, const core::WorkingMode& mode);
+  SheetCells(const SheetProgram& program, const core::WorkingMode& mode, Lifting lifting = Lifting::near_rims);
 
-  /// What a cell moves to: its ranges of x and y and of roots, null where they are all that the cell allows; or else a
-  /// box in local coordinates.
+  /// What a cell moves to: its ranges of the coordinates and of roots, null where they are all that the cell allows; or
+  /// else a box in local coordinates.
   struct Target {
-    Interval x, y;
+    std::span<const Interval> place;
     const std::vector<Interval>* ranges = nullptr;
     const std::vector<Interval>* local = nullptr;
     const std::vector<int>* lifted = nullptr;
@@ -126,13 +133,19 @@ class SheetCells {
   /// enter_local(), where `inside` says so.
   void enter(const std::array<Target, size>& places, std::size_t count);
   bool inside(std::size_t lane) const { return inside_[lane]; }
+  /// Nothing more is asked of it.
+  void leave(std::size_t lane) { inside_[lane] = false; }
   /// Of those inside.
   void differentiate();
   /// What is asked of it is what its own enter() or differentiate() would have left.
   SheetCell& operator[](std::size_t lane) { return cells_[lane]; }
 
  private:
+  template <class Of>
+  void set_coordinates(SheetProgram::Registers<IntervalBatch>& registers, const Of& of);
+
   const SheetProgram* program_;
+  int coordinates_;
   SheetProgram::Registers<IntervalBatch> over_, at_middle_;
   std::vector<SheetCell> cells_;
   std::array<bool, size> inside_{};

@@ -197,15 +197,14 @@ double SheetNewton::distance(std::span<const double> place) {
   measure_roots();
   need_roots({});
   const int n = program_.coordinates();
-  // The gradient over the coordinates, with the roots as functions of them: adjoint values, from the last root down.
   std::vector<double> slopes(point_.size());
   for (std::size_t v = 0; v < slopes.size(); ++v) slopes[v] = registers_.partial(0, static_cast<int>(v));
-  for (int j = program_.roots(); j-- > 0;) {
-    const auto own = static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
-    if (slopes[own] == 0) continue;
-    const double share = slopes[own] / (2 * point_[own]);
-    for (int v = 0; v < n + j; ++v) slopes[static_cast<std::size_t>(v)] += share * registers_.square_partial(j, v);
-  }
+  double half = 0;
+  const auto half_inverse = [&](int j) {
+    half = 1 / (2 * point_[static_cast<std::size_t>(n + j)]);
+    return &half;
+  };
+  eliminate_roots(slopes, n, half_inverse, [&](int j, int v) { return registers_.square_partial(j, v); });
   double sum = 0;
   for (int v = 0; v < n; ++v)
     sum += std::pow(slopes[static_cast<std::size_t>(v)] * sizes_[static_cast<std::size_t>(v)], 2);

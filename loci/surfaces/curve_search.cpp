@@ -147,7 +147,7 @@ class Search {
     own.empty = true;
     bool any = false;
     for (std::size_t row = 0; row < lifted_.rows(); ++row) {
-      const bool excluded = look.values[row].sign() != 0 || excludes_zero(lifted_, row, look.box, look.at_middle);
+      const bool excluded = look.values[row].sign() != 0 || excludes_zero(lifted_, row, look.box);
       if (is_determinant(row))
         any = any || !excluded;
       else if (excluded)
@@ -157,7 +157,7 @@ class Search {
     for (const std::size_t row : all) {
       std::vector<std::size_t> others = all;
       std::erase(others, row);
-      if (excludes_zero_with(lifted_, row, others, look.box, look.at_middle)) return;
+      if (excludes_zero_with(lifted_, row, others, look.box)) return;
     }
     own.empty = false;
     own.singular = any && !excludes_singularity(look, all);
@@ -166,8 +166,7 @@ class Search {
   /// No factor of |A| vanishes where the equations do.
   bool excludes_singularity(const LiftedLook& look, const std::vector<std::size_t>& all) {
     for (std::size_t row = first_determinant_; row < static_cast<std::size_t>(lifted_.functions()); ++row)
-      if (look.values[row].sign() == 0 && !excludes_zero_with(lifted_, row, all, look.box, look.at_middle))
-        return false;
+      if (look.values[row].sign() == 0 && !excludes_zero_with(lifted_, row, all, look.box)) return false;
     return true;
   }
 
@@ -264,12 +263,9 @@ class Search {
     if (!lifted_.enter(box)) return false;
     for (const std::size_t row : system.rows)
       if (lifted_.value(row).sign() != 0) return true;
-    const std::vector<Interval> at_middle = values_at(lifted_, middle_of(box));
-    if (at_middle.empty()) return false;
-    lifted_.enter(box);
     lifted_.differentiate();
     return std::any_of(system.rows.begin(), system.rows.end(),
-                       [&](std::size_t row) { return excludes_zero(lifted_, row, box, at_middle); });
+                       [&](std::size_t row) { return excludes_zero(lifted_, row, box); });
   }
 
   /// On a side of the box itself, to rounding, counts as inside.

@@ -39,7 +39,7 @@ double variable_at(const LocusProblem& problem, std::size_t i, double coordinate
 /// Of a square; beyond the boundary as the root goes on there.
 double root_of(double square) { return std::copysign(std::sqrt(std::abs(square)), square); }
 
-bool is_zero(const Interval& x) { return x.lower() == 0 && x.upper() == 0; }
+using sheet::is_zero;
 
 }  // namespace
 
@@ -275,14 +275,14 @@ bool Field::inside(const Point& unit) {
 
 /// Chain rule through the roots, the last first; `gradient_` holds the derivatives by the program's variables.
 Point Field::reduced(Chart& chart, int held) {
-  for (int j = roots() - 1; j >= 0; --j) {
-    const double own = gradient_[static_cast<std::size_t>(j) + 3];
+  double half = 0;
+  const auto half_inverse = [&](int j) -> const double* {
     const double root = chart.at.root(j);
-    if (own == 0 || root == 0 || j == held) continue;
     // Of s = ±√Q and, beyond the boundary, of s = ∓√-Q alike.
-    const double factor = own * mode_[static_cast<std::size_t>(j)] / (2 * std::abs(root));
-    for (int v = 0; v < 3 + j; ++v) gradient_[static_cast<std::size_t>(v)] += factor * chart.at.square_partial(j, v);
-  }
+    half = mode_[static_cast<std::size_t>(j)] / (2 * std::abs(root));
+    return root == 0 || j == held ? nullptr : &half;
+  };
+  sheet::eliminate_roots(gradient_, 3, half_inverse, [&](int j, int v) { return chart.at.square_partial(j, v); });
   return {gradient_[0] * scale_[0], gradient_[1] * scale_[1], gradient_[2] * scale_[2]};
 }
 
@@ -366,6 +366,18 @@ void Field::enter(Chart& chart, Lanes& lanes) {
   }
 }
 
+/// Leaves roots that may be 0 in the cell as variables.
+void Field::reduce(const Chart& chart, const Lane& own, std::size_t lane, std::vector<Interval>& slopes) {
+  Interval half;
+  const auto half_inverse = [&](int j) -> const Interval* {
+    if (own.rising[static_cast<std::size_t>(j)]) return nullptr;
+    half = inverse(Interval(2.0) * chart.over.root(j).lanes[lane]);
+    return &half;
+  };
+  sheet::eliminate_roots(slopes, 3, half_inverse,
+                         [&](int j, int v) { return chart.over.square_partial(j, v).lanes[lane]; });
+}
+
 /// Slopes over the cell, of the three coordinates and of the roots that may be 0 in it: these count as coordinates of
 /// their own, for as functions of the others they rise without bound. Mean-value form over all of them:
 ///     f(X, S) within f(m, s_m) + sum f_x (X - m) + sum f_s (S - s_m)
@@ -375,16 +387,7 @@ void Field::differentiate(Chart& chart, Lanes& lanes) {
     std::vector<Interval>& slopes = lanes[l].slopes;
     slopes.resize(static_cast<std::size_t>(chart.program.variables()));
     for (std::size_t v = 0; v < slopes.size(); ++v) slopes[v] = chart.over.partial(0, static_cast<int>(v)).lanes[l];
-    for (int j = roots() - 1; j >= 0; --j) {
-      const auto own = static_cast<std::size_t>(j);
-      const Interval slope = slopes[3 + own];
-      if (is_zero(slope) || lanes[l].rising[own]) continue;
-      const Interval factor = slope * inverse(Interval(2.0) * chart.over.root(j).lanes[l]);
-      for (int v = 0; v < 3 + j; ++v) {
-        Interval& changed = slopes[static_cast<std::size_t>(v)];
-        changed = changed + factor * chart.over.square_partial(j, v).lanes[l];
-      }
-    }
+    reduce(chart, lanes[l], l, slopes);
   }
 }
 
@@ -715,15 +718,10 @@ void Field::narrow_clips(Chart& chart, const Lanes& lanes, std::vector<Over>& ov
 std::optional<Vector> Field::square_slopes(const Chart& chart, const Lanes& lanes, std::size_t lane, int root) const {
   std::vector<Interval> slopes;
   for (int v = 0; v < 3 + root; ++v) slopes.push_back(chart.over.square_partial(root, v).lanes[lane]);
-  for (int j = root - 1; j >= 0; --j) {
-    const Interval own = slopes[static_cast<std::size_t>(j) + 3];
-    if (is_zero(own)) continue;
-    if (lanes[lane].rising[static_cast<std::size_t>(j)]) return std::nullopt;
-    const Interval factor = own * inverse(Interval(2.0) * chart.over.root(j).lanes[lane]);
-    for (int v = 0; v < 3 + j; ++v)
-      slopes[static_cast<std::size_t>(v)] =
-          slopes[static_cast<std::size_t>(v)] + factor * chart.over.square_partial(j, v).lanes[lane];
-  }
+  reduce(chart, lanes[lane], lane, slopes);
+  for (int j = 0; j < root; ++j)
+    if (lanes[lane].rising[static_cast<std::size_t>(j)] && !is_zero(slopes[static_cast<std::size_t>(j) + 3]))
+      return std::nullopt;
   return Vector{slopes[0], slopes[1], slopes[2]};
 }
 

@@ -184,6 +184,7 @@ class Field {
   /// Sets coordinates and roots.
   void enter(Chart& chart, Lanes& lanes);
   void differentiate(Chart& chart, Lanes& lanes);
+  static void reduce(const Chart& chart, const Lane& own, std::size_t lane, std::vector<core::Interval>& slopes);
   void take_mean_values(Chart& chart, Lanes& lanes);
   /// `signs`: what is proven of the function where a lane is free of zeros.
   std::vector<Proof> examine(Chart& chart, Lanes& lanes, std::vector<int>& signs);

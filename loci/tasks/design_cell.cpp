@@ -1,9 +1,9 @@
-#include "loci/tasks/design_cell.hpp"
-
+// What a cell of poses and designs tells beyond a cell of poses (task_cell.hpp): balls of loads, where it is in doubt,
+// what fails in it for certain.
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.hpp"
+#include "loci/tasks/task_cell.hpp"
 #include "loci/tasks/task_functions.hpp"
 
 namespace clearloci::loci {
@@ -12,28 +12,14 @@ using core::Interval;
 using core::TaskCondition;
 using core::TaskConditions;
 
-DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode& mode,
-                       std::vector<core::LoadBall> balls, double most_displaced)
-    : conditions_(conditions),
-      balls_(std::move(balls)),
-      program_(program_of(conditions)),
-      mode_(mode),
-      over_(program_.registers<Interval>()),
-      at_middle_(program_.registers<Interval>()),
-      half_inverse_(static_cast<std::size_t>(program_.roots())),
-      gradient_(static_cast<std::size_t>(program_.variables())),
-      slopes_(static_cast<std::size_t>(program_.functions())),
-      has_slopes_(static_cast<std::size_t>(program_.functions())),
-      most_displaced_(most_displaced) {
-  core::ensure(static_cast<int>(mode_.size()) == program_.roots(), "a working mode has a sign for every root");
+void TaskCell::watch_signs() {
   const auto watch = [&](int function, int condition) { watched_.push_back({function, condition, groups_}); };
-  for (const int f : conditions.determinant) {
+  for (const int f : conditions_.determinant) {
     watch(f, -1);
     ++groups_;
   }
-  for (std::size_t i = 0; i < conditions.conditions.size(); ++i) {
-    const TaskCondition& condition = conditions.conditions[i];
-    least_.push_back(sheet::constant_as(condition.least, static_cast<Interval*>(nullptr)));
+  for (std::size_t i = 0; i < conditions_.conditions.size(); ++i) {
+    const TaskCondition& condition = conditions_.conditions[i];
     for (const int f : condition.factors) {
       watch(f, static_cast<int>(i));
       ++groups_;
@@ -44,220 +30,44 @@ DesignCell::DesignCell(const TaskConditions& conditions, const core::WorkingMode
   }
 }
 
-DesignCell::State DesignCell::enter(std::span<const Interval> box, std::vector<Interval> clearances) {
-  differentiated_ = false;
+TaskCell::State TaskCell::enter(std::span<const Interval> box, std::vector<Interval> clearances) {
+  if (!alone_) alone_.emplace(program_, mode_, sheet::Lifting::at_rims);
   displacement_in_doubt_ = false;
   parts_of_loads_ = 0;
   clearances_ = std::move(clearances);
-  unmet_ = -1;
-  in_doubt_.clear();
-  falls_.clear();
-  box_.assign(box.begin(), box.end());
-  for (std::size_t c = 0; c < box_.size(); ++c) over_.set(static_cast<int>(c), box_[c]);
-  for (int j = 0; j < program_.roots(); ++j) {
-    over_.run_square(j);
-    const Interval& square = over_.square(j);
-    if (square.upper() < 0) return State::outside;
-    if (square.sign() <= 0) in_doubt_.push_back(-1 - j);
-    over_.set(program_.coordinates() + j,
-              mode_[static_cast<std::size_t>(j)] > 0 ? square_root(square) : -square_root(square));
-  }
-  if (!in_doubt_.empty()) return State::boundary;
-  over_.run_values();
-  const auto all_nonzero = [&](const std::vector<int>& functions) {
-    return std::all_of(functions.begin(), functions.end(), [&](int f) { return nonzero(f); });
-  };
-  if (!all_nonzero(conditions_.denominators)) return State::boundary;
-  if (!all_nonzero(conditions_.determinant)) return State::singular;
-  for (std::size_t i = 0; i < conditions_.conditions.size(); ++i) {
-    if (holds(static_cast<int>(i))) continue;
-    unmet_ = static_cast<int>(i);
-    return State::unmet;
-  }
-  if (clearances_.empty() || most_displaced_ == std::numeric_limits<double>::infinity()) return State::proven;
-  if (displaced_within(most_displaced_)) return State::proven;
+  offsets_.clear();
+  const Judgement judgement = *look(*alone_, alone_->enter(box), false);
+  unmet_ = judgement.unmet;
+  is_outside_ = judgement.state == State::outside;
+  if (judgement.state != State::proven || clearances_.empty() ||
+      extent_.most_displaced == std::numeric_limits<double>::infinity())
+    return judgement.state;
+  if (displaced_within(extent_.most_displaced)) return State::proven;
   displacement_in_doubt_ = true;
   return State::unmet;
 }
 
-void DesignCell::doubt(int function) { in_doubt_.push_back(function); }
-
-const std::vector<int>& DesignCell::downhill() {
-  downhill_.assign(box_.size(), 0);
-  clearances_downhill_.assign(clearances_.size(), 0);
-  if (displacement_in_doubt_) {
-    const auto way = [](const Interval& slope) { return slope.middle() > 0 ? 1 : slope.middle() < 0 ? -1 : 0; };
-    if (squared_.smooth) std::transform(squared_.slopes.begin(), squared_.slopes.end(), downhill_.begin(), way);
-    std::transform(per_clearance_.begin(), per_clearance_.end(), clearances_downhill_.begin(), way);
-    return downhill_;
-  }
-  if (in_doubt_.empty()) return downhill_;
-  std::vector<double> slope(box_.size(), 0.0);
-  if (in_doubt_.front() < 0) {
-    over_.run_values();
-    over_.run_gradients();
-    for (std::size_t c = 0; c < slope.size(); ++c)
-      slope[c] = over_.square_partial(-1 - in_doubt_.front(), static_cast<int>(c)).middle();
-  } else {
-    differentiate();
-    if (falls_.empty()) falls_ = {{middle_value(in_doubt_.front()), in_doubt_.front()}};
-    for (const auto& [weight, function] : falls_)
-      for (std::size_t c = 0; c < slope.size(); ++c) slope[c] += weight * slopes(function)[c].middle();
-  }
-  for (std::size_t c = 0; c < slope.size(); ++c) downhill_[c] = slope[c] > 0 ? -1 : slope[c] < 0 ? 1 : 0;
-  return downhill_;
-}
-
-void DesignCell::differentiate() {
-  if (differentiated_) return;
-  differentiated_ = true;
-  over_.run_gradients();
-  std::fill(has_slopes_.begin(), has_slopes_.end(), false);
-  for (int j = 0; j < program_.roots(); ++j)
-    half_inverse_[static_cast<std::size_t>(j)] = inverse(Interval(2.0) * over_.root(j));
-  middle_.clear();
-  for (std::size_t c = 0; c < box_.size(); ++c) {
-    middle_.push_back(std::clamp(box_[c].middle(), box_[c].lower(), box_[c].upper()));
-    at_middle_.set(static_cast<int>(c), Interval(middle_.back()));
-  }
-  centred_.assign(slopes_.size(), std::nullopt);
-  offsets_.clear();
-  for (std::size_t c = 0; c < box_.size(); ++c)
-    offsets_.push_back(box_[c].lower() == box_[c].upper() ? Interval(0.0) : box_[c] - Interval(middle_[c]));
-  for (int j = 0; j < program_.roots(); ++j) {
-    at_middle_.run_square(j);
-    const Interval root = square_root(meet(at_middle_.square(j), over_.square(j)));
-    // The box proves Q_j > 0; rounding at the middle cannot matter beyond that.
-    at_middle_.set(program_.coordinates() + j,
-                   meet(mode_[static_cast<std::size_t>(j)] > 0 ? root : -root, over_.root(j)));
-  }
-  at_middle_.run_values();
-}
-
-const std::vector<Interval>& DesignCell::slopes(int function) {
-  const auto f = static_cast<std::size_t>(function);
-  std::vector<Interval>& own = slopes_[f];
-  if (has_slopes_[f]) return own;
-  has_slopes_[f] = true;
-  const int n = program_.coordinates();
-  for (int v = 0; v < program_.variables(); ++v) gradient_[static_cast<std::size_t>(v)] = over_.partial(function, v);
-  // ds_j/dv = (dQ_j/dv + sum_{i<j} dQ_j/ds_i ds_i/dv) / (2 s_j)
-  for (int j = program_.roots() - 1; j >= 0; --j) {
-    const auto root = static_cast<std::size_t>(j), first = static_cast<std::size_t>(n);
-    const Interval factor = gradient_[first + root] * half_inverse_[root];
-    if (factor.lower() == 0 && factor.upper() == 0) continue;
-    for (int v = 0; v < n + j; ++v) {
-      Interval& slope = gradient_[static_cast<std::size_t>(v)];
-      slope = slope + factor * over_.square_partial(j, v);
-    }
-  }
-  own.assign(gradient_.begin(), gradient_.begin() + n);
-  return own;
-}
-
-double DesignCell::middle_value(int function) const {
-  return differentiated_ ? at_middle_.value(function).middle() : value(function).middle();
-}
-
-bool DesignCell::nonzero(int function) {
-  if (value(function).sign() != 0) return true;
-  if (combined({{Interval(1), function}}, true).sign() != 0) return true;
-  doubt(function);
-  falls_ = {{middle_value(function), function}};
-  return false;
-}
-
-Interval DesignCell::combined(const std::vector<std::pair<Interval, int>>& sum, bool with_slopes) {
-  Interval plain = 0;
-  for (const auto& [weight, function] : sum) plain = plain + weight * value(function);
-  if (!with_slopes) return plain;
-  differentiate();
-  Interval centred = 0;
-  for (const auto& [weight, function] : sum) centred = centred + weight * at_middle_.value(function);
-  // The slopes of the sum, not a sum of enclosures: what cancels does so before the box's width multiplies it.
-  for (std::size_t c = 0; c < box_.size(); ++c) {
-    if (box_[c].lower() == box_[c].upper()) continue;
-    Interval slope = 0;
-    for (const auto& [weight, function] : sum) slope = slope + weight * slopes(function)[c];
-    centred = centred + slope * (box_[c] - Interval(middle_[c]));
-  }
-  return meet(centred, plain);
-}
-
-Interval DesignCell::reach_of_balls(const TaskCondition& condition, const std::vector<double>& n, bool with_slopes) {
+Interval TaskCell::reach_of_balls(const TaskCondition& condition, const std::vector<double>& n, bool with_slopes) {
   const auto along = [&](int direction) {
     if (direction < 0) return Interval(0);
-    std::vector<std::pair<Interval, int>> sum;
+    Sum sum;
     const std::vector<int>& parts = condition.directions[static_cast<std::size_t>(direction)];
     for (std::size_t i = 0; i < parts.size(); ++i) sum.emplace_back(Interval(n[i]), parts[i]);
     return combined(sum, with_slopes);
   };
   Interval reach = 0;
-  for (const core::LoadBall& ball : balls_) {
+  for (const core::LoadBall& ball : extent_.balls) {
     if (ball.force > 0) reach = reach + Interval(ball.force) * size_of_vector({along(ball.fx), along(ball.fy)});
     if (ball.couple_size > 0) reach = reach + Interval(ball.couple_size) * size_of_vector({along(ball.couple)});
   }
   return reach;
 }
 
-bool DesignCell::holds(int index) {
-  const TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(index)];
-  if (!condition.unloaded.empty()) return false;
-  if (!std::all_of(condition.factors.begin(), condition.factors.end(), [&](int f) { return nonzero(f); })) return false;
-  if (condition.parts.empty()) return true;
-  const Interval& least = least_[static_cast<std::size_t>(index)];
-  falls_.clear();
-  if (holds(condition, least, false) || holds(condition, least, true)) return true;
-  for (const std::vector<int>& parts : condition.parts)
-    for (const int f : parts) doubt(f);
-  return false;
-}
-
-bool DesignCell::holds(const TaskCondition& condition, const Interval& least, bool with_slopes) {
-  if (with_slopes) differentiate();
-  const auto values = [&](const std::vector<int>& functions) {
-    std::vector<double> list;
-    for (const int f : functions) list.push_back(middle_value(f));
-    return list;
-  };
-  const std::vector<double> a = values(condition.parts.front()), b = values(condition.parts.back());
-  const double t = nearest_part(a, b);
-  std::vector<double> n;
-  Interval square = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    n.push_back(a[i] + t * (b[i] - a[i]));
-    square = square + squared(Interval(n.back()));
-  }
-  if (!(square.lower() > 0)) return false;
-  // n is no unit vector: |n.w| <= |n| |w|.
-  Interval share = 0;
-  if (condition.least > 0) {
-    Interval length = square_root(square);
-    if (condition.squared_axis >= 0) length = length * square_root(value(condition.squared_axis));
-    const Interval& d = with_slopes ? at_middle_.value(condition.denominator) : value(condition.denominator);
-    // The box proves that |A| has a sign; so has D, a part of it.
-    if (d.sign() == 0) return false;
-    share = least * length * Interval(d.sign() > 0 ? -1.0 : 1.0);
-  }
-  if (with_slopes) {
-    falls_.clear();
-    for (std::size_t i = 0; i < n.size(); ++i) falls_.emplace_back(n[i], condition.parts.front()[i]);
-    if (condition.least > 0) falls_.emplace_back(share.middle(), condition.denominator);
-  }
-  const Interval taken = balls_.empty() ? Interval(0) : reach_of_balls(condition, n, with_slopes);
-  return std::all_of(condition.parts.begin(), condition.parts.end(), [&](const std::vector<int>& parts) {
-    std::vector<std::pair<Interval, int>> sum;
-    for (std::size_t i = 0; i < parts.size(); ++i) sum.emplace_back(Interval(n[i]), parts[i]);
-    if (condition.least > 0) sum.emplace_back(share, condition.denominator);
-    return (combined(sum, with_slopes) - taken).lower() > 0;
-  });
-}
-
-bool DesignCell::brought_down(const TaskCondition& condition, const std::vector<int>& parts,
-                              const Interval& asked) const {
+bool TaskCell::brought_down(const TaskCondition& condition, const std::vector<int>& parts,
+                            const Interval& asked) const {
   if (parts.size() != 2) return false;
   const Interval &w0 = value(parts[0]), &w1 = value(parts[1]);
-  for (const core::LoadBall& ball : balls_) {
+  for (const core::LoadBall& ball : extent_.balls) {
     if (!(ball.force > 0)) continue;
     const std::vector<int>&a = condition.directions[static_cast<std::size_t>(ball.fx)],
           &b = condition.directions[static_cast<std::size_t>(ball.fy)];
@@ -284,7 +94,7 @@ bool DesignCell::brought_down(const TaskCondition& condition, const std::vector<
   return false;
 }
 
-int DesignCell::failed() const {
+int TaskCell::failed() const {
   for (std::size_t i = 0; i < conditions_.conditions.size(); ++i) {
     const TaskCondition& condition = conditions_.conditions[i];
     if (!condition.unloaded.empty()) return static_cast<int>(i);
@@ -298,11 +108,11 @@ int DesignCell::failed() const {
         if (condition.squared_axis >= 0) asked = asked * square_root(value(condition.squared_axis));
         if (size.upper() < asked.lower()) return static_cast<int>(i);
       }
-      if (!balls_.empty() && brought_down(condition, parts, asked)) return static_cast<int>(i);
+      if (!extent_.balls.empty() && brought_down(condition, parts, asked)) return static_cast<int>(i);
       // A scalar reaction that a load of the ball brings down to nothing.
       if (parts.size() != 1) continue;
       double reach = 0;
-      for (const core::LoadBall& ball : balls_) {
+      for (const core::LoadBall& ball : extent_.balls) {
         const auto along = [&](int direction) {
           return direction < 0 ? 0.0 : value(condition.directions[static_cast<std::size_t>(direction)][0]).mignitude();
         };
@@ -315,36 +125,53 @@ int DesignCell::failed() const {
   return -1;
 }
 
-const std::vector<double>& DesignCell::spreads() {
-  const std::size_t n = box_.size();
+const std::vector<int>& TaskCell::downhill() {
+  downhill_.assign(static_cast<std::size_t>(cell_->coordinates()), 0);
+  clearances_downhill_.assign(clearances_.size(), 0);
+  if (displacement_in_doubt_) {
+    const auto way = [](const Interval& slope) { return slope.middle() > 0 ? 1 : slope.middle() < 0 ? -1 : 0; };
+    if (squared_.smooth) std::transform(squared_.slopes.begin(), squared_.slopes.end(), downhill_.begin(), way);
+    std::transform(per_clearance_.begin(), per_clearance_.end(), clearances_downhill_.begin(), way);
+    return downhill_;
+  }
+  const bool at_rim = !cell_->lifted().empty();
+  if (in_doubt_.empty() && !at_rim) return downhill_;
+  differentiate();
+  if (falls_.empty() && !at_rim) falls_ = {{middle_value(in_doubt_.front()), in_doubt_.front()}};
+  for (int c = 0; c < cell_->coordinates(); ++c) {
+    double slope = at_rim ? -cell_->bond_slope(0, c).middle() : 0;
+    for (const auto& [weight, function] : falls_) slope += weight * cell_->slope(function, c).middle();
+    downhill_[static_cast<std::size_t>(c)] = slope > 0 ? -1 : slope < 0 ? 1 : 0;
+  }
+  return downhill_;
+}
+
+const std::vector<double>& TaskCell::spreads() {
+  const auto n = static_cast<std::size_t>(cell_->coordinates());
   spreads_.assign(n, 0.0);
   clearance_spreads_.clear();
+  if (is_outside_) return spreads_;
+  const auto add = [&](const auto& slope) {
+    for (std::size_t c = 0; c < n; ++c) {
+      const int own = static_cast<int>(c);
+      spreads_[c] += slope(own).magnitude() * cell_->local(own).width();
+    }
+  };
   if (displacement_in_doubt_) {
     for (std::size_t k = 0; k < clearances_.size(); ++k)
       clearance_spreads_.push_back(per_clearance_[k].magnitude() * clearances_[k].width());
     if (squared_.smooth) {
-      for (std::size_t c = 0; c < n; ++c) spreads_[c] = squared_.slopes[c].magnitude() * box_[c].width();
+      add([&](int c) { return squared_.slopes[static_cast<std::size_t>(c)]; });
       return spreads_;
     }
     // A direction in which a clearance is taken up is not known: what it is the direction of.
     for (const TaskCondition& own : conditions_.take_ups)
-      for (const std::vector<int>& parts : own.parts)
-        for (const int f : parts) doubt(f);
+      for (const std::vector<int>& parts : own.parts) in_doubt_.insert(in_doubt_.end(), parts.begin(), parts.end());
   }
-  const bool boundary = !in_doubt_.empty() && in_doubt_.front() < 0;
-  if (!boundary) differentiate();
-  for (const int f : in_doubt_) {
-    if (f < 0) continue;
-    const std::vector<Interval>& own = slopes(f);
-    for (std::size_t c = 0; c < n; ++c) spreads_[c] += own[c].magnitude() * box_[c].width();
-  }
-  if (!boundary) return spreads_;
-  over_.run_values();
-  over_.run_gradients();
-  // Of a dyad on a dyad what comes by way of the root below is left out: it says where to cut, and proves nothing.
-  for (const int own : in_doubt_)
-    for (std::size_t c = 0; c < n; ++c)
-      spreads_[c] += over_.square_partial(-1 - own, static_cast<int>(c)).magnitude() * box_[c].width();
+  differentiate();
+  for (const int f : in_doubt_) add([&](int c) { return cell_->slope(f, c); });
+  for (int l = 0; l < cell_->dimension() - cell_->coordinates(); ++l)
+    add([&](int c) { return cell_->bond_slope(l, c); });
   return spreads_;
 }
 

@@ -1,5 +1,5 @@
 // How far the end effector is displaced over a cell of poses and designs by the clearances that its joints take up
-// (design_cell.hpp). Which way a joint takes up its clearance turns with the load, unlike sizes of reactions: loads are
+// (task_cell.hpp). Which way a joint takes up its clearance turns with the load, unlike sizes of reactions: loads are
 // cut where one part of them at a time says more than all at once.
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <queue>
 
 #include "core/errors.hpp"
-#include "loci/tasks/design_cell.hpp"
+#include "loci/tasks/task_cell.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -28,17 +28,28 @@ Centred either(const Centred& a, const Centred& b) {
 
 }  // namespace
 
-const Centred& DesignCell::centred(int function) {
+void TaskCell::enclose_centred() {
+  differentiate();
+  if (!offsets_.empty()) return;
+  centred_.assign(static_cast<std::size_t>(program_.functions()), std::nullopt);
+  for (int c = 0; c < cell_->coordinates(); ++c) {
+    const Interval& range = cell_->local(c);
+    offsets_.push_back(range.width() == 0 ? Interval(0.0) : range - Interval(cell_->middle(c)));
+  }
+}
+
+const Centred& TaskCell::centred(int function) {
   std::optional<Centred>& own = centred_[static_cast<std::size_t>(function)];
   if (!own) {
-    own = Centred{value(function), at_middle_.value(function), slopes(function)};
+    own = Centred{value(function), cell_->middle_value(function), {}};
+    for (int c = 0; c < cell_->coordinates(); ++c) own->slopes.push_back(cell_->slope(function, c));
     own->tighten(offsets_);
   }
   return *own;
 }
 
 /// A component of a reaction times D.
-Centred DesignCell::loaded(const TaskCondition& take_up, std::size_t part, const Loads& loads) {
+Centred TaskCell::loaded(const TaskCondition& take_up, std::size_t part, const Loads& loads) {
   const auto along = [&](double t) {
     const Centred& first = centred(take_up.parts.front()[part]);
     if (t == 0) return first;
@@ -56,8 +67,8 @@ Centred DesignCell::loaded(const TaskCondition& take_up, std::size_t part, const
 }
 
 /// f / |f| times the sign of D, or the sign of M likewise; what is not known of it is anything up to 1.
-std::vector<Centred> DesignCell::directions_taken(const TaskCondition& take_up, const Loads& loads) {
-  const std::size_t n = box_.size(), parts = take_up.parts.front().size();
+std::vector<Centred> TaskCell::directions_taken(const TaskCondition& take_up, const Loads& loads) {
+  const std::size_t n = static_cast<std::size_t>(cell_->coordinates()), parts = take_up.parts.front().size();
   std::vector<Centred> own;
   for (std::size_t i = 0; i < parts; ++i) own.push_back(loaded(take_up, i, loads));
   if (parts == 1) {
@@ -76,8 +87,8 @@ std::vector<Centred> DesignCell::directions_taken(const TaskCondition& take_up, 
   return own;
 }
 
-Centred DesignCell::squared_displacement(const Loads& loads) {
-  const std::size_t n = box_.size();
+Centred TaskCell::squared_displacement(const Loads& loads) {
+  const std::size_t n = static_cast<std::size_t>(cell_->coordinates());
   std::array<Centred, 2> displaced = {Centred::constant(0.0, n), Centred::constant(0.0, n)};
   std::vector<std::array<Interval, 2>> shares;
   per_clearance_.assign(clearances_.size(), Interval(0.0));
@@ -113,12 +124,12 @@ Centred DesignCell::squared_displacement(const Loads& loads) {
   return all.tighten(offsets_);
 }
 
-DesignCell::Loads DesignCell::all_loads() const {
+TaskCell::Loads TaskCell::all_loads() const {
   Loads all{Interval(0.0, conditions_.loads > 1 ? 1.0 : 0.0), std::vector(conditions_.directions, Interval(0.0))};
   const auto put = [&](int direction, double radius) {
     if (radius > 0) all.factors[static_cast<std::size_t>(direction)] = around_zero(radius);
   };
-  for (const core::LoadBall& ball : balls_) {
+  for (const core::LoadBall& ball : extent_.balls) {
     put(ball.fx, ball.force);
     put(ball.fy, ball.force);
     put(ball.couple, ball.couple_size);
@@ -127,8 +138,8 @@ DesignCell::Loads DesignCell::all_loads() const {
 }
 
 /// Nothing: outside some ball.
-std::optional<Interval> DesignCell::displacement_under(const Loads& loads) {
-  for (const core::LoadBall& ball : balls_) {
+std::optional<Interval> TaskCell::displacement_under(const Loads& loads) {
+  for (const core::LoadBall& ball : extent_.balls) {
     if (!(ball.force > 0)) continue;
     const double fx = loads.factors[static_cast<std::size_t>(ball.fx)].mignitude();
     const double fy = loads.factors[static_cast<std::size_t>(ball.fy)].mignitude();
@@ -139,14 +150,14 @@ std::optional<Interval> DesignCell::displacement_under(const Loads& loads) {
 }
 
 /// One load in the middle of some.
-DesignCell::Loads DesignCell::middle_of(const Loads& loads) {
+TaskCell::Loads TaskCell::middle_of(const Loads& loads) {
   Loads middle{loads.t.middle(), {}};
   for (const Interval& own : loads.factors) middle.factors.emplace_back(own.middle());
   return middle;
 }
 
 /// The two halves of some, along what is the largest part of the whole; nothing where it is one load.
-std::vector<DesignCell::Loads> DesignCell::halves_of(const Loads& loads) const {
+std::vector<TaskCell::Loads> TaskCell::halves_of(const Loads& loads) const {
   const Loads all = all_loads();
   double widest = loads.t.width() > 0 ? loads.t.width() / all.t.width() : 0.0;
   int along = widest > 0 ? -1 : -2;
@@ -163,8 +174,8 @@ std::vector<DesignCell::Loads> DesignCell::halves_of(const Loads& loads) const {
   return halves;
 }
 
-bool DesignCell::displaced_within(double most) {
-  differentiate();
+bool TaskCell::displaced_within(double most) {
+  enclose_centred();
   const Loads all = all_loads();
   if (displacement_under(all)->upper() <= most) return true;
   // Where one load is too much of it, or leaves little room, the poses are to be cut, or it is too far.
@@ -191,9 +202,9 @@ bool DesignCell::displaced_within(double most) {
 }
 
 /// Best first over the loads: the bound of the worst part of them against what single loads do.
-Interval DesignCell::displacement() {
+Interval TaskCell::displacement() {
   core::ensure(clearances_.size() == conditions_.take_ups.size(), "a clearance for every take-up");
-  differentiate();
+  enclose_centred();
   struct LoadsPart {
     Loads loads;
     Interval size;
@@ -216,11 +227,11 @@ Interval DesignCell::displacement() {
   return {std::min(lower, open.top().size.upper()), open.top().size.upper()};
 }
 
-std::optional<DesignCell::Loads> DesignCell::displaced_too_far() {
-  if (clearances_.empty() || most_displaced_ == std::numeric_limits<double>::infinity()) return std::nullopt;
+std::optional<TaskCell::Loads> TaskCell::displaced_too_far() {
+  if (clearances_.empty() || extent_.most_displaced == std::numeric_limits<double>::infinity()) return std::nullopt;
   const auto too_far = [&](const Loads& loads) {
     const auto size = displacement_under(loads);
-    return size && size->lower() > most_displaced_;
+    return size && size->lower() > extent_.most_displaced;
   };
   const Loads all = all_loads();
   const std::array<double, 3> parts = {0.5 * all.t.upper(), 0.0, all.t.upper()};
@@ -229,13 +240,13 @@ std::optional<DesignCell::Loads> DesignCell::displaced_too_far() {
     one.t = t;
     if (too_far(one)) return one;
   }
-  if (balls_.empty()) return std::nullopt;
+  if (extent_.balls.empty()) return std::nullopt;
   // Every ball at its edge, in the same direction; and its couple to either side.
   constexpr int directions = 16;
   for (int i = 0; i < 2 * directions; ++i) {
     Loads one = middle_of(all);
     const double angle = M_PI * i / directions, inwards = 1 - 0x1p-40;
-    for (const core::LoadBall& ball : balls_) {
+    for (const core::LoadBall& ball : extent_.balls) {
       if (ball.force > 0) {
         one.factors[static_cast<std::size_t>(ball.fx)] = inwards * ball.force * std::cos(angle);
         one.factors[static_cast<std::size_t>(ball.fy)] = inwards * ball.force * std::sin(angle);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <queue>
 
+#include "loci/tasks/task_cover.hpp"
+
 namespace clearloci::loci {
 namespace {
 
@@ -15,25 +17,6 @@ using core::Point2;
 
 /// The finest cells, as a part of the task and of the designs: some hundred spacings of doubles.
 constexpr double finest = 0x1p-44;
-/// What rounding makes of places and distances, as a part of coordinates: a few operations of 2^-53 each, many times
-/// over.
-constexpr double rounding_of_places = 0x1p-46;
-
-double size_of(const TaskRegion& region, double margin) {
-  return std::max({region.upper()[0] - region.lower()[0], region.upper()[1] - region.lower()[1], margin});
-}
-
-/// Doubles place the task and its margin to rounding; a hair more covers it.
-double hair_of(const TaskRegion& region, double margin) {
-  return rounding_of_places *
-         (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
-}
-
-bool out_of_time(const DesignEffort& effort, int cells) {
-  constexpr int between_looks = 64;
-  return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
-}
-
 /// One design of a box. A parameter whose range is but the rounding of one number keeps that range.
 std::vector<Interval> one_of(const std::vector<Interval>& box) {
   constexpr double roundings = 0x1p-49;
@@ -60,7 +43,7 @@ Interval half_of(const Interval& range, bool low) {
 DesignJudge::DesignJudge(const core::TaskConditions& conditions, const core::WorkingMode& mode,
                          const TaskRegion& region, DesignVariables variables, std::vector<core::LoadBall> balls,
                          DesignClearances clearances)
-    : cell_(conditions, mode, std::move(balls), clearances.most_displaced),
+    : cell_(conditions, mode, {std::move(balls), clearances.most_displaced}),
       region_(region),
       variables_(std::move(variables)),
       clearances_(std::move(clearances)),
@@ -74,7 +57,7 @@ DesignJudge::DesignJudge(const core::TaskConditions& conditions, const core::Wor
   }
 }
 
-DesignCell::State DesignJudge::enter(const Box& box) {
+TaskCell::State DesignJudge::enter(const Box& box) {
   in_tower_.assign({box[0], box[1]});
   const DesignBox parameters(box.begin() + 2, box.end());
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
@@ -112,8 +95,8 @@ std::vector<Interval> DesignJudge::coordinates(const Point2& pose, const std::ve
 }
 
 int DesignJudge::sign_at(std::size_t watched, const Point2& pose, const std::vector<double>& parameters) {
-  const DesignCell::State state = cell_.enter(coordinates(pose, parameters));
-  if (state == DesignCell::State::outside || state == DesignCell::State::boundary) return 0;
+  const TaskCell::State state = cell_.enter(coordinates(pose, parameters));
+  if (state == TaskCell::State::outside || state == TaskCell::State::boundary) return 0;
   return cell_.sign(watched);
 }
 
@@ -129,8 +112,8 @@ std::optional<DesignFailure> DesignJudge::at(const Point2& pose, const DesignBox
 DesignBox DesignJudge::corner_of(const Point2& pose, const DesignBox& designs) {
   box_.assign({Interval(pose[0]), Interval(pose[1])});
   box_.insert(box_.end(), designs.begin(), designs.end());
-  const DesignCell::State state = enter(box_);
-  if (state == DesignCell::State::proven || state == DesignCell::State::outside) return {};
+  const TaskCell::State state = enter(box_);
+  if (state == TaskCell::State::proven || state == TaskCell::State::outside) return {};
   const std::vector<int> ways = cell_.downhill();
   std::vector<int> own(designs.size(), 0);
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
@@ -152,7 +135,7 @@ std::optional<DesignFailure> DesignJudge::looked_at(const Point2& pose, const De
   box_.assign({Interval(pose[0]), Interval(pose[1])});
   box_.insert(box_.end(), designs.begin(), designs.end());
   using Kind = DesignFailure::Kind;
-  using State = DesignCell::State;
+  using State = TaskCell::State;
   const State state = enter(box_);
   if (state == State::outside) return DesignFailure{Kind::unreachable, -1, pose, middle};
   if (state == State::boundary) return std::nullopt;
@@ -179,17 +162,6 @@ std::optional<DesignFailure> DesignJudge::looked_at(const Point2& pose, const De
   return std::nullopt;
 }
 
-/// A pose of the box that belongs to the task or its margin.
-std::optional<Point2> DesignJudge::pose_of(const Box& box, double margin) const {
-  const Point2 middle = {box[0].middle(), box[1].middle()}, base = region_.closest(middle);
-  const double far = std::hypot(middle[0] - base[0], middle[1] - base[1]);
-  if (far <= margin * (1 - 1e-9)) return middle;
-  const double part = far > 0 ? (1 - 1e-6) * margin / far : 0.0;  // the very edge of the margin says nothing
-  const Point2 at = {base[0] + part * (middle[0] - base[0]), base[1] + part * (middle[1] - base[1])};
-  if (!box[0].contains(at[0]) || !box[1].contains(at[1])) return std::nullopt;
-  return at;
-}
-
 DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting refuting, const DesignEffort& effort) {
   DesignProof proof;
   const bool one = refuting == Refuting::one;
@@ -208,13 +180,7 @@ DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting
   whole.insert(whole.end(), designs.begin(), designs.end());
   std::vector<double> least;
   for (const Interval& range : whole) least.push_back(std::max(finest * range.width(), 0x1p-50 * range.magnitude()));
-  const auto left_open = [&](const Box& box) {
-    const bool first = proof.open++ == 0;
-    for (std::size_t c = 0; c < 2; ++c) {
-      proof.lower[c] = first ? box[c].lower() : std::min(proof.lower[c], box[c].lower());
-      proof.upper[c] = first ? box[c].upper() : std::max(proof.upper[c], box[c].upper());
-    }
-  };
+  const auto left_open = [&](const Box& box) { leave_open(proof, box[0], box[1]); };
   int proven = 0, looks = 0;
   std::deque<Box> open = {whole};
   while (!open.empty()) {
@@ -228,14 +194,14 @@ DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting
       break;
     }
     ++proof.cells;
-    const DesignCell::State state = enter(box);
+    const TaskCell::State state = enter(box);
     proof.cells += cell_.parts_of_loads();
-    if (state == DesignCell::State::proven) {
+    if (state == TaskCell::State::proven) {
       ++proven;
       continue;
     }
     int along = cut(box);
-    if (const auto pose = pose_of(box, margin)) {
+    if (const auto pose = pose_within(region_, margin, box[0], box[1])) {
       const DesignBox own(box.begin() + 2, box.end());
       if (fails(at(*pose, one ? own : designs, one))) return proof;
     }
@@ -273,9 +239,9 @@ double DesignJudge::violation(const DesignBox& designs) {
   for (const Point2& pose : poses) {
     box_.assign({Interval(pose[0]), Interval(pose[1])});
     box_.insert(box_.end(), one.begin(), one.end());
-    const DesignCell::State state = enter(box_);
-    if (state != DesignCell::State::proven) ++failed;
-    if (state == DesignCell::State::outside || state == DesignCell::State::boundary) continue;
+    const TaskCell::State state = enter(box_);
+    if (state != TaskCell::State::proven) ++failed;
+    if (state == TaskCell::State::outside || state == TaskCell::State::boundary) continue;
     for (std::size_t w = 0; w < cell_.watched(); ++w)
       if (const int sign = cell_.sign(w); sign != 0)
         ++signs[static_cast<std::size_t>(cell_.group_of(w))][sign > 0 ? 1 : 0];
@@ -306,7 +272,7 @@ double DesignJudge::clearance(const DesignBox& designs, double from, double limi
     const double middle = region_.signed_distance({cell.box[0].middle(), cell.box[1].middle()});
     const double half = 0.5 * std::hypot(cell.box[0].width(), cell.box[1].width());
     if (middle + half <= from) continue;  // the task's proof has covered it
-    if (enter(cell.box) == DesignCell::State::proven) continue;
+    if (enter(cell.box) == TaskCell::State::proven) continue;
     const int along = cut(cell.box);
     // Cells differ in how far they are by their extent along x and y alone.
     if (cells >= effort.most_cells || out_of_time(effort, cells) || along < 0 ||
@@ -375,9 +341,9 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
   const double sign = least ? 1.0 : -1.0;
   double known = infinity;  // some pose's
   const auto over = [&](const Box& box) -> std::optional<Interval> {
-    const DesignCell::State state = enter(box);
-    if (state == DesignCell::State::boundary || state == DesignCell::State::singular) return std::nullopt;
-    if (state == DesignCell::State::outside) return std::nullopt;
+    const TaskCell::State state = enter(box);
+    if (state == TaskCell::State::boundary || state == TaskCell::State::singular) return std::nullopt;
+    if (state == TaskCell::State::outside) return std::nullopt;
     return size();
   };
   const auto look = [&](const Point2& pose, const DesignBox& some) {
@@ -419,7 +385,8 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
       const auto own = over(part.box);
       part.along = own && cell_.doubts_displacement() ? cut(part.box) : -1;
       part.bound = std::max(cell.bound, own ? sign * (least ? own->lower() : own->upper()) : -infinity);
-      if (const auto pose = pose_of(part.box, 0)) look(*pose, DesignBox(part.box.begin() + 2, part.box.end()));
+      if (const auto pose = pose_within(region_, 0, part.box[0], part.box[1]))
+        look(*pose, DesignBox(part.box.begin() + 2, part.box.end()));
       if (part.bound < known) open.push(std::move(part));
     }
   }

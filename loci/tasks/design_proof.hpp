@@ -1,5 +1,5 @@
 // Whether designs keep clear of every locus over a task: boxes of poses and designs that cover the task, its margin and
-// what designs are asked for are cut until each is proven (design_cell.hpp). A cut goes along the coordinate that the
+// what designs are asked for are cut until each is proven (task_cell.hpp). A cut goes along the coordinate that the
 // function in doubt depends on most, so that parameters are cut only where poses alone do not help.
 //
 // Designs that fail are told by single poses: a pose out of reach for all of them, a reaction too small for all of
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "clearloci/verify.hpp"
-#include "loci/tasks/design_cell.hpp"
+#include "loci/tasks/task_cell.hpp"
 #include "loci/tasks/task_region.hpp"
 
 namespace clearloci::loci {
@@ -26,7 +26,7 @@ struct DesignFailure {
   int condition = -1;  ///< where reactions vanish or are too small
   core::Point2 at{};
   std::vector<double> parameters = {};  ///< of a design at which it does, where not all do
-  /// Where a sign changes: which (DesignCell::watched), the pose and the design at the other end.
+  /// Where a sign changes: which (TaskCell::watched), the pose and the design at the other end.
   std::optional<std::size_t> watched = {};
   core::Point2 other{};
   std::vector<double> other_parameters = {};
@@ -107,7 +107,7 @@ class DesignJudge {
     std::vector<double> parameters;
     int sign = 0;
   };
-  DesignCell::State enter(const Box& box);
+  TaskCell::State enter(const Box& box);
   std::vector<core::Interval> clearances_of(const DesignBox& parameters) const;
   /// The coordinate of the box along which a cut helps most; -1: none is worth it.
   int cut(const Box& box);
@@ -116,12 +116,11 @@ class DesignJudge {
   std::optional<DesignFailure> looked_at(const core::Point2& pose, const DesignBox& designs,
                                          std::vector<double> parameters);
   DesignBox corner_of(const core::Point2& pose, const DesignBox& designs);
-  std::optional<core::Point2> pose_of(const Box& box, double margin) const;
   /// `size`: of what was entered last. To `accuracy` of itself.
   core::Interval extreme(const DesignBox& designs, const std::function<core::Interval()>& size, double accuracy,
                          const DesignEffort& effort, bool least);
 
-  DesignCell cell_;
+  TaskCell cell_;
   const TaskRegion& region_;
   DesignVariables variables_;
   DesignClearances clearances_;

@@ -1,10 +1,10 @@
 // How large reactions are over a cell of poses and designs, and how far the end effector is displaced
-// (design_cell.hpp).
+// (task_cell.hpp).
 #include <algorithm>
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "loci/tasks/design_cell.hpp"
+#include "loci/tasks/task_cell.hpp"
 #include "loci/tasks/task_functions.hpp"
 
 namespace clearloci::loci {
@@ -22,7 +22,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 /// By the method of Frank and Wolfe: towards the load that takes most off the reaction, as far as that helps.
-DesignCell::WorstLoad DesignCell::worst_load(const TaskCondition& condition) const {
+TaskCell::WorstLoad TaskCell::worst_load(const TaskCondition& condition) const {
   const auto values = [&](const std::vector<int>& functions) {
     std::vector<double> list;
     for (const int f : functions) list.push_back(middle_value(f));
@@ -36,13 +36,13 @@ DesignCell::WorstLoad DesignCell::worst_load(const TaskCondition& condition) con
   worst.factors.assign(directions.size(), 0.0);
   for (std::size_t i = 0; i < first.size(); ++i) worst.reaction.push_back(first[i] + worst.t * (last[i] - first[i]));
   constexpr int rounds = 40;
-  for (int round = 0; round < rounds && !balls_.empty(); ++round) {
+  for (int round = 0; round < rounds && !extent_.balls.empty(); ++round) {
     const std::vector<double>& w = worst.reaction;
     WorstLoad to;
     to.t = dot(w, first) <= dot(w, last) ? 0.0 : 1.0;
     to.factors.assign(directions.size(), 0.0);
     const auto along = [&](int d) { return d < 0 ? 0.0 : dot(w, directions[static_cast<std::size_t>(d)]); };
-    for (const core::LoadBall& ball : balls_) {
+    for (const core::LoadBall& ball : extent_.balls) {
       const double gx = along(ball.fx), gy = along(ball.fy), size = std::hypot(gx, gy);
       if (ball.force > 0 && size > 0) {
         to.factors[static_cast<std::size_t>(ball.fx)] = -ball.force * gx / size;
@@ -65,7 +65,7 @@ DesignCell::WorstLoad DesignCell::worst_load(const TaskCondition& condition) con
 }
 
 /// Not less than n.w / |n| for any n; not more than under any one load.
-Interval DesignCell::least_size_of(const TaskCondition& condition, const Interval& share) {
+Interval TaskCell::least_size_of(const TaskCondition& condition, const Interval& share) {
   const WorstLoad worst = worst_load(condition);
   const std::vector<double>& n = worst.reaction;
   Interval length = 0;
@@ -75,15 +75,15 @@ Interval DesignCell::least_size_of(const TaskCondition& condition, const Interva
     const Interval taken = reach_of_balls(condition, n, true);
     lower = std::numeric_limits<double>::infinity();
     for (const std::vector<int>& parts : condition.parts) {
-      std::vector<std::pair<Interval, int>> sum;
+      Sum sum;
       for (std::size_t i = 0; i < parts.size(); ++i) sum.emplace_back(Interval(n[i]), parts[i]);
       lower = std::min(lower, ((combined(sum, true) - taken) * inverse(square_root(length)) * share).lower());
     }
   }
   std::vector<Interval> there;
   for (std::size_t i = 0; i < n.size(); ++i) {
-    std::vector<std::pair<Interval, int>> sum = {{Interval(1.0) - Interval(worst.t), condition.parts.front()[i]},
-                                                 {Interval(worst.t), condition.parts.back()[i]}};
+    Sum sum = {{Interval(1.0) - Interval(worst.t), condition.parts.front()[i]},
+               {Interval(worst.t), condition.parts.back()[i]}};
     for (std::size_t d = 0; d < worst.factors.size(); ++d) {
       // Within the balls, whose radii were rounded up and whose shares of several steps are sums.
       const double inwards = worst.factors[d] * (1 - 0x1p-40);
@@ -96,7 +96,7 @@ Interval DesignCell::least_size_of(const TaskCondition& condition, const Interva
 }
 
 /// Of one component: |N| and all that the balls add to it. Of two the same bound, component by component.
-Interval DesignCell::greatest_size_of(const TaskCondition& condition, const Interval& share) {
+Interval TaskCell::greatest_size_of(const TaskCondition& condition, const Interval& share) {
   Interval greatest = 0;
   for (const std::vector<int>& parts : condition.parts) {
     std::vector<Interval> own;
@@ -108,13 +108,13 @@ Interval DesignCell::greatest_size_of(const TaskCondition& condition, const Inte
     }
     const Interval size = size_of_vector(own) * share;
     // Two components may not be at their most under one load.
-    const double known = parts.size() == 1 || balls_.empty() ? size.lower() : 0.0;
+    const double known = parts.size() == 1 || extent_.balls.empty() ? size.lower() : 0.0;
     greatest = Interval(std::max(greatest.lower(), known), std::max(greatest.upper(), size.upper()));
   }
   return greatest;
 }
 
-Interval DesignCell::size_of(int index, bool least) {
+Interval TaskCell::size_of(int index, bool least) {
   const TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(index)];
   core::ensure(condition.denominator >= 0, "a condition with a least size");
   if (condition.parts.empty()) return 0.0;

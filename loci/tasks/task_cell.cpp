@@ -16,13 +16,18 @@ using core::TaskConditions;
 
 }  // namespace
 
-TaskCell::TaskCell(const TaskConditions& conditions, const core::WorkingMode& mode)
-    : conditions_(conditions), program_(program_of(conditions)), side_by_side_(program_, mode) {
+TaskCell::TaskCell(const TaskConditions& conditions, const core::WorkingMode& mode, TaskExtent extent)
+    : conditions_(conditions), extent_(std::move(extent)), program_(program_of(conditions)), mode_(mode) {
   for (const TaskCondition& condition : conditions.conditions)
     least_.push_back(sheet::constant_as(condition.least, static_cast<Interval*>(nullptr)));
+  watch_signs();
 }
 
 bool TaskCell::differentiate() {
+  if (!has_slopes_ && alone_ && cell_ == &*alone_) {
+    cell_->differentiate();
+    has_slopes_ = true;
+  }
   wants_slopes_ = wants_slopes_ || !has_slopes_;
   differentiated_ = has_slopes_;
   return has_slopes_;
@@ -30,40 +35,56 @@ bool TaskCell::differentiate() {
 
 bool TaskCell::nonzero(int function) {
   if (cell_->value(function).sign() != 0) return true;
-  return differentiate() && cell_->centred(function).sign() != 0;
+  if (differentiate() && cell_->centred(function).sign() != 0) return true;
+  in_doubt_.push_back(function);
+  return false;
 }
 
-bool TaskCell::positive(const Sum& sum, bool with_slopes) {
-  Interval value = 0;
-  for (const auto& [weight, function] : sum)
-    value = value + weight * (with_slopes ? cell_->middle_value(function) : cell_->value(function));
-  if (!with_slopes) return value.lower() > 0;
+Interval TaskCell::combined(const Sum& sum, bool with_slopes) const {
+  Interval plain = 0;
+  for (const auto& [weight, function] : sum) plain = plain + weight * value(function);
+  if (!with_slopes) return plain;
+  Interval centred = 0;
+  for (const auto& [weight, function] : sum) centred = centred + weight * cell_->middle_value(function);
   // The slopes of the sum, not a sum of enclosures: what cancels does so before the cell's width multiplies it.
   for (int c = 0; c < cell_->dimension(); ++c) {
+    if (cell_->local(c).width() == 0) continue;
     Interval slope = 0;
     for (const auto& [weight, function] : sum) slope = slope + weight * cell_->slope(function, c);
-    value = value + slope * (cell_->local(c) - Interval(cell_->middle(c)));
+    centred = centred + slope * (cell_->local(c) - Interval(cell_->middle(c)));
   }
-  return value.lower() > 0;
+  return meet(centred, plain);
+}
+
+double TaskCell::middle_value(int function) const {
+  return (differentiated_ ? cell_->middle_value(function) : value(function)).middle();
 }
 
 void TaskCell::take_values(const std::vector<int>& functions, std::vector<double>& list) const {
   list.clear();
-  for (const int f : functions)
-    list.push_back(differentiated_ ? cell_->middle_value(f).middle() : cell_->value(f).middle());
+  for (const int f : functions) list.push_back(middle_value(f));
 }
 
 bool TaskCell::holds(const TaskCondition& condition) {
   if (!condition.unloaded.empty()) return false;
   if (!std::all_of(condition.factors.begin(), condition.factors.end(), [&](int f) { return nonzero(f); })) return false;
   if (condition.parts.empty()) return true;
+  falls_.clear();
   for (const bool with_slopes : {false, true}) {
     if (with_slopes && !differentiate()) return false;
     const std::vector<Sum>* const sums = sums_of(condition, with_slopes);
-    if (sums != nullptr &&
-        std::all_of(sums->begin(), sums->end(), [&](const Sum& sum) { return positive(sum, with_slopes); }))
+    if (sums == nullptr) continue;
+    const bool balls = !extent_.balls.empty();
+    const Interval taken = balls ? reach_of_balls(condition, ends_[0], with_slopes) : Interval(0);
+    if (std::all_of(sums->begin(), sums->end(), [&](const Sum& sum) {
+          const Interval all = combined(sum, with_slopes);
+          return (balls ? all - taken : all).lower() > 0;
+        }))
       return true;
+    if (with_slopes)
+      for (const auto& [weight, function] : sums->front()) falls_.emplace_back(weight.middle(), function);
   }
+  for (const std::vector<int>& parts : condition.parts) in_doubt_.insert(in_doubt_.end(), parts.begin(), parts.end());
   return false;
 }
 
@@ -197,6 +218,8 @@ std::optional<TaskCell::Judgement> TaskCell::look(sheet::SheetCell& cell, bool i
   cell_ = &cell;
   has_slopes_ = has_slopes;
   differentiated_ = wants_slopes_ = false;
+  in_doubt_.clear();
+  falls_.clear();
   const auto told = [&](State state, int unmet = -1) -> std::optional<Judgement> {
     if (wants_slopes_) return std::nullopt;
     return Judgement{state, unmet};
@@ -218,15 +241,16 @@ std::vector<TaskCell::Judgement> TaskCell::judge(const std::vector<std::array<In
                                                  std::vector<Doubt>* doubts) {
   if (doubts != nullptr) doubts->assign(cells.size(), {});
   constexpr std::size_t size = sheet::SheetCells::size;
+  if (!side_by_side_) side_by_side_.emplace(program_, mode_);
   std::vector<Judgement> judgements(cells.size());
   std::vector<std::size_t> open;  // slopes are wanted
   const auto judge_batch = [&](const std::size_t* indices, std::size_t count, bool with_slopes) {
     std::array<sheet::SheetCells::Target, size> places;
-    for (std::size_t lane = 0; lane < count; ++lane) places[lane] = {cells[indices[lane]][0], cells[indices[lane]][1]};
-    side_by_side_.enter(places, count);
-    if (with_slopes) side_by_side_.differentiate();
+    for (std::size_t lane = 0; lane < count; ++lane) places[lane] = {cells[indices[lane]]};
+    side_by_side_->enter(places, count);
+    if (with_slopes) side_by_side_->differentiate();
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const auto judgement = look(side_by_side_[lane], side_by_side_.inside(lane), with_slopes);
+      const auto judgement = look((*side_by_side_)[lane], side_by_side_->inside(lane), with_slopes);
       const bool doubtful = judgement && judgement->state != State::proven && judgement->state != State::outside;
       if (judgement && (doubts == nullptr || !doubtful || with_slopes))
         judgements[indices[lane]] = *judgement;

@@ -1,5 +1,4 @@
-// What proofs over cells of poses (task_cell.hpp) and over boxes of poses and designs (design_cell.hpp) make of a
-// task's conditions.
+// What cells (task_cell.hpp) make of a task's conditions.
 #pragma once
 
 #include <vector>

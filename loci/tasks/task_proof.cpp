@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "loci/tasks/task_cell.hpp"
+#include "loci/tasks/task_cover.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -48,22 +49,8 @@ struct QueuedCell {
 
 double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
-double size_of(const TaskRegion& region, double margin) {
-  return std::max({region.upper()[0] - region.lower()[0], region.upper()[1] - region.lower()[1], margin});
-}
-
-/// Doubles place the task and its margin to rounding; a hair more covers it.
-double hair_of(const TaskRegion& region, double margin) {
-  return 1e-12 * (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
-}
-
 /// The finest cells, as a part of the task: some thousand spacings of doubles.
 constexpr double finest = 1e-11;
-
-bool out_of_time(const TaskEffort& effort, int cells) {
-  constexpr int between_looks = 64;
-  return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
-}
 
 /// Looks for a pose of the task that the witness refutes: poses of cells that were not proven, and places between two
 /// of them where something changes its sign.
@@ -99,7 +86,7 @@ class Refutation {
   }
 
   bool by_cell(const QueuedCell& cell, TaskCell::State state, int condition) {
-    const std::optional<Point2> at = pose_of(cell);
+    const std::optional<Point2> at = pose_within(region_, margin_, cell.x, cell.y);
     if (at && (refuted_at(*at, false) || crossed(*at))) return true;
     return state == TaskCell::State::unmet && cell.depth % between_steps == 0 && stepped(cell.middle(), condition);
   }
@@ -116,17 +103,6 @@ class Refutation {
         0x1p-50 * std::max({std::abs(at[0]), std::abs(at[1]), std::abs(region_.lower()[0]),
                             std::abs(region_.lower()[1]), std::abs(region_.upper()[0]), std::abs(region_.upper()[1])});
     return (distance <= rounding || distance < margin_ - hair_) && witness_(at, closely);
-  }
-
-  /// A pose of the cell that belongs to the task or its margin.
-  std::optional<Point2> pose_of(const QueuedCell& cell) const {
-    const Point2 middle = cell.middle(), base = region_.closest(middle);
-    const double far = apart(middle, base);
-    if (far <= margin_) return middle;
-    const double part = (1 - 1e-6) * margin_ / far;  // the very edge of the margin says nothing
-    const Point2 at = {base[0] + part * (middle[0] - base[0]), base[1] + part * (middle[1] - base[1])};
-    if (!cell.x.contains(at[0]) || !cell.y.contains(at[1])) return std::nullopt;
-    return at;
   }
 
   /// Whether something has another sign here than at a pose seen before, and the witness refutes a pose between.
@@ -205,14 +181,7 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   // closely.
   std::deque<QueuedCell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
                                   Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
-  const auto left_open = [&](const QueuedCell& cell) {
-    const bool first = proof.open++ == 0;
-    const Point2 lower = {cell.x.lower(), cell.y.lower()}, upper = {cell.x.upper(), cell.y.upper()};
-    for (std::size_t c = 0; c < 2; ++c) {
-      proof.lower[c] = first ? lower[c] : std::min(proof.lower[c], lower[c]);
-      proof.upper[c] = first ? upper[c] : std::max(proof.upper[c], upper[c]);
-    }
-  };
+  const auto left_open = [&](const QueuedCell& cell) { leave_open(proof, cell.x, cell.y); };
   // Several at a time, as they stand in the queue.
   constexpr std::size_t cells_at_a_time = 32;
   const auto judge_ahead = [&] {

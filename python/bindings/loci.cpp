@@ -178,7 +178,7 @@ void bind_loci(py::module_& module) {
            })
       .def("export",
            [](const LocusMap& map, const Model& model, const std::string& folder,
-              const std::set<std::string>& formats) { return names_of(export_loci(model, map, folder, formats)); });
+              const std::set<std::string>& formats) { return names_of(export_to(model, map, folder, formats)); });
   module.def("trace_loci", [](const Model& model, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
     return unlocked(request, [&](const LociRequest& own) { return trace_loci(model, own); });

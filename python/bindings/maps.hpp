@@ -23,13 +23,9 @@ py::dict mode_of(const std::vector<std::pair<std::string, std::string>>& mode);
 /// Paths as text.
 std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files);
 
-/// An answer as the library holds it: its values by `data`, and what the program prints and writes of it. `exported`
-/// writes the files; null of an answer that is JSON alone.
+/// An answer as the library holds it: its values by `data`, and what the program prints and writes of it.
 template <class Answer, class Data>
-py::class_<Answer> bind_answer(py::module_& module, const char* name, Data data,
-                               std::vector<std::filesystem::path> (*exported)(const Answer&,
-                                                                              const std::filesystem::path&,
-                                                                              const std::set<std::string>&) = nullptr) {
+py::class_<Answer> bind_answer(py::module_& module, const char* name, Data data) {
   py::class_<Answer> own(module, name);
   own.def("data", [data](const Answer& answer) { return data(answer); });
   own.def("json", [](const Answer& answer) { return to_json(answer); });
@@ -39,10 +35,11 @@ py::class_<Answer> bind_answer(py::module_& module, const char* name, Data data,
     else
       return to_table(answer);
   });
-  if (exported != nullptr)
+  if constexpr (requires(const Answer& answer) { export_to(answer, std::string(), std::set<std::string>()); })
     own.def("export",
-            [exported](const Answer& answer, const Model&, const std::string& folder,
-                       const std::set<std::string>& formats) { return names_of(exported(answer, folder, formats)); });
+            [](const Answer& answer, const Model&, const std::string& folder, const std::set<std::string>& formats) {
+              return names_of(export_to(answer, folder, formats));
+            });
   return own;
 }
 

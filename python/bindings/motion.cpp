@@ -227,11 +227,6 @@ py::list list_of(const PoseInModes& poses) {
   return all;
 }
 
-std::vector<std::filesystem::path> export_files(const Errors& errors, const std::filesystem::path& folder,
-                                                const std::set<std::string>& formats) {
-  return export_errors(errors, folder, formats);
-}
-
 DyadSides only_mode(const Model& model, const py::kwargs& options) {
   const LociRequest request = request_of(model, options);
   return request.working_modes.empty() ? DyadSides{} : request.working_modes.front();
@@ -261,10 +256,8 @@ void put_error(py::dict& to, const PoseError& error) {
 void bind_motion(py::module_& module) {
   bind_answer<Pose>(module, "Pose", [](const Pose& own) { return dict_of(own); });
   bind_answer<PoseInModes>(module, "PoseInModes", [](const PoseInModes& own) { return list_of(own); });
-  bind_answer<Errors>(
-      module, "Errors", [](const Errors& own) { return list_of(own); }, &export_files);
-  bind_answer<TrajectoryResult>(
-      module, "TrajectoryResult", [](const TrajectoryResult& own) { return dict_of(own); }, &export_trajectory);
+  bind_answer<Errors>(module, "Errors", [](const Errors& own) { return list_of(own); });
+  bind_answer<TrajectoryResult>(module, "TrajectoryResult", [](const TrajectoryResult& own) { return dict_of(own); });
   module.def("solve_pose",
              [](const Model& model, const std::vector<double>& at, bool iterate, const py::kwargs& options) {
                return solve_pose(model, at, pose_request(model, iterate, options));

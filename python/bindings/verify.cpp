@@ -160,9 +160,9 @@ TaskFit fit_of(const std::string& word) {
 }  // namespace
 
 void bind_verify(py::module_& module) {
-  bind_answer<Verification>(
-      module, "Verification", [](const Verification& own) { return dict_of(own); }, &export_verification)
-      .def("svgs", [](const Verification& answer) { return std::vector<std::string>{to_svg(answer)}; });
+  bind_answer<Verification>(module, "Verification", [](const Verification& own) {
+    return dict_of(own);
+  }).def("svgs", [](const Verification& answer) { return std::vector<std::string>{to_svg(answer)}; });
   module.def("verify", [](const Model& model, const std::string& text, const std::string& file, const std::string& fit,
                           const py::kwargs& options) {
     VerifyRequest request{.loci = request_of(model, options), .fit = fit_of(fit)};

@@ -136,8 +136,7 @@ py::dict zones_dict(const Zones& map) {
 }  // namespace
 
 void bind_zones(py::module_& module) {
-  auto answer = bind_answer<Zones>(
-      module, "Zones", [](const Zones& own) { return zones_dict(own); }, &export_zones);
+  auto answer = bind_answer<Zones>(module, "Zones", [](const Zones& own) { return zones_dict(own); });
   answer.def("svgs", [](const Zones& map) {
     std::vector<std::string> pictures;
     for (const WorkingMode& mode : modes_of(map)) pictures.push_back(to_svg(map, mode));

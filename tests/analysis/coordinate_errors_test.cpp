@@ -161,10 +161,10 @@ TEST(CoordinateErrorsOfAModel, AreBoundsAloneWithoutALoad) {
   EXPECT_EQ(own.map.fields.size(), 4U);
   EXPECT_EQ(own.map.fields.front().name, "worst_dx");
   EXPECT_EQ(own.undefined, 0U);
-  EXPECT_EQ(error_files(errors, {"svg"}).front().name, "error.svg");
+  EXPECT_EQ(files_of(errors, {"svg"}).front().name, "error.svg");
   const Errors nothing = find_errors(Model::parse(text), {.grid = {40}, .worst_case = false});
   EXPECT_TRUE(nothing.modes.front().map.fields.empty());
-  for (const ExportedFile& file : error_files(nothing, {"svg"})) EXPECT_NE(file.name, "error.svg");
+  for (const ExportedFile& file : files_of(nothing, {"svg"})) EXPECT_NE(file.name, "error.svg");
 }
 
 TEST(CoordinateErrorsOfAModel, AreWholeWhereTheLociAreNotAndEndWithTheirTime) {

@@ -63,11 +63,11 @@ TEST(RequestLimits, AGridIsOneThatMemoryHolds) {
 
 TEST(AnEmptyAnswer, IsNotWritten) {
   const Model model = example("five_bar.yaml");
-  EXPECT_THROW(loci_files(model, LocusMap{}, {"svg"}), InputError);
-  EXPECT_THROW(zone_files(Zones{}, {"svg"}), InputError);
-  EXPECT_THROW(verification_files(Verification{}, {"pdf"}), InputError);
-  EXPECT_THROW(error_files(Errors{}, {"png"}), InputError);
-  EXPECT_THROW(trajectory_files(TrajectoryResult{}, {"png"}), InputError);
+  EXPECT_THROW(files_of(model, LocusMap{}, {"svg"}), InputError);
+  EXPECT_THROW(files_of(Zones{}, {"svg"}), InputError);
+  EXPECT_THROW(files_of(Verification{}, {"pdf"}), InputError);
+  EXPECT_THROW(files_of(Errors{}, {"png"}), InputError);
+  EXPECT_THROW(files_of(TrajectoryResult{}, {"png"}), InputError);
   EXPECT_THROW(to_svg(LocusMap{}, {}), InputError);
 }
 
@@ -75,7 +75,7 @@ TEST(AnEmptyAnswer, IsNotWritten) {
 TEST(ADecision, IsDrawn) {
   const Model model = example("five_bar.yaml");
   const Task task = read_task(source_dir() + "/examples/tasks/pick_and_place.yaml", model);
-  const auto files = verification_files(verify(model, task), {"svg"});
+  const auto files = files_of(verify(model, task), {"svg"});
   ASSERT_EQ(files.size(), 1U);
   EXPECT_NE(files[0].bytes.find("<svg"), std::string::npos);
 }

@@ -38,6 +38,18 @@ class InOwnFolder(unittest.TestCase):
         self.assertEqual(process.returncode, status, f"{words}\n{process.stdout}\n{process.stderr}")
         return process
 
+    def written_twice(self, *words, but_for=lambda name, data: data):
+        """The names of the files that a command writes, sorted, and what it printed; `first` has them. A test fails where
+        a second run writes other bytes, but for what `but_for` leaves out."""
+        folders = [self.folder / name for name in ("first", "second")]
+        process = [self.run_program(*words, "-o", folder) for folder in folders][0]
+        names, again = (sorted(path.name for path in folder.iterdir()) for folder in folders)
+        self.assertEqual(names, again)
+        for name in names:
+            first, second = (but_for(name, (folder / name).read_bytes()) for folder in folders)
+            self.assertEqual(first, second, name)
+        return names, process.stdout
+
     def model(self, change=lambda text: text, name="model.yaml"):
         """The five-bar's file, changed, in the test's folder."""
         path = self.folder / name

@@ -8,7 +8,8 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# Builds the outside project against what is installed under a prefix, and runs the README's program.
+# Builds the outside project against what is installed under a prefix, and runs the README's program. More arguments:
+# targets, if not all.
 function(outside_project prefix)
   set(flags "")
   if(SANITIZE)
@@ -19,7 +20,11 @@ function(outside_project prefix)
   run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${SOURCE}" -B "${WORK}/build" -D "PROGRAMS=${WORK}/programs"
     -D "CMAKE_PREFIX_PATH=${prefix}" -D "CMAKE_CXX_COMPILER=${COMPILER}"
     -D "CMAKE_BUILD_TYPE=${BUILD_TYPE}" -D "CMAKE_CXX_FLAGS=${flags}")
-  run("${CMAKE_COMMAND}" --build "${WORK}/build")
+  set(targets "")
+  if(ARGN)
+    set(targets --target ${ARGN})
+  endif()
+  run("${CMAKE_COMMAND}" --build "${WORK}/build" ${targets})
   file(COPY_FILE "${MODEL}" "${WORK}/build/engraver.yaml")
   run("${CMAKE_COMMAND}" -E chdir "${WORK}/build" ./loci_of)
   if(NOT output MATCHES "c1: .+ = 0\n")

@@ -98,11 +98,11 @@ Json answer_export(const Json& body, const Watch& watch) {
   const Fields fields(body);
   const std::string what = fields.text("what", "loci");
   const std::set<std::string> formats = {fields.text("format")};
-  if (what == "verification") return files_json(verification_files(verification(fields, watch), formats));
+  if (what == "verification") return files_json(files_of(verification(fields, watch), formats));
   const Model model = model_of(fields);
   const LociRequest request = watched(loci_request(fields, model), watch);
-  if (what == "zones") return files_json(zone_files(zones_in_plane(model, request), formats));
-  if (what == "loci") return files_json(loci_files(model, trace_loci(model, request), formats));
+  if (what == "zones") return files_json(files_of(zones_in_plane(model, request), formats));
+  if (what == "loci") return files_json(files_of(model, trace_loci(model, request), formats));
   throw Refusal(400, "'what' is to be loci, zones or verification");
 }
 

@@ -161,16 +161,18 @@ TEST(SheetCells, AreWhatCellsAreAlone) {
   std::uniform_real_distribution<double> unit(0, 1);
   int lifted = 0, outside = 0;
   for (int i = 0; i < 600; ++i) {
+    std::array<std::array<Interval, 2>, SheetCells::size> ranges;
     std::array<SheetCells::Target, SheetCells::size> places;
-    for (auto& place : places) {
+    for (std::size_t lane = 0; lane < SheetCells::size; ++lane) {
       const double x = -0.5 + 1.5 * unit(random), y = -1 + 2 * unit(random), w = std::exp2(-12 * unit(random)) / 8;
-      place = {Interval(x, x + w), Interval(y, y + w)};
+      ranges[lane] = {Interval(x, x + w), Interval(y, y + w)};
+      places[lane] = {ranges[lane]};
     }
     const std::size_t count = 1 + static_cast<std::size_t>(i) % SheetCells::size;
     cells.enter(places, count);
     cells.differentiate();
     for (std::size_t lane = 0; lane < count; ++lane) {
-      ASSERT_EQ(cells.inside(lane), alone.enter(places[lane].x, places[lane].y));
+      ASSERT_EQ(cells.inside(lane), alone.enter(ranges[lane]));
       if (!cells.inside(lane)) {
         ++outside;
         continue;

@@ -97,6 +97,8 @@ TEST(TaskCell, JudgesCellsTogetherAsAlone) {
     const TaskCell::Judgement alone = cell.judge(all[i][0], all[i][1]);
     EXPECT_EQ(together[i].state, alone.state);
     EXPECT_EQ(together[i].unmet, alone.unmet);
+    EXPECT_EQ(cell.enter(all[i]), alone.state);  // as a cell of poses and of no designs
+    EXPECT_EQ(cell.unmet(), alone.unmet);
     ++seen[static_cast<std::size_t>(alone.state)];
   }
   EXPECT_GT(seen[static_cast<std::size_t>(TaskCell::State::proven)], 50);
