@@ -723,8 +723,8 @@ class Derivation {
     more_roots_.back().bounds = limit.bounds;
   }
 
-  /// The cosine of an angle between the links of a dyad is a polynomial in the coordinates. Computed from the elbow it is
-  /// divided by the squared distance of the dyad's ends, and nothing is known of it where they meet.
+  /// The cosine of an angle between the links of a dyad is a polynomial in the coordinates. Computed from the elbow it
+  /// is divided by the squared distance of the dyad's ends, and nothing is known of it where they meet.
   bool is_divided_in_vain(const core::Polynomial& square, const core::StraightLine& line) const {
     const bool has_roots = std::any_of(square.terms.begin(), square.terms.end(), [&](const core::Term& term) {
       return std::any_of(term.exponents.begin() + geometry_.coordinates(), term.exponents.end(),
