@@ -359,6 +359,7 @@ class Builder {
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
     for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
+    for (const sheet::PlaneCell& cell : found.at_cones) node_at({cell.x.middle(), cell.y.middle()});
     return !found.gave_up &&
            std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::PlaneCell& cell) {
              const Point2 at = {cell.x.middle(), cell.y.middle()};
