@@ -718,8 +718,21 @@ class Derivation {
     if (!limit.natural.is_constant()) add(FactorRole::workspace_boundary, &limit.natural, sheet, true, factor);
     more_roots_.push_back({core::limit_name, "", core::RootRole::length,
                            core::scaled_for_doubles(sheet.plain(geometry_.tower_variables()))});
-    more_roots_.back().line = lines_.of(limit.natural);
+    core::StraightLine line = lines_.of(limit.natural);
+    if (!is_divided_in_vain(more_roots_.back().square, line)) more_roots_.back().line = std::move(line);
     more_roots_.back().bounds = limit.bounds;
+  }
+
+  /// The cosine of an angle between the links of a dyad is a polynomial in the coordinates. Computed from the elbow it
+  /// is divided by the squared distance of the dyad's ends, and nothing is known of it where they meet.
+  bool is_divided_in_vain(const core::Polynomial& square, const core::StraightLine& line) const {
+    const bool has_roots = std::any_of(square.terms.begin(), square.terms.end(), [&](const core::Term& term) {
+      return std::any_of(term.exponents.begin() + geometry_.coordinates(), term.exponents.end(),
+                         [](int exponent) { return exponent != 0; });
+    });
+    return !has_roots && std::any_of(line.steps.begin(), line.steps.end(), [](const core::StraightLine::Step& step) {
+      return step.operation == core::StraightLine::Operation::inverse;
+    });
   }
 
   /// Where a dyad on others is stretched and where it is folded, each by itself: the product of both, which the square

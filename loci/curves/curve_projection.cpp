@@ -228,6 +228,7 @@ const CurveProjection& CurveProjections::of(int curve) {
 }
 
 const core::LocusFactor* factor_of(const core::LocusProblem& problem, const core::LocusCurve& curve) {
+  const core::LocusFactor* owner = nullptr;
   for (const core::LocusFactor& factor : problem.factors) {
     const FactorRole role = curve.kind == LocusKind::direct_singularity   ? FactorRole::direct_singularity
                             : curve.kind == LocusKind::margin             ? FactorRole::margin
@@ -235,14 +236,18 @@ const core::LocusFactor* factor_of(const core::LocusProblem& problem, const core
                             : curve.kind == LocusKind::workspace_boundary ? FactorRole::workspace_boundary
                                                                           : FactorRole::reaction;
     if (role == FactorRole::workspace_boundary || factor.role != role) continue;
+    const bool is_named = factor.expression == curve.factor;
     // The two senses of a least force have one polynomial.
-    if (role == FactorRole::margin && factor.expression != curve.factor) continue;
+    if (role == FactorRole::margin && !is_named) continue;
     if (curve.implicit.is_zero()
-            ? factor.implicit.empty() && factor.expression == curve.factor
-            : std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end())
-      return &factor;
+            ? factor.implicit.empty() && is_named
+            : std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end()) {
+      // Two factors may own one polynomial, each on sheets on which the other one does not vanish.
+      if (is_named) return &factor;
+      if (owner == nullptr) owner = &factor;
+    }
   }
-  return nullptr;
+  return owner;
 }
 
 }  // namespace clearloci::loci

@@ -56,8 +56,9 @@ class CurveProjections {
   std::map<int, CurveProjection> known_;
 };
 
-/// The factor of the problem whose zeros a curve is: the one that owns its polynomial and plays its part, or that it is
-/// named for where no polynomial is computed; null for the workspace boundary, and where several factors name it.
+/// The factor of the problem whose zeros a curve is: the one that owns its polynomial and plays its part, of several
+/// the one that it is named for, or that it is named for where no polynomial is computed; null for the workspace
+/// boundary, and where several factors name it.
 const core::LocusFactor* factor_of(const core::LocusProblem& problem, const core::LocusCurve& curve);
 
 }  // namespace clearloci::loci

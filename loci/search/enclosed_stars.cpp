@@ -159,6 +159,11 @@ class Nodes {
   std::vector<SheetFunction> functions_;  ///< the two that are looked for, all parts, the probe
 };
 
+/// Of a way that is linear in the coordinates. Over the half tangents of angles it is not.
+bool is_at_rational_point(const core::DyadBase& base) {
+  return core::total_degree(base.x) <= 1 && core::total_degree(base.y) <= 1;
+}
+
 }  // namespace
 
 std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::WorkingMode& mode,
@@ -167,7 +172,7 @@ std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::Worki
   std::vector<Star> stars;
   for (const core::DyadBase& base : tower.bases) {
     const Subtower part = subtower(tower, mode, {base.x, base.y});
-    if (part.kept.empty()) continue;  // at a rational point, or nowhere
+    if (is_at_rational_point(base)) continue;  // known exactly, or nowhere
     const SheetFunction x = {narrowed(base.x, part), narrowed(base.x_line, part)};
     const SheetFunction y = {narrowed(base.y, part), narrowed(base.y_line, part)};
     const ZeroSet found = isolated_zeros(part.tower, part.mode, x, y, box.lower, box.upper);

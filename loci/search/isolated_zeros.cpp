@@ -13,6 +13,12 @@ namespace {
 // Once a chart is given up the set stays open, and the others get this part of the cells.
 constexpr int share_after_giving_up = 8;
 
+// Of the box: a zero this near to a cone counts as the cone.
+constexpr double at_rounding = 1e-12;
+
+/// The direction from end to end is, so that roots vanish; at nodes of a function alone none do.
+bool is_undefined_at(const Star& star) { return star.shape == Star::Shape::cone && !star.roots.empty(); }
+
 /// The zero in plane coordinates. `enclosure`: of the chart's coordinates and roots.
 SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, const std::vector<Star>& stars) {
   SheetZero zero;
@@ -66,7 +72,9 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
       if (disjoint(place.x, box_x) || disjoint(place.y, box_y)) continue;
       const SheetZero zero = describe(enclosure, chart, parts.stars);
       if (!plane && enclosure[0].contains_zero()) {
-        result.undecided.push_back(place);  // at the star itself, where the construction is undefined
+        const bool at_cone = is_undefined_at(parts.stars[static_cast<std::size_t>(chart.star)]) &&
+                             std::max(place.x.width(), place.y.width()) <= at_rounding * size;
+        (at_cone ? result.at_cones : result.undecided).push_back(place);
         continue;
       }
       // A zero on the seam of two charts is found in both.

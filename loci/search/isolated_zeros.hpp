@@ -35,7 +35,10 @@ inline constexpr int cells_of_a_sketch = 256;
 struct ZeroSet {
   std::vector<SheetZero> zeros;      ///< sorted by x, then y
   std::vector<PlaneCell> undecided;  ///< hulls of clusters of cells that may hold further zeros
-  bool gave_up = false;              ///< stopped early: N1 and N2 vanish together along a curve, or nearly
+  /// One zero each, which cannot be told from a cone to rounding: there the construction is undefined, and all
+  /// functions may vanish in one direction.
+  std::vector<PlaneCell> at_cones;
+  bool gave_up = false;  ///< stopped early: N1 and N2 vanish together along a curve, or nearly
 };
 
 /// Zeros inside the workspace and the box; zeros on the box's edges count as inside.

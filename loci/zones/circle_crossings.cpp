@@ -40,4 +40,22 @@ std::optional<std::vector<Point2>> circle_crossings(const core::ClosedForm& a, c
   return std::vector<Point2>{{foot[0] + x, foot[1] + y}, {foot[0] - x, foot[1] - y}};
 }
 
+std::vector<Point2> own_crossings(const core::ClosedForm& form) {
+  const auto* pair = std::get_if<core::CirclePairForm>(&form);
+  if (pair == nullptr) return {};
+  // Centres a + b sqrt(n) and a - b sqrt(n): sqrt(n) cancels in the foot of the common chord and in its squared half.
+  const core::Rational n(pair->n), bx = pair->centre[0].multiple, by = pair->centre[1].multiple;
+  const core::Rational b2 = bx * bx + by * by;
+  if (b2 == 0) return {};
+  const core::Rational along = pair->radius_squared.multiple / (2 * b2);
+  const core::Rational half2 = pair->radius_squared.rational - n * b2 - along * along * b2;
+  if (half2 < 0) return {};
+  const Point2 foot = {core::to_double(pair->centre[0].rational - along * bx),
+                       core::to_double(pair->centre[1].rational - along * by)};
+  if (half2 == 0) return {foot};
+  const double part = std::sqrt(core::to_double(half2 / b2));
+  const double x = -part * core::to_double(by), y = part * core::to_double(bx);
+  return {{foot[0] + x, foot[1] + y}, {foot[0] - x, foot[1] - y}};
+}
+
 }  // namespace clearloci::loci

@@ -237,7 +237,8 @@ class Builder {
         const bool passes = a.kind == LocusKind::preload || b.kind == LocusKind::preload;
         const bool one_singular =
             !passes && (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
-        if (one_singular || is_one_curve(a, b) || add_closed_crossings(owners[i], owners[k])) continue;
+        if (one_singular || add_own_crossings(owners[i], owners[k]) || add_closed_crossings(owners[i], owners[k]))
+          continue;
         for (const sheet::PlaneCell& place : meeting_places(owners[i], owners[k]))
           if (!add_crossings_in(place, owners[i], owners[k])) {
             add_plane_crossings(a, b);
@@ -246,7 +247,15 @@ class Builder {
       }
   }
 
-  /// Arcs of one curve do not cross: they end where it crosses itself.
+  /// Of two factors' parts of one plane curve: where it crosses itself, arcs of one factor end, but one of each may
+  /// pass, or touch the other. False: they are parts of different curves.
+  bool add_own_crossings(int first, int second) {
+    if (!is_one_curve(curve(first), curve(second))) return false;
+    for (const Point2& at : own_crossings(curve(first).closed_form))
+      if (passed_by(first, at) && passed_by(second, at)) node_at(at);
+    return true;
+  }
+
   static bool is_one_curve(const core::LocusCurve& a, const core::LocusCurve& b) {
     return a.implicit == b.implicit && (!a.implicit.is_zero() || a.factor == b.factor);
   }
@@ -350,6 +359,7 @@ class Builder {
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
     for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
+    for (const sheet::PlaneCell& cell : found.at_cones) node_at({cell.x.middle(), cell.y.middle()});
     return !found.gave_up &&
            std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::PlaneCell& cell) {
              const Point2 at = {cell.x.middle(), cell.y.middle()};

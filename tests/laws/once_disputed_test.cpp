@@ -261,5 +261,48 @@ TEST(OnceDisputed, AShortArc) { hold("witness/mirrored_short_arc", true); }
 // Bases a billionth of the legs apart: the exact engine cannot tell signs there and says so.
 TEST(OnceDisputed, LegsThatAreNearlyCoaxial) { hold("witness/kite_near_coaxial", false); }
 
+void all_is_certified(const std::string& name) {
+  SCOPED_TRACE(name);
+  const core::LocusMap map = trace_loci(corpus(name), {});
+  EXPECT_TRUE(map.complete);
+  EXPECT_TRUE(map.open.empty());
+  EXPECT_FALSE(map.curves.empty());
+  for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id << " " << curve.factor;
+}
+
+void all_zones_are_certified(const std::string& name, const ZoneRequest& request = {}) {
+  SCOPED_TRACE(name);
+  const core::Zones map = find_zones(corpus(name), request);
+  ASSERT_FALSE(map.zones.empty());
+  double sum = 0, workspace = 0;
+  for (const core::Zone& zone : map.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    sum += zone.size;
+  }
+  for (const auto& mode : map.modes) workspace += mode.workspace;
+  EXPECT_NEAR(sum, workspace, 1e-4 * workspace);
+}
+
+// A limit of the angle at the elbow keeps the pin from the base of legs of equal lengths. Computed from the elbow the
+// cosine of that angle is divided by the distance, so that it excluded nothing there.
+TEST(OnceDisputed, NothingIsOpenAtABaseBeyondALimit) { all_is_certified("loci/rrrpr_limit_keeps_from_the_base"); }
+
+// Over motor angles the elbows meet at irrational half tangents: no chart was made around these places.
+TEST(OnceDisputed, ElbowsThatMeetOverMotorAngles) { all_is_certified("loci/five_bar_angles_elbows_meet"); }
+
+// The contact losses of both legs are parts of one curve, two circles that touch at the common base: parts of either
+// pass there and touch.
+TEST(OnceDisputed, ZonesBetweenTwoFactorsOfOneCurveThatTouch) {
+  all_zones_are_certified("loci/kite_contact_losses_touch_at_the_base");
+}
+
+// Both links are parallel to the load on one pair of lines, each on another line of the mode: points of the one were
+// moved onto the other factor.
+TEST(OnceDisputed, ZonesBetweenTwoFactorsOfOneCurveApart) {
+  ZoneRequest request;
+  request.loci.all_working_modes = true;
+  all_zones_are_certified("loci/one_rail_two_factors_of_one_curve", request);
+}
+
 }  // namespace
 }  // namespace clearloci

@@ -58,5 +58,26 @@ TEST(OtherCurves, HaveNoClosedFormOfTheirCrossings) {
   EXPECT_FALSE(circle_crossings(core::ConicForm{}, LineForm{1, 0, 0}));
 }
 
+// (x - sqrt(2) u)^2 + (y - sqrt(2) v)^2 = r^2 and its conjugate about the origin: (u, v) is half the way between the
+// centres over sqrt(2).
+TEST(CirclesCross, ThatAreConjugate) {
+  const auto pair = [](const Rational& radius_squared) {
+    return core::CirclePairForm{
+        2, {core::QuadraticNumber{1, 3}, core::QuadraticNumber{-2, 4}}, core::QuadraticNumber{radius_squared, 0}};
+  };
+  const auto touch = own_crossings(pair(50));  // the centres are 10 sqrt(2) apart
+  ASSERT_EQ(touch.size(), 1U);
+  EXPECT_EQ(touch.front(), (core::Point2{1, -2}));
+  EXPECT_TRUE(own_crossings(pair(49)).empty());
+  EXPECT_TRUE(own_crossings(circle(0, 0, 1)).empty());
+  const core::CirclePairForm other{
+      3, {core::QuadraticNumber{0, 1}, core::QuadraticNumber{1, 2}}, core::QuadraticNumber{40, Rational(7)}};
+  const auto points = own_crossings(other);
+  ASSERT_EQ(points.size(), 2U);
+  for (const core::Circle& circle : core::circles_of(other))
+    for (const core::Point2& p : points)
+      EXPECT_NEAR(std::hypot(p[0] - circle.centre[0], p[1] - circle.centre[1]), circle.radius, 1e-13);
+}
+
 }  // namespace
 }  // namespace clearloci::loci
