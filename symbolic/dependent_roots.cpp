@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "symbolic/geometry.hpp"
+#include "symbolic/tower_steps.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -99,7 +100,7 @@ class Squares {
     if (p.is_zero()) return SquareClass{1, p};
     if (level == 0) return over_coordinates(p);
     const TowerRoot& top = roots_[level - 1];
-    const auto [a, b] = split(p, top);
+    const auto [a, b] = split(p, top.variable);
     if (b.is_zero()) {
       if (auto plain = of(a, level - 1)) return plain;
       // a = c e^2 / Q = c (e s / Q)^2.
@@ -132,42 +133,10 @@ class Squares {
 
   bool open() const { return open_; }
 
-  Poly reduce(const Poly& p) const {
-    Poly result = p;
-    for (auto next = roots_.rbegin(); next != roots_.rend(); ++next) {
-      if (result.degree(next->variable) < 2) continue;
-      const std::vector<Poly> powers = result.coefficients(next->variable);
-      Poly even(p.ring()), odd(p.ring()), square_power(p.ring(), 1);
-      for (std::size_t k = 0; k < powers.size(); ++k) {
-        (k % 2 == 0 ? even : odd) += powers[k] * square_power;
-        if (k % 2 == 1) square_power *= next->square;
-      }
-      result = even + odd * Poly::variable(p.ring(), next->variable);
-    }
-    return result;
-  }
-
-  /// In the field; nothing where it is no polynomial over the tower.
-  std::optional<Poly> quotient(Poly p, Poly divisor) const {
-    for (auto next = roots_.rbegin(); next != roots_.rend(); ++next) {
-      if (!divisor.depends_on(next->variable)) continue;
-      const auto [a, b] = split(divisor, *next);
-      const Poly conjugate = a - b * Poly::variable(p.ring(), next->variable);
-      p = reduce(p * conjugate);
-      divisor = reduce(a * a - b * b * next->square);
-    }
-    if (divisor.is_zero()) return std::nullopt;
-    Poly result(p.ring());
-    return p.divides(divisor, result) ? std::optional(result) : std::nullopt;
-  }
+  Poly reduce(Poly p) const { return reduced_in(std::move(p), roots_); }
 
  private:
-  static std::pair<Poly, Poly> split(const Poly& p, const TowerRoot& root) {
-    std::vector<Poly> parts = p.coefficients(root.variable);
-    core::ensure(parts.size() <= 2, "a polynomial reduced in its roots");
-    if (parts.size() == 1) parts.emplace_back(p.ring());
-    return {std::move(parts[0]), std::move(parts[1])};
-  }
+  std::optional<Poly> quotient(const Poly& p, const Poly& divisor) const { return quotient_in(p, divisor, roots_); }
 
   static std::optional<SquareClass> over_coordinates(const Poly& p) {
     const Poly primitive = p.primitive();
@@ -237,7 +206,7 @@ SquareTest square_class(const Poly& p, int coordinates, const std::vector<TowerR
 }
 
 std::optional<Poly> quotient_over_tower(const Poly& p, const Poly& divisor, const std::vector<TowerRoot>& roots) {
-  return Squares(roots).quotient(p, divisor);
+  return quotient_in(p, divisor, roots);
 }
 
 int sign_over_box(const core::Polynomial& p, const std::vector<Rational>& lower, const std::vector<Rational>& upper) {

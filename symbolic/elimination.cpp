@@ -5,19 +5,12 @@
 
 #include "core/errors.hpp"
 #include "symbolic/dependent_roots.hpp"
+#include "symbolic/tower_steps.hpp"
 
 namespace clearloci::symbolic {
 namespace {
 
 using core::Rational;
-
-/// N = a + b s for a reduced N.
-std::pair<Poly, Poly> split(const Poly& p, int variable) {
-  std::vector<Poly> parts = p.coefficients(variable);
-  core::ensure(parts.size() <= 2, "a polynomial reduced in its roots");
-  if (parts.size() == 1) parts.emplace_back(p.ring());
-  return {std::move(parts[0]), std::move(parts[1])};
-}
 
 void insert_distinct(std::vector<Poly>& list, const Poly& p) {
   if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
@@ -31,7 +24,9 @@ Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   for (const Poly& denominator : geometry.denominators())
     if (geometry.coordinates() != 2 || !is_beyond_use(norm_degree(denominator))) eliminate(denominator, found);
   denominator_factors_ = std::move(found);
-  known_denominators_ = geometry.denominators();
+  // Most of those without roots are products of these factors.
+  for (const Poly& denominator : geometry.denominators())
+    if (!strip_denominators(denominator).is_constant()) known_denominators_.push_back(denominator);
   // What vanishes nowhere is divided out like a denominator, but is no place where the mode may change.
   const auto& units = geometry.positive_units();
   known_denominators_.insert(known_denominators_.end(), units.begin(), units.end());
@@ -178,6 +173,7 @@ std::vector<PolyFactor> Elimination::factors_over_tower(Poly sheet) const {
   Rational constant;
   std::vector<PolyFactor> elements;
   const auto split_off = [&](const Poly& element) {
+    if (!line_image().may_divide(element, line_image().of(sheet))) return;
     PolyFactor found{element, 0};
     while (std::optional<Poly> rest = quotient_over_tower(sheet, element, independent_roots_)) {
       sheet = strip_denominators(std::move(*rest));
@@ -231,35 +227,21 @@ std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with
   return result;
 }
 
-namespace {
-
-double weighted_degree(const Poly& p, const std::vector<double>& weight) {
-  double degree = 0;
-  const core::Polynomial plain = p.plain();
-  for (const core::Term& term : plain.terms) {
-    double own = 0;
-    for (std::size_t i = 0; i < weight.size(); ++i) own += weight[i] * term.exponents[i];
-    degree = std::max(degree, own);
-  }
-  return degree;
-}
-
-}  // namespace
-
 const std::vector<double>& Elimination::degree_weights() const {
   if (!degree_weights_.empty()) return degree_weights_;
   // A root weighs half the degree of its square; weights of nested ones add up from the first on.
   std::vector<double> weight(static_cast<std::size_t>(geometry_->ring().size()), 0.0);
   for (int i = 0; i < geometry_->coordinates(); ++i) weight[static_cast<std::size_t>(i)] = 1;
   for (const TowerRoot& root : geometry_->roots())
-    weight[static_cast<std::size_t>(root.variable)] = weighted_degree(root.square, weight) / 2;
+    weight[static_cast<std::size_t>(root.variable)] = root.square.weighted_degree(weight) / 2;
   return degree_weights_ = std::move(weight);
 }
 
-double Elimination::norm_degree(const Poly& sheet) const {
+template <class P>
+double Elimination::norm_degree(const P& sheet) const {
   const auto& roots = geometry_->roots();
   std::vector<bool> used(roots.size(), false);
-  double degree = weighted_degree(sheet, degree_weights());
+  double degree = sheet.weighted_degree(degree_weights());
   // The squares of roots that occur bring in the earlier roots.
   for (std::size_t j = roots.size(); j-- > 0;) {
     used[j] = sheet.depends_on(roots[j].variable);
@@ -270,11 +252,14 @@ double Elimination::norm_degree(const Poly& sheet) const {
   return degree;
 }
 
-bool Elimination::has_angle(const Poly& sheet) const {
+template <class P>
+bool Elimination::has_angle(const P& sheet) const {
   const auto& roots = geometry_->roots();
   return std::any_of(roots.begin(), roots.end(),
                      [&](const TowerRoot& root) { return root.is_angle() && sheet.depends_on(root.variable); });
 }
+
+bool Elimination::has_angle_over_tower(const Poly& natural) const { return has_angle(over_tower_on_line(natural)); }
 
 bool Elimination::is_too_heavy(const Poly& sheet) const {
   return has_angle(sheet) /* no polynomial has its zeros */ || is_beyond_use(norm_degree(sheet));
@@ -286,38 +271,18 @@ bool Elimination::is_beyond_use(double norm_degree) const {
 }
 
 bool Elimination::is_too_heavy_over_tower(const Poly& natural) const {
-  if (stretched(natural) != nullptr) return is_too_heavy(over_tower(natural));
-  // On a line degrees may drop, and what divides a polynomial divides it there: what is beyond use there is so
-  // anywhere.
-  if (geometry_->coordinates() > 1 && is_beyond_use(norm_degree(over_tower_on_line(natural)))) return true;
-  return is_too_heavy(over_tower(natural));
+  // On the line its degree is the same, and so is what divides it.
+  const ResiduePoly& image = over_tower_on_line(natural);
+  return has_angle(image) || is_beyond_use(norm_degree(image));
 }
 
-const Elimination::LineTower& Elimination::line_tower() const {
-  if (line_tower_) return *line_tower_;
-  LineTower line;
-  for (const TowerRoot& root : geometry_->roots()) line.squares.push_back(on_line(root.square));
-  line.substitutions = geometry_->substitutions();
-  for (Substitution& pair : line.substitutions)
-    pair.place = {on_line(pair.place.x), on_line(pair.place.y), on_line(pair.place.z), on_line(pair.place.w)};
-  for (const std::vector<Poly>* const list : {&denominator_factors_, &known_denominators_})
-    for (const Poly& denominator : *list) line.denominators.push_back(on_line(denominator));
-  return line_tower_.emplace(std::move(line));
-}
-
-Poly Elimination::over_tower_on_line(const Poly& natural) const {
-  const LineTower& line = line_tower();
-  Poly result = on_line(natural);
-  for (const Substitution& pair : line.substitutions) {
-    const int degree = Geometry::degree_in(result, pair);
-    if (degree == 0) continue;
-    result = geometry_->substituted(result, pair, degree, &line.squares);
-    Poly quotient(result.ring());
-    for (const Poly& denominator : line.denominators)
-      while (!result.is_zero() && !denominator.is_constant() && result.divides(denominator, quotient))
-        result = quotient;
+const LineImage& Elimination::line_image() const {
+  if (!line_image_) {
+    std::vector<Poly> divisors = denominator_factors_;
+    divisors.insert(divisors.end(), known_denominators_.begin(), known_denominators_.end());
+    line_image_ = std::make_unique<LineImage>(*geometry_, divisors, denominator_factors_, independent_roots_);
   }
-  return result;
+  return *line_image_;
 }
 
 std::vector<Poly> Elimination::implicit_factors(const Poly& sheet) const {
@@ -360,47 +325,20 @@ void Elimination::eliminate(Poly p, std::vector<Poly>& found, bool keeps_divisor
     eliminate(norm, found, keeps_divisors);
 }
 
-Poly Elimination::on_line(Poly p) const {
-  const Ring& ring = geometry_->ring();
-  const int last = geometry_->coordinates() - 1;
-  for (int variable = 0; variable < last; ++variable) {
-    const Poly line = Poly(ring, Rational(911 + 97 * variable, 1873)) +
-                      Poly::variable(ring, last).scaled(Rational(-577, 1021 + variable));
-    Poly sum(ring), power(ring, 1);
-    for (const Poly& coefficient : p.coefficients(variable)) {
-      sum += coefficient * power;
-      power *= line;
-    }
-    p = sum;
-  }
-  return p;
+const ResiduePoly& Elimination::over_tower_on_line(const Poly& natural) const {
+  for (const auto& [asked, known] : over_tower_on_line_)
+    if (asked == natural) return known;
+  const LineImage& line = line_image();
+  return over_tower_on_line_
+      .emplace_back(natural, stretched(natural) != nullptr ? line.of(over_tower(natural)) : line.over_tower(natural))
+      .second;
 }
 
-Poly Elimination::norm_on_line(const Poly& sheet) const {
-  const Ring& ring = geometry_->ring();
-  Poly p = on_line(sheet);
-  const auto& roots = geometry_->roots();
-  for (auto next = roots.rbegin(); next != roots.rend(); ++next) {
-    const TowerRoot& root = *next;
-    const std::vector<Poly> powers = p.coefficients(root.variable);
-    if (powers.size() == 1) continue;
-    const Poly square = on_line(root.square);
-    Poly even(ring), odd(ring), square_power(ring, 1);
-    for (std::size_t k = 0; k < powers.size(); ++k) {
-      (k % 2 == 0 ? even : odd) += powers[k] * square_power;
-      if (k % 2 == 1) square_power *= square;
-    }
-    p = even * even - odd * odd * square;
-  }
-  for (const Poly& denominator : denominator_factors_) {
-    const Poly restricted = on_line(denominator);
-    Poly quotient(ring);
-    while (!restricted.is_constant() && p.divides(restricted, quotient)) p = quotient;
-  }
-  return p;
+ResiduePoly Elimination::norm_on_line(const Poly& natural) const {
+  return line_image().norm(over_tower_on_line(natural));
 }
 
-bool Elimination::may_share_curve(const Poly& norm_a, const Poly& norm_b) const {
+bool Elimination::may_share_curve(const ResiduePoly& norm_a, const ResiduePoly& norm_b) {
   return !gcd(norm_a, norm_b).is_constant();
 }
 

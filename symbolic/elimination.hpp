@@ -4,11 +4,13 @@
 #pragma once
 
 #include <list>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "symbolic/geometry.hpp"
+#include "symbolic/line_image.hpp"
 
 namespace clearloci::symbolic {
 
@@ -50,32 +52,33 @@ class Elimination {
   /// The same of a factor that the places of points are divided by.
   std::vector<Poly> implicit_of_divisor(const Poly& divisor) const;
 
-  /// A bound on the degree that the product of all conjugates may have, before anything is divided out.
-  double norm_degree(const Poly& sheet) const;
-
   /// Whether implicit_factors would take long and come to more than anyone can use. Traced on the sheets such factors
   /// are as well off without.
   bool is_too_heavy(const Poly& sheet) const;
-  /// The same of a natural polynomial; most that are too heavy are known to be without being put over the tower.
+  /// The same of a natural polynomial, without putting it over the tower.
   bool is_too_heavy_over_tower(const Poly& natural) const;
   /// Whether an angle is among its roots: then no polynomial has its zeros.
-  bool has_angle(const Poly& sheet) const;
+  bool has_angle_over_tower(const Poly& natural) const;
 
   /// The irreducible factors of the squared distances that the closure divides by.
   const std::vector<Poly>& denominator_factors() const { return denominator_factors_; }
 
-  /// Whether two sheet polynomials can share a curve, from their norms on one arbitrary line, where a common curve
-  /// shows as a common factor. False is certain; true may be a rare coincidence.
-  bool may_share_curve(const Poly& norm_a, const Poly& norm_b) const;
-  Poly norm_on_line(const Poly& sheet) const;
+  /// Whether two natural polynomials can share a curve, from their norms on one arbitrary line, where a common curve
+  /// shows as a common factor (line_image.hpp).
+  static bool may_share_curve(const ResiduePoly& norm_a, const ResiduePoly& norm_b);
+  ResiduePoly norm_on_line(const Poly& natural) const;
 
  private:
+  template <class P>
+  bool has_angle(const P& sheet) const;
+  /// A bound on the degree that the product of all conjugates may have, before anything is divided out.
+  template <class P>
+  double norm_degree(const P& sheet) const;
   /// With numbers for the coordinates: in roots alone.
   Poly at_one_pose(Poly p) const;
   Poly over_tower_at_one_pose(const Poly& natural) const;
-  Poly over_tower_on_line(const Poly& natural) const;
-  /// The coordinates on one arbitrary line x_i = p_i + q_i x_last.
-  Poly on_line(Poly p) const;
+  const LineImage& line_image() const;
+  const ResiduePoly& over_tower_on_line(const Poly& natural) const;
   bool is_beyond_use(double norm_degree) const;
   void eliminate(Poly p, std::vector<Poly>& found, bool keeps_divisors = false) const;
   /// The factors of a sheet polynomial. Over a tower elements have no unique factors, but where a root depends on
@@ -88,13 +91,6 @@ class Elimination {
   bool has_free_coordinate(const Poly& p) const;
   Poly strip_denominators(Poly p) const;
 
-  /// What over_tower needs, on the line of on_line.
-  struct LineTower {
-    std::vector<Poly> squares;
-    std::vector<Substitution> substitutions;
-    std::vector<Poly> denominators;
-  };
-  const LineTower& line_tower() const;
   /// Of a dyad on others: (P - A) x (B - A) = s / 2, which need not be multiplied out to be known.
   struct Stretched {
     Poly natural, root;
@@ -105,10 +101,11 @@ class Elimination {
   const std::vector<double>& degree_weights() const;
 
   const Geometry* geometry_;
-  mutable std::optional<LineTower> line_tower_;          ///< made where it is asked for
+  mutable std::unique_ptr<LineImage> line_image_;        ///< made where it is asked for
   mutable std::vector<double> degree_weights_;           ///< likewise
   mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors
   mutable std::list<std::pair<Poly, bool>> vanishing_;   ///< likewise
+  mutable std::list<std::pair<Poly, ResiduePoly>> over_tower_on_line_;
   std::vector<Stretched> stretched_;
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower

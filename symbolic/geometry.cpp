@@ -8,6 +8,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/group_closing.hpp"
 #include "mechanism/posture_sample.hpp"
+#include "symbolic/tower_steps.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -340,33 +341,8 @@ int Geometry::degree_in(const Poly& natural, const Substitution& pair) {
   return natural.degree(variables);
 }
 
-Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int degree,
-                           const std::vector<Poly>* squares) const {
-  const auto reduced = [&](const Poly& p) { return reduce(p, squares); };
-  // A term of degree i in x, j in y and k in z takes X^i Y^j Z^k W^(degree - i - j - k).
-  const auto powers = [&](const Poly& base) {
-    std::vector<Poly> list(1, Poly(*ring_, 1));
-    for (int i = 0; i < degree; ++i) list.push_back(reduced(list.back() * base));
-    return list;
-  };
-  const std::vector<Poly> xs = powers(pair.place.x), ys = powers(pair.place.y), zs = powers(pair.place.z),
-                          ws = powers(pair.place.w);
-  // What a term takes is multiplied out and reduced before it meets the term's long coefficient.
-  Poly sum(*ring_);
-  const std::vector<Poly> by_x = natural.coefficients(pair.x);
-  for (std::size_t i = 0; i < by_x.size(); ++i) {
-    const std::vector<Poly> by_y = pair.y < 0 ? std::vector<Poly>{by_x[i]} : by_x[i].coefficients(pair.y);
-    for (std::size_t j = 0; j < by_y.size(); ++j) {
-      if (by_y[j].is_zero()) continue;
-      const std::vector<Poly> by_z = pair.z < 0 ? std::vector<Poly>{by_y[j]} : by_y[j].coefficients(pair.z);
-      for (std::size_t k = 0; k < by_z.size(); ++k) {
-        if (by_z[k].is_zero()) continue;
-        const Poly& w = ws[static_cast<std::size_t>(degree) - i - j - k];
-        sum += by_z[k] * reduced(reduced(xs[i] * ys[j]) * reduced(zs[k] * w));
-      }
-    }
-  }
-  return reduced(sum);
+Poly Geometry::substituted(const Poly& natural, const Substitution& pair, int degree) const {
+  return with_place(natural, pair, degree, roots_);
 }
 
 Poly Geometry::poly(const GiNaC::ex& e) const {
@@ -392,23 +368,7 @@ Poly Geometry::poly(const GiNaC::ex& e) const {
   return poly(e.op(0)).pow(static_cast<unsigned>(GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int()));
 }
 
-Poly Geometry::reduce(const Poly& p, const std::vector<Poly>* squares) const {
-  Poly result = p;
-  // From the last root down: a square may hold earlier roots only.
-  for (std::size_t next = roots_.size(); next-- > 0;) {
-    const TowerRoot& root = roots_[next];
-    if (root.is_angle() || result.degree(root.variable) < 2) continue;
-    const std::vector<Poly> powers = result.coefficients(root.variable);
-    const Poly s = Poly::variable(*ring_, root.variable);
-    Poly even(*ring_), odd(*ring_), square_power(*ring_, 1);
-    for (std::size_t k = 0; k < powers.size(); ++k) {
-      (k % 2 == 0 ? even : odd) += powers[k] * square_power;
-      if (k % 2 == 1) square_power *= squares == nullptr ? root.square : (*squares)[next];
-    }
-    result = even + odd * s;
-  }
-  return result;
-}
+Poly Geometry::reduce(Poly p) const { return reduced_in(std::move(p), roots_); }
 
 std::vector<int> Geometry::tower_variables() const {
   std::vector<int> variables;

@@ -177,9 +177,7 @@ class Geometry {
   /// What over_tower puts in, in an order in which no place holds a coordinate that is still to be replaced.
   std::vector<Substitution> substitutions() const;
   /// A natural polynomial with one pair replaced, times W^degree; `degree` is at least its degree in the pair.
-  /// On a line, or at a pose, `pair` has its place there, and `squares` are those of all roots there.
-  Poly substituted(const Poly& natural, const Substitution& pair, int degree,
-                   const std::vector<Poly>* squares = nullptr) const;
+  Poly substituted(const Poly& natural, const Substitution& pair, int degree) const;
   static int degree_in(const Poly& natural, const Substitution& pair);
 
   /// A ring variable that occurs in nothing else, for telling two polynomials of one computation apart.
@@ -196,7 +194,7 @@ class Geometry {
   /// A polynomial GiNaC expression as an element of the ring.
   Poly poly(const GiNaC::ex& expression) const;
   /// Powers of roots put back: at most the first power of each remains.
-  Poly reduce(const Poly& p, const std::vector<Poly>* squares = nullptr) const;
+  Poly reduce(Poly p) const;
 
   /// Ring variables in the order of core::RootTower: coordinates, then roots.
   std::vector<int> tower_variables() const;

@@ -339,7 +339,7 @@ class Derivation {
     for (const std::size_t i : components[0]) {
       for (const std::size_t k : components[1]) {
         // Where a factor of both vanishes there is a curve of contact loss anyway.
-        if (in(components[1], i) || in(components[0], k) || never_both(i, k)) continue;
+        if (in(components[1], i) || in(components[0], k) || never_both(i, k) || meet_nowhere(i, k)) continue;
         factors_[i].wanted_point = factors_[k].wanted_point = true;
       }
     }
@@ -361,8 +361,15 @@ class Derivation {
   bool may_share_curve(std::size_t i, std::size_t k) {
     const auto [known, fresh] = may_share_.try_emplace({i, k}, false);
     // Curves are told to be the same by their polynomials: where one is too large to be had, norms say nothing of use.
-    if (fresh && !is_heavy(i) && !is_heavy(k)) known->second = elimination_.may_share_curve(on_line(i), on_line(k));
+    if (fresh && !is_heavy(i) && !is_heavy(k)) known->second = Elimination::may_share_curve(on_line(i), on_line(k));
     return known->second;
+  }
+
+  /// With one coordinate a curve is a point: what shares none is never zero together.
+  bool meet_nowhere(std::size_t i, std::size_t k) {
+    return geometry_.coordinates() == 1 && !elimination_.has_angle_over_tower(factors_[i].natural) &&
+           !elimination_.has_angle_over_tower(factors_[k].natural) &&
+           !Elimination::may_share_curve(on_line(i), on_line(k));
   }
 
   bool is_heavy(std::size_t factor) {
@@ -377,10 +384,10 @@ class Derivation {
     return sheets_.emplace(factor, elimination_.over_tower(factors_[factor].natural)).first->second;
   }
 
-  const Poly& on_line(std::size_t factor) {
+  const ResiduePoly& on_line(std::size_t factor) {
     const auto known = on_line_.find(factor);
     if (known != on_line_.end()) return known->second;
-    return on_line_.emplace(factor, elimination_.norm_on_line(sheet_of(factor))).first->second;
+    return on_line_.emplace(factor, elimination_.norm_on_line(factors_[factor].natural)).first->second;
   }
 
   /// In the coordinates of the frame, noted with those of the file.
@@ -1029,7 +1036,8 @@ class Derivation {
   std::vector<std::pair<Poly, Vanishing>> cancelled_;  ///< natural factors of |A| and a numerator, and how often
   std::vector<DeterminantPart> determinant_parts_;
   std::map<std::pair<std::size_t, std::size_t>, bool> never_both_, may_share_;  ///< by factors
-  std::map<std::size_t, Poly> sheets_, on_line_;                                ///< by factor
+  std::map<std::size_t, Poly> sheets_;                                          ///< by factor
+  std::map<std::size_t, ResiduePoly> on_line_;                                  ///< likewise
   std::map<std::size_t, bool> heavy_;
   std::vector<core::Root> more_roots_;  ///< written in the coordinates and the roots of the geometry
   DerivedProblem result_;

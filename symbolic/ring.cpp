@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdlib>
 #include <numeric>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/thread_end.hpp"
@@ -147,6 +148,25 @@ Poly& Poly::operator*=(const Poly& other) {
   return *this;
 }
 
+// Into a new polynomial: copies of long coefficients take as long as their sum.
+Poly operator+(const Poly& a, const Poly& b) {
+  Poly result(*a.ring_);
+  fmpq_mpoly_add(result.value_, a.value_, b.value_, a.ring_->context());
+  return result;
+}
+
+Poly operator-(const Poly& a, const Poly& b) {
+  Poly result(*a.ring_);
+  fmpq_mpoly_sub(result.value_, a.value_, b.value_, a.ring_->context());
+  return result;
+}
+
+Poly operator*(const Poly& a, const Poly& b) {
+  Poly result(*a.ring_);
+  fmpq_mpoly_mul(result.value_, a.value_, b.value_, a.ring_->context());
+  return result;
+}
+
 Poly Poly::operator-() const { return scaled(-1); }
 
 Poly Poly::scaled(const Rational& factor) const {
@@ -183,14 +203,21 @@ int Poly::total_degree() const { return static_cast<int>(fmpq_mpoly_total_degree
 
 int Poly::degree(const std::vector<int>& variables) const {
   if (std::none_of(variables.begin(), variables.end(), [this](int variable) { return depends_on(variable); })) return 0;
-  ulong largest = 0;
+  std::vector<double> weights(static_cast<std::size_t>(ring_->size()), 0.0);
+  for (const int variable : variables) weights[static_cast<std::size_t>(variable)] = 1;
+  return static_cast<int>(weighted_degree(weights));
+}
+
+double Poly::weighted_degree(const std::vector<double>& weights) const {
+  double largest = 0;
+  std::vector<ulong> exponents(static_cast<std::size_t>(ring_->size()));
   for (slong term = 0; term < static_cast<slong>(length()); ++term) {
-    const std::vector<ulong> exponents = exponents_of(*this, term);
-    ulong sum = 0;
-    for (const int variable : variables) sum += exponents[static_cast<std::size_t>(variable)];
+    fmpq_mpoly_get_term_exp_ui(exponents.data(), value_, term, ring_->context());
+    double sum = 0;
+    for (std::size_t v = 0; v < weights.size(); ++v) sum += weights[v] * static_cast<double>(exponents[v]);
     largest = std::max(largest, sum);
   }
-  return static_cast<int>(largest);
+  return largest;
 }
 
 bool Poly::divides(const Poly& divisor, Poly& quotient) const {
@@ -204,16 +231,18 @@ Poly Poly::exact_quotient(const Poly& divisor) const {
 }
 
 std::vector<Poly> Poly::coefficients(int variable) const {
-  std::vector<Poly> result(static_cast<std::size_t>(std::max(degree(variable), 0)) + 1, Poly(*ring_));
+  const auto highest = static_cast<std::size_t>(std::max(degree(variable), 0));
+  if (highest == 0) return {1, *this};
+  std::vector<Poly> result(highest + 1, Poly(*ring_));
   // Whole coefficients under the common content: a fraction for every term would be reduced again and again.
   const fmpz_mpoly_ctx_struct* const whole = ring_->context()->zctx;
   for (Poly& part : result) fmpq_set(part.value_->content, value_->content);
+  std::vector<ulong> exponents(static_cast<std::size_t>(ring_->size()));
   fmpz_t coefficient;
   fmpz_init(coefficient);
   for (slong term = 0; term < static_cast<slong>(length()); ++term) {
-    std::vector<ulong> exponents = exponents_of(*this, term);
-    const ulong power = exponents[static_cast<std::size_t>(variable)];
-    exponents[static_cast<std::size_t>(variable)] = 0;
+    fmpz_mpoly_get_term_exp_ui(exponents.data(), value_->zpoly, term, whole);
+    const ulong power = std::exchange(exponents[static_cast<std::size_t>(variable)], 0);
     fmpz_mpoly_get_term_coeff_fmpz(coefficient, value_->zpoly, term, whole);
     // Terms of one power keep their order when the power is taken out, so pushing keeps each list sorted.
     fmpz_mpoly_push_term_fmpz_ui(result[power].value_->zpoly, coefficient, exponents.data(), whole);

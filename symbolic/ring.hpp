@@ -52,9 +52,9 @@ class Poly {
   Poly& operator+=(const Poly& other);
   Poly& operator-=(const Poly& other);
   Poly& operator*=(const Poly& other);
-  friend Poly operator+(Poly a, const Poly& b) { return a += b; }
-  friend Poly operator-(Poly a, const Poly& b) { return a -= b; }
-  friend Poly operator*(Poly a, const Poly& b) { return a *= b; }
+  friend Poly operator+(const Poly& a, const Poly& b);
+  friend Poly operator-(const Poly& a, const Poly& b);
+  friend Poly operator*(const Poly& a, const Poly& b);
   Poly operator-() const;
   Poly scaled(const core::Rational& factor) const;
   Poly pow(unsigned exponent) const;
@@ -69,6 +69,8 @@ class Poly {
   int total_degree() const;
   /// The largest sum of the exponents of some variables; 0 for the zero polynomial.
   int degree(const std::vector<int>& variables) const;
+  /// The largest sum of the exponents of all variables, each times its weight.
+  double weighted_degree(const std::vector<double>& weights) const;
   bool depends_on(int variable) const { return degree(variable) > 0; }
 
   /// The quotient if `divisor` divides exactly; false otherwise, leaving `quotient` unspecified.

@@ -204,11 +204,18 @@ MultiInterval angle_slope(const MultiInterval& y, const MultiInterval& x) {
 }
 
 MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterval>& at) {
+  std::vector<std::vector<MultiInterval>> powers(at.size());  // of every variable, from the first power on
+  const auto power = [&](std::size_t variable, int exponent) -> const MultiInterval& {
+    std::vector<MultiInterval>& known = powers[variable];
+    while (known.size() < static_cast<std::size_t>(exponent))
+      known.push_back(known.empty() ? at[variable] : known.back() * at[variable]);
+    return known[static_cast<std::size_t>(exponent) - 1];
+  };
   MultiInterval sum(0.0);
   for (const core::Term& term : p.terms) {
     MultiInterval product(term.coefficient);
     for (std::size_t v = 0; v < term.exponents.size(); ++v)
-      for (int k = 0; k < term.exponents[v]; ++k) product = product * at[v];
+      if (term.exponents[v] > 0) product = product * power(v, term.exponents[v]);
     sum = sum + product;
   }
   return sum;

@@ -183,6 +183,10 @@ void bind_loci(py::module_& module) {
     LociRequest request = request_of(model, options);
     return unlocked(request, [&](const LociRequest& own) { return trace_loci(model, own); });
   });
+  module.def("carry_loci", [](const LocusMap& last, const Model& model, const py::kwargs& options) {
+    LociRequest request = request_of(model, options);
+    return unlocked(request, [&](const LociRequest& own) { return carry_loci(last, model, own); });
+  });
   // Its values are those of its JSON.
   bind_answer<Validation>(module, "Validation", [](const Validation& validation) {
     return py::module_::import("json").attr("loads")(to_json(validation));

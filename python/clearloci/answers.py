@@ -282,12 +282,22 @@ def validation_of(own: dict[str, Any]) -> Validation:
 class Loci(_Answer):
     """The discontinuity loci of a model."""
 
-    def __init__(self, model: Model, options: dict[str, Any]) -> None:
+    def __init__(self, model: Model, options: dict[str, Any], last: Loci | None = None) -> None:
         self.model, self.options = model, dict(options)
+        self._last = last  # of another design: what these were carried over from
         self._fill(self._held.data())
 
     def _ask(self) -> Any:
+        if self._last is not None:
+            return _clearloci.carry_loci(self._last._held, self.model._handle, **self.options)
         return _clearloci.trace_loci(self.model._handle, **self.options)
+
+    def carried_to(self, model: Model) -> Loci:
+        """These loci, moved vertex by vertex to those of another design of the mechanism by Newton's method: a quick
+        first answer, of which nothing is proven (`certified` and `complete` are false). Loci that are new are absent.
+        Asked with the same options; over one to three coordinates.
+        """
+        return Loci(model, self.options, self)
 
     def _fill(self, data: dict[str, Any]) -> None:
         self.coordinates: list[str] = data["coordinates"]

@@ -139,3 +139,24 @@ def test_free_efforts_are_chosen():
         model.errors()
     assert any(curve.kind == "preload" for curve in model.loci().curves)
     assert model.with_parameters(preload_B2=-20).loci().curves
+
+
+def test_carried_loci_lie_on_those_of_the_new_design(five_bar):
+    longer = five_bar.with_parameters(L="0.51")
+    traced = five_bar.loci()
+    carried, proven = traced.carried_to(longer), longer.loci()
+    assert not carried.complete and not any(curve.certified for curve in carried.curves)
+    assert [curve.id for curve in carried.curves] == [curve.id for curve in traced.curves]
+    implicit = {curve.id: curve.implicit for curve in proven.curves}
+    for curve in carried.curves:
+        assert curve.arcs
+        polynomial = eval(f"lambda x, y: {implicit[curve.id].replace('^', '**')}")
+        for arc in curve.arcs:
+            x, y = arc[:, 0], arc[:, 1]
+            step = 1e-6
+            slope = np.hypot(
+                polynomial(x + step, y) - polynomial(x - step, y), polynomial(x, y + step) - polynomial(x, y - step)
+            ) / (2 * step)
+            assert np.median(np.abs(polynomial(x, y)) / np.maximum(slope, 1e-12)) <= 1e-9
+    again = pickle.loads(pickle.dumps(carried))
+    assert [len(curve.arcs) for curve in again.curves] == [len(curve.arcs) for curve in carried.curves]
