@@ -103,11 +103,8 @@ VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequ
   if (std::none_of(mechanism.joints.begin(), mechanism.joints.end(), has_teeth)) return request;
   if (request.fit != TaskFit::none)
     throw InputError({task.file}, "tasks with gears are verified where they lie", "leave out --fit");
-  const WidenedTask widened(mechanism, task);
-  const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
-  const std::vector<double> at = widened.settled(region.samples().front());
   const DyadSides sides = requested_modes(mechanism, request.loci).front(),
-                  bearing = sides_that_push(widened.at_place(at, 0), sides, at);
+                  bearing = sides_that_push(mechanism, task, sides);
   if (!request.loci.working_modes.empty() && bearing != sides)
     throw InputError({.file = "--working-mode"},
                      "in this working mode the teeth of a gear would have to pull in the task",
