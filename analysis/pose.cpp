@@ -445,7 +445,6 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
                 const PoseRequest& request) {
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
-  if (request.iterate) refuse_gears(mechanism, "pose errors are iterated", "leave out --iterate");
   if (mechanism::preloaded_joints(mechanism).empty()) return solve_on_flanks(mechanism, at, request);
   const std::vector<numeric::Bounded> values = with_rounding(at);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
