@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/widened_task.hpp"
 #include "core/errors.hpp"
+#include "loci/tasks/tasks.hpp"
 #include "mechanism/evaluate.hpp"
 #include "numeric/reactions.hpp"
 
@@ -53,6 +55,14 @@ DyadSides sides_that_push(const mechanism::Mechanism& mechanism, const DyadSides
   for (const DyadSides& own : modes_of_flanks(mechanism, sides))
     if (numeric::bounded_numerators(model, pose, own).reachable) return own;
   return sides;
+}
+
+DyadSides sides_that_push(const mechanism::Mechanism& mechanism, const core::Task& task, const DyadSides& sides) {
+  if (std::none_of(mechanism.joints.begin(), mechanism.joints.end(), has_teeth)) return sides;
+  const WidenedTask widened(mechanism, task);
+  const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
+  const std::vector<double> at = widened.settled(region.samples().front());
+  return sides_that_push(widened.at_place(at, 0), sides, at);
 }
 
 std::string words_of_pulled(const std::vector<std::string>& gears) {

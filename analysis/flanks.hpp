@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clearloci/pose.hpp"
+#include "core/task.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci {
@@ -27,6 +28,9 @@ std::vector<DyadSides> modes_of_flanks(const mechanism::Mechanism& mechanism, co
 /// That of them in which the teeth push at a pose; `sides` where none is.
 DyadSides sides_that_push(const mechanism::Mechanism& mechanism, const DyadSides& sides,
                           const std::vector<double>& pose);
+
+/// That of them in which the teeth push at a pose of a task, under a load of it; `sides` without gears.
+DyadSides sides_that_push(const mechanism::Mechanism& mechanism, const core::Task& task, const DyadSides& sides);
 
 /// "the load presses the other flank of gear W".
 std::string words_of_pulled(const std::vector<std::string>& gears);

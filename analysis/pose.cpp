@@ -26,6 +26,8 @@
 #include "mechanism/group_closing.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
+#include "mechanism/posture_sample.hpp"
+#include "mechanism/rigidity.hpp"
 #include "mechanism/written_unit.hpp"
 #include "numeric/displaced.hpp"
 #include "numeric/dynamics.hpp"
@@ -445,7 +447,6 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
                 const PoseRequest& request) {
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
-  if (request.iterate) refuse_gears(mechanism, "pose errors are iterated", "leave out --iterate");
   if (mechanism::preloaded_joints(mechanism).empty()) return solve_on_flanks(mechanism, at, request);
   const std::vector<numeric::Bounded> values = with_rounding(at);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
@@ -514,22 +515,56 @@ std::optional<std::size_t> most_assemblies(const mechanism::Mechanism& mechanism
   return rigid && within == sides ? std::optional(of_a_platform) : std::nullopt;
 }
 
-/// Of every assembly of a group in a working mode: it is that of a posture at this very pose.
+/// One assembly of the groups so far, or all of them.
+struct Assembly {
+  core::BlockUnknowns unknowns;
+  loci::pose::UnknownsBox enclosed;
+};
+
+void put_assembly(mechanism::Mechanism& mechanism, const core::BlockUnknowns& unknowns) {
+  std::size_t k = 0;
+  for (mechanism::Group& group : mechanism.groups)
+    for (auto& place : group.near)
+      for (std::size_t c = 0; c < mechanism::dimension(mechanism) && k < unknowns.size(); ++c)
+        place[c] = core::Rational(unknowns[k++]);
+}
+
+/// Group by group at a pose, each over the assemblies of those before it. `complete`: none is missing.
+std::vector<Assembly> assemblies_at(const mechanism::Mechanism& mechanism, const std::vector<double>& pose,
+                                    const DyadSides& sides, bool& complete) {
+  std::vector<Assembly> all = {{}};
+  for (std::size_t g = 0; g < mechanism.groups.size(); ++g) {
+    std::vector<Assembly> longer;
+    for (const Assembly& own : all) {
+      mechanism::Mechanism until = mechanism::up_to_group(mechanism, g);
+      put_assembly(until, own.unknowns);
+      const auto box = mechanism::group_reach(until, pose, sides);
+      loci::pose::AllSolutions found;
+      if (box)
+        found = loci::pose::all_solutions(mechanism::group_program(until, sides), pose, own.enclosed, *box,
+                                          most_assemblies(mechanism, mechanism.groups[g]));
+      complete = complete && found.complete;
+      for (std::size_t i = 0; i < found.found.size(); ++i) {
+        Assembly next{std::move(found.found[i]), own.enclosed};
+        const loci::pose::UnknownsBox& here = found.enclosed[i];
+        next.enclosed.insert(next.enclosed.end(), here.begin(), here.end());
+        // Of one that meets another nothing is proven of what stands on it.
+        if (!here.empty() || g + 1 == mechanism.groups.size())
+          longer.push_back(std::move(next));
+        else
+          complete = false;
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+/// Of every assembly of the groups in a working mode: it is that of a posture at this very pose.
 void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                     const PoseRequest& request, std::vector<ModePose>& modes) {
   std::vector<double> pose;
-  for (const core::Rational& own : at) pose.push_back(core::to_double(own));
-  loci::pose::AllSolutions all;
-  const auto box = mechanism.groups.size() == 1 ? mechanism::group_reach(mechanism, pose) : std::nullopt;
-  if (box)
-    all = loci::pose::all_solutions(mechanism::group_program(mechanism, request.working_mode), pose, *box,
-                                    most_assemblies(mechanism, mechanism.groups.front()));
-  const mechanism::Group& group = mechanism.groups.front();
-  if (all.found.empty()) {
-    modes.push_back(solve_in(mechanism, at, request));
-    if (!all.complete) modes.back().working_mode.emplace_back(group.name, "that of its posture, others are not told");
-    return;
-  }
+  for (const core::Rational& value : at) pose.push_back(core::to_double(value));
   mechanism::Mechanism own = mechanism;
   own.near = at;
   // Nothing is asked of other poses.
@@ -539,14 +574,27 @@ void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<cor
     coordinate.lower = at[c] - near;
     coordinate.upper = at[c] + near;
   }
-  for (std::size_t i = 0; i < all.found.size(); ++i) {
-    std::size_t k = 0;
-    for (auto& place : own.groups.front().near)
-      for (std::size_t c = 0; c < mechanism::dimension(mechanism); ++c) place[c] = core::Rational(all.found[i][k++]);
+  bool complete = true;
+  std::vector<Assembly> all = assemblies_at(own, pose, request.working_mode, complete);
+  // No link is bent or turned over.
+  const mechanism::HeldByLinks held = mechanism::held_by_links(mechanism);
+  std::erase_if(all, [&](const Assembly& assembly) {
+    put_assembly(own, assembly.unknowns);
+    const auto posture = mechanism::sample_posture(own, pose, request.working_mode);
+    return posture && !mechanism::keeps(held, *posture);
+  });
+  std::string names;
+  for (const mechanism::Group& group : mechanism.groups) names += (names.empty() ? "" : ", ") + group.name;
+  if (all.empty()) {
+    modes.push_back(solve_in(mechanism, at, request));
+    if (!complete) modes.back().working_mode.emplace_back(names, "that of its posture, others are not told");
+    return;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    put_assembly(own, all[i].unknowns);
     modes.push_back(solve_in(own, at, request));
-    modes.back().working_mode.emplace_back(group.name, "assembly " + std::to_string(i + 1) + " of " +
-                                                           std::to_string(all.found.size()) +
-                                                           (all.complete ? "" : " or more"));
+    modes.back().working_mode.emplace_back(names, "assembly " + std::to_string(i + 1) + " of " +
+                                                      std::to_string(all.size()) + (complete ? "" : " or more"));
   }
 }
 

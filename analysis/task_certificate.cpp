@@ -12,13 +12,10 @@
 
 namespace clearloci {
 
-void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task& task) {
+void require_certifiable(const core::Task& task) {
   const auto refuse = [](const std::string& what) {
     throw core::InputError({.file = "--certificate"}, "there is no certificate of " + what, "leave --certificate out");
   };
-  if (!mechanism.groups.empty()) refuse("mechanisms whose points close together");
-  if (meshes(mechanism)) refuse("mechanisms with gears or belts");
-  if (mechanism::has_effort_bounds(mechanism)) refuse("mechanisms whose efforts have bounds");
   if (task.pose_error) refuse("a task that bounds the pose error");
   if (std::holds_alternative<core::TaskMesh>(task.shape)) refuse("a mesh");
 }
@@ -26,7 +23,8 @@ void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task
 core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, const core::Task& task,
                                      const LociRequest& asked) {
   const LociRequest request = request_of(task, asked);
-  core::TaskCertificate own{{}, task, requested_modes(mechanism, request).front(), {}, {}};
+  core::TaskCertificate own{
+      {}, task, sides_that_push(mechanism, task, requested_modes(mechanism, request).front()), {}, {}};
   for (const mechanism::Coordinate& c : mechanism.coordinates) own.coordinates.push_back(c.name);
   for (const core::Tolerance& tolerance : task.tolerances) {
     const Rational& value = mechanism::parameter_named(mechanism, tolerance.parameter)->value;
@@ -38,6 +36,8 @@ core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, cons
   for (const mechanism::Mechanism& loaded : widened.loads()) models.push_back(numeric::compile(loaded));
   std::vector<std::string> notes;
   own.demands = loaded_demands(models, own.sides, demands_of(mechanism, request), region.samples(), notes);
+  // Bounds of efforts are the model's.
+  std::erase_if(own.demands, [](const core::TaskDemand& demand) { return demand.bound.has_value(); });
   return own;
 }
 

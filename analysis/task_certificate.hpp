@@ -7,9 +7,8 @@
 
 namespace clearloci {
 
-/// Throws core::InputError for a task or a mechanism that no certificate is of: points that close together, loads other
-/// than the file's, polygons, meshes, pose errors.
-void require_certifiable(const mechanism::Mechanism& mechanism, const core::Task& task);
+/// Throws core::InputError for a task that no certificate is of: meshes, pose errors.
+void require_certifiable(const core::Task& task);
 
 /// Of the first of the request's working modes. Required: the task is verified, and may be certified.
 core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, const core::Task& task,

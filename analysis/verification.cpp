@@ -1,6 +1,8 @@
 #include "analysis/verification.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -97,17 +99,54 @@ core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::Numeri
 
 namespace {
 
+Verification verified_in(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
+  Verification result = is_asked_of_tower(mechanism, task, request.fit)
+                            ? verify_by_tower(mechanism, task, request)
+                            : verify_by_statics(mechanism::with_bounded_belts(mechanism), task, request);
+  tell_mechanism(mechanism, request, result);
+  return result;
+}
+
+/// Whether a place that was found is better than another one, for what is looked for.
+bool is_better(const Verification& a, const Verification& b, TaskFit fit) {
+  if (a.verified() != b.verified()) return a.verified();
+  if (fit == TaskFit::best) return a.margin.value_or(0) > b.margin.value_or(0);
+  if (fit == TaskFit::largest) return a.scaled_by.value_or(0) > b.scaled_by.value_or(0);
+  const auto way = [](const Verification& own) {
+    double square = 0;
+    for (std::size_t c = 0; own.moved_by && c < own.moved_by->size(); ++c)
+      square += std::pow(core::to_double((*own.moved_by)[c]) *
+                             (own.angles[c] && own.task.angle_length ? core::to_double(*own.task.angle_length) : 1),
+                         2);
+    return square;
+  };
+  return way(a) < way(b);
+}
+
+/// A place on any flank, where none is asked for: the teeth push all over it.
+Verification placed_on_flanks(Mechanism mechanism, const Task& task, VerifyRequest request) {
+  const bool by_tower = is_asked_of_tower(mechanism, task, request.fit);
+  // The tower ends where teeth would have to pull; statics is told so. No effort that a file can ask for is larger.
+  constexpr long largest = 1'000'000'000'000'000;
+  for (mechanism::Joint& joint : mechanism.joints)
+    if (!by_tower && has_teeth(joint)) joint.within = {0, largest};
+  std::vector<DyadSides> modes = requested_modes(mechanism, request.loci);
+  if (request.loci.working_modes.empty()) modes = modes_of_flanks(mechanism, modes.front());
+  std::optional<Verification> best;
+  for (const DyadSides& sides : modes) {
+    request.loci.working_modes = {sides};
+    Verification own = verified_in(mechanism, task, request);
+    if (!best || is_better(own, *best, request.fit)) best = std::move(own);
+  }
+  return std::move(*best);
+}
+
 /// With gears a task is verified on the flanks that bear in it: no teeth change theirs between two of its poses, or
 /// under two of its loads.
 VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequest request) {
   if (std::none_of(mechanism.joints.begin(), mechanism.joints.end(), has_teeth)) return request;
-  if (request.fit != TaskFit::none)
-    throw InputError({task.file}, "--fit does not move tasks of mechanisms with gears", "leave out --fit");
-  const WidenedTask widened(mechanism, task);
-  const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
-  const std::vector<double> at = widened.settled(region.samples().front());
   const DyadSides sides = requested_modes(mechanism, request.loci).front(),
-                  bearing = sides_that_push(widened.at_place(at, 0), sides, at);
+                  bearing = sides_that_push(mechanism, task, sides);
   if (!request.loci.working_modes.empty() && bearing != sides)
     throw InputError({.file = "--working-mode"},
                      "in this working mode the teeth of a gear would have to pull in the task",
@@ -154,17 +193,15 @@ void tell_mechanism(const Mechanism& mechanism, const VerifyRequest& request, Ve
 Verification verify(const Model& model, const Task& task, const VerifyRequest& asked) {
   const Mechanism& mechanism = model.content().mechanism;
   check_request(mechanism, asked.loci);
-  const VerifyRequest request = on_flanks(mechanism, task, asked);
+  const bool placed =
+      asked.fit != TaskFit::none && std::any_of(mechanism.joints.begin(), mechanism.joints.end(), has_teeth);
+  const VerifyRequest request = placed ? asked : on_flanks(mechanism, task, asked);
   refuse_tolerances_of_belts(mechanism, task);
   check_task(mechanism, task);
   require_answerable(mechanism, task, request);
   if (!task.preload.empty()) return verify_preloaded(model, task, request);
   if (!mechanism::joints_without_preload(mechanism).empty()) return verify_with_preload(model, task, request);
-  Verification result = is_asked_of_tower(mechanism, task, request.fit)
-                            ? verify_by_tower(mechanism, task, request)
-                            : verify_by_statics(mechanism::with_bounded_belts(mechanism), task, request);
-  tell_mechanism(mechanism, request, result);
-  return result;
+  return placed ? placed_on_flanks(mechanism, task, request) : verified_in(mechanism, task, request);
 }
 
 Task read_task(const std::string& path, const Model& model) {

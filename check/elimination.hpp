@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "check/interval.hpp"
@@ -42,6 +43,21 @@ std::vector<std::size_t> reduce(std::vector<std::vector<Number>>& rows, std::siz
     pivots.push_back(column);
   }
   return pivots;
+}
+
+using Dense = std::vector<std::vector<double>>;
+
+/// In doubles; nothing of it is trusted.
+inline std::optional<Dense> inverse_of(Dense a) {
+  const std::size_t n = a.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    a[i].resize(2 * n, 0.0);
+    a[i][n + i] = 1;
+  }
+  double determinant = 1;
+  if (reduce(a, n, determinant).size() < n) return std::nullopt;
+  for (std::vector<double>& row : a) row.erase(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
+  return a;
 }
 
 }  // namespace clearloci::check

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "check/interval.hpp"
@@ -23,6 +24,19 @@ class Jet {
   Jet(const Interval& over, const Offsets& offsets, std::size_t c)
       : value_(over), middle_(middle_of(over)), slopes_(offsets.size(), Interval(over.bits())), offsets_(&offsets) {
     slopes_[c] = Interval(1.0, over.bits());
+  }
+  /// A function that is known by these; it is at most as wide as they are.
+  Jet(const Interval& value, const Interval& middle, std::vector<Interval> slopes, const Offsets& offsets)
+      : value_(value), middle_(middle), slopes_(std::move(slopes)), offsets_(&offsets) {
+    met();
+  }
+  /// The same over a cell of more coordinates, on those behind its own of which it does not depend.
+  Jet over(const Offsets& longer) const {
+    if (is_constant()) return *this;
+    Jet result = *this;
+    result.slopes_.resize(longer.size(), Interval(value_.bits()));
+    result.offsets_ = &longer;
+    return result;
   }
 
   const Interval& value() const { return value_; }

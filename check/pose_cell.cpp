@@ -68,21 +68,6 @@ class Sum {
   double size_ = 0, terms_ = 0;
 };
 
-using Dense = std::vector<std::vector<double>>;
-
-/// In doubles; nothing of it is trusted.
-std::optional<Dense> inverse_of(Dense a) {
-  const std::size_t n = a.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    a[i].resize(2 * n, 0.0);
-    a[i][n + i] = 1;
-  }
-  double determinant = 1;
-  if (reduce(a, n, determinant).size() < n) return std::nullopt;
-  for (std::vector<double>& row : a) row.erase(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(n));
-  return a;
-}
-
 class Solved {
  public:
   Solved(const PoseEquations& equations, const Jet::Offsets& offsets, const std::vector<LoadBall>& balls)
@@ -99,6 +84,8 @@ class Solved {
     if (!proof_.regular) return proof_;
     for (std::size_t d = 0; d < demands.size(); ++d)
       proof_.demands[d] = keeps(equations_.demands[d], std::nextafter(demands[d].least.get_d(), infinite));
+    proof_.positive = true;
+    for (const auto& own : equations_.positive) proof_.positive = is_positive(own) && proof_.positive;
     return proof_;
   }
 
@@ -182,7 +169,8 @@ class Solved {
     return false;
   }
 
-  bool keeps(const std::vector<PoseEntry>& entries, double least) {
+  /// One a row of the entries.
+  std::vector<Sum> sums_of(const std::vector<PoseEntry>& entries) const {
     std::size_t count = 0;
     for (const PoseEntry& entry : entries) count = std::max(count, entry.row + 1);
     std::vector<Sum> sums(count, Sum(half_.size()));
@@ -193,10 +181,14 @@ class Solved {
       sum.add(q.c, rho_[entry.unknown]);
       sum.widen((spread(q) + q.r) * radius_[entry.unknown] + std::abs(q.c) * rest_[entry.unknown]);
     }
+    return sums;
+  }
+
+  bool keeps(const std::vector<PoseEntry>& entries, double least) {
     // Along its direction at the middle.
     std::vector<PoseForm> components;
     double square = 0;
-    for (Sum& sum : sums) {
+    for (Sum& sum : sums_of(entries)) {
       components.push_back(sum.done());
       square += components.back().c * components.back().c;
     }
@@ -204,8 +196,19 @@ class Solved {
     if (!(length > 0) || !std::isfinite(length)) return false;
     Sum along(half_.size());
     for (const PoseForm& own : components) along.add(own.c / length, own);
-    const PoseForm form = along.done();
-    note(form, 1 / length);
+    return is_above(along.done(), 1 / length, least);
+  }
+
+  bool is_positive(const PoseEquations::Positive& own) {
+    std::vector<Sum> sums = sums_of(own.entries);
+    if (sums.size() != 1) return false;
+    sums.front().add(1, form_of(own.constant, half_));
+    const PoseForm form = sums.front().done();
+    return is_above(form, 1 / (std::abs(form.c) + std::numeric_limits<double>::min()), 0);
+  }
+
+  bool is_above(const PoseForm& form, double per, double least) {
+    note(form, per);
     return form.c - (spread(form) + form.r) * (1 + 0x1p-40) > least * (1 + 16 * ulp);
   }
 
@@ -239,7 +242,7 @@ class Solved {
 }  // namespace
 
 bool PoseCellProof::holds() const {
-  return regular && std::all_of(demands.begin(), demands.end(), [](bool own) { return own; });
+  return regular && positive && std::all_of(demands.begin(), demands.end(), [](bool own) { return own; });
 }
 
 PoseCellProof prove_cell(const PoseEquations& equations, const std::vector<core::TaskDemand>& demands,

@@ -18,6 +18,7 @@ struct LoadBall {
 struct PoseCellProof {
   bool regular = false;         ///< A is, all over it
   std::vector<bool> demands;    ///< the reaction keeps above its least, and points into one half space
+  bool positive = false;        ///< all that the model itself asks to be
   std::vector<double> spreads;  ///< what each coordinate does to it: where to cut
   bool holds() const;
 };

@@ -24,14 +24,16 @@ class Assembly {
     rows_of_wrench_ = is_planar() ? std::vector<std::size_t>{0, 1, 5} : std::vector<std::size_t>{0, 1, 2, 3, 4, 5};
     result_.right.resize(rows_of_wrench_.size() * m.links.size());
     for (const mechanism::Joint& joint : m.joints) add_joint(joint);
-    for (std::size_t j = 0; j < m.joints.size() && is_planar(); ++j)
-      if (m.joints[j].actuated) add_planar_actuator(m.joints[j], columns_[j]);
+    for (std::size_t j = 0; j < m.joints.size(); ++j)
+      if (m.joints[j].actuated && (is_planar() || mechanism::is_cable(m.joints[j])))
+        add_actuator(m.joints[j], columns_[j]);
     core::ensure(result_.right.size() == result_.unknowns, "the equations are square");
     add_loads();
   }
 
   EquationsOf<Number> run(const std::vector<core::TaskDemand>& demands) {
-    for (const core::TaskDemand& demand : demands) add_demand(demand);
+    for (const core::TaskDemand& demand : demands) result_.demands.push_back(entries_of(demand.joint, demand.quantity));
+    for (const mechanism::Joint& joint : m_.joints) add_bounds(joint);
     return std::move(result_);
   }
 
@@ -90,13 +92,15 @@ class Assembly {
     const mechanism::JointTraits& traits = mechanism::traits(joint);
     Columns own;
     own.axis = axis_of(m_, values_, points_, joint);
-    if (is_planar() && traits.slides) {
+    if (mechanism::is_cable(joint)) {
+      if (joint.holds_turning)
+        for (std::size_t c = is_planar() ? 2 : 0; c < 3; ++c)
+          own.couple.push_back(add_unknown(joint, couple(unit_along<Number>(c))));
+    } else if (traits.meshes) {
+      // Nothing but what its actuator exerts.
+    } else if (is_planar() && traits.slides) {
       own.normal = add_unknown(joint, force_at(joint.at, cross(unit_along<Number>(2), own.axis)));
       if (!traits.pinned) own.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
-    } else if (traits.meshes && joint.axes.empty()) {
-      own.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
-    } else if (traits.meshes) {
-      own.along = add_unknown(joint, force_at(joint.at, own.axis));
     } else if (is_planar()) {
       own.force = add_forces(joint, 2);
     } else {
@@ -112,8 +116,8 @@ class Assembly {
     columns_.push_back(std::move(own));
   }
 
-  void add_planar_actuator(const mechanism::Joint& joint, Columns& own) {
-    if (mechanism::traits(joint).slides)
+  void add_actuator(const mechanism::Joint& joint, Columns& own) {
+    if (mechanism::actuator_quantity(joint) == Quantity::F)
       own.along = add_unknown(joint, force_at(joint.at, own.axis));
     else
       own.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
@@ -183,12 +187,11 @@ class Assembly {
     load(joint.from, own, -1);
   }
 
-  void add_demand(const core::TaskDemand& demand) {
+  std::vector<EntryOf<Number>> entries_of(const std::string& joint, Quantity quantity) {
     const auto found = std::find_if(m_.joints.begin(), m_.joints.end(),
-                                    [&](const mechanism::Joint& joint) { return joint.name == demand.joint; });
+                                    [&](const mechanism::Joint& other) { return other.name == joint; });
     const auto refuse = [&]() -> core::InputError {
-      return {
-          {m_.file}, core::to_string(demand.quantity) + "_" + demand.joint + " is borne by no joint of the model", ""};
+      return {{m_.file}, core::to_string(quantity) + "_" + joint + " is borne by no joint of the model", ""};
     };
     if (found == m_.joints.end()) throw refuse();
     const Columns& own = columns_[static_cast<std::size_t>(found - m_.joints.begin())];
@@ -202,38 +205,57 @@ class Assembly {
     const auto whole = [&](const std::vector<std::size_t>& unknowns) {
       for (std::size_t c = 0; c < unknowns.size(); ++c) add(c, unknowns[c], Values<Number>::number(1.0));
     };
-    if (is_guide_end(demand.quantity) && mechanism::has_guide_ends(m_, *found)) {
+    if (is_guide_end(quantity) && mechanism::has_guide_ends(m_, *found)) {
       const Number half = Values<Number>::number(0.5);
       const Number tilt = half / values_.value(found->clearance->half_length);
       add(0, *own.normal, half);
-      add(0, own.couple.front(), demand.quantity == Quantity::end_ahead ? tilt : -tilt);
-    } else if (demand.quantity == Quantity::F && found->actuated &&
-               mechanism::actuator_quantity(*found) == Quantity::F) {
+      add(0, own.couple.front(), quantity == Quantity::end_ahead ? tilt : -tilt);
+    } else if (quantity == Quantity::F && found->actuated && mechanism::actuator_quantity(*found) == Quantity::F) {
       if (own.along)
         add(0, *own.along, Values<Number>::number(1.0));
       else
         along_axis(own.force);
-    } else if (demand.quantity == Quantity::M && found->actuated && !own.couple.empty() && !own.normal) {
+    } else if (quantity == Quantity::M && found->actuated && !own.couple.empty() && !own.normal) {
       if (is_planar())
         add(0, own.couple.front(), Values<Number>::number(1.0));
       else
         along_axis(own.couple);
-    } else if (demand.quantity == Quantity::f && own.normal) {
+    } else if (quantity == Quantity::f && own.normal) {
       add(0, *own.normal, Values<Number>::number(1.0));
       if (!own.couple.empty()) add(1, own.couple.front(), Values<Number>::number(1.0));
-    } else if (demand.quantity == Quantity::f && mechanism::presses_across_axis(m_, *found)) {
+    } else if (quantity == Quantity::f && mechanism::presses_across_axis(m_, *found)) {
       // u x f is as large as the part of f across u.
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
         add(i, own.force[k], own.axis[j]);
         add(i, own.force[j], -own.axis[k]);
       }
-    } else if (demand.quantity == Quantity::f && mechanism::traits(*found).pinned) {
+    } else if (quantity == Quantity::f && mechanism::traits(*found).pinned) {
       whole(own.force);
     } else {
       throw refuse();
     }
-    result_.demands.push_back(std::move(entries));
+    return entries;
+  }
+
+  /// constant + sign w > 0.
+  void add_positive(const mechanism::Joint& joint, const Number& constant, bool negative) {
+    std::vector<EntryOf<Number>> entries = entries_of(joint.name, mechanism::actuator_quantity(joint));
+    for (EntryOf<Number>& own : entries)
+      if (negative) own.value = -own.value;
+    result_.positive.push_back({std::move(entries), constant});
+  }
+
+  void add_bounds(const mechanism::Joint& joint) {
+    if (joint.meshing && joint.meshing->flank) add_positive(joint, Number(), false);
+    if (joint.meshing && !joint.meshing->flank) {
+      const Number most = values_.value(joint.meshing->most);
+      add_positive(joint, most, false);
+      add_positive(joint, most, true);
+    }
+    if (!joint.actuated || !joint.within) return;
+    add_positive(joint, -values_.number(joint.within->first), false);
+    add_positive(joint, values_.number(joint.within->second), true);
   }
 
   const Mechanism& m_;

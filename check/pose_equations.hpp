@@ -34,6 +34,13 @@ struct EquationsOf {
   std::vector<Number> right;  ///< b
   /// Of every demand the components along directions of length one, by `row`.
   std::vector<std::vector<EntryOf<Number>>> demands;
+  /// What the model itself asks: constant + sum of its entries is above zero. Teeth push, both spans of a belt pull,
+  /// efforts keep to their bounds.
+  struct Positive {
+    std::vector<EntryOf<Number>> entries;
+    Number constant;
+  };
+  std::vector<Positive> positive;
 };
 
 /// What poses and designs are over a cell: coordinates of the model and parameters, by name.
@@ -62,10 +69,18 @@ using PoseEquations = EquationsOf<Jet>;
 using PoseVariables = VariablesOf<Jet>;
 using PosePosture = PostureOf<Jet>;
 
-/// One sign a dyad or slider, in the file's order. Throws core::InputError for models whose points close together.
+/// One sign a dyad or slider, in the file's order. `groups`: the places of all points of groups, one after another.
+/// Throws core::InputError where one of them is missing.
 template <class Number>
 PostureOf<Number> posture_over(const mechanism::Mechanism& m, const std::vector<int>& sides,
-                               const VariablesOf<Number>& variables);
+                               const VariablesOf<Number>& variables,
+                               const std::vector<std::array<Number, 3>>& groups = {});
+
+/// The first `count` points alone, without what limits and springs ask of them.
+template <class Number>
+PostureOf<Number> first_points_over(const mechanism::Mechanism& m, std::size_t count, const std::vector<int>& sides,
+                                    const VariablesOf<Number>& variables,
+                                    const std::vector<std::array<Number, 3>>& groups);
 
 /// Required: a posture that nothing stopped. Throws core::InputError for demands of what no joint bears.
 template <class Number>

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "check/certificate.hpp"
+#include "check/group_sheet.hpp"
 #include "check/pose_cell.hpp"
 #include "core/errors.hpp"
 
@@ -127,13 +128,46 @@ class PoseTaskCheck {
   }
 
   std::size_t run() {
+    close_groups();
     check_links();
-    return covered(
-        whole_, names_, [&](const Cell& cell) { return region_->is_apart(cell) || is_beyond_balls(cell); },
-        [&](const Cell& cell, std::vector<double>& spreads) { return holds(cell, spreads); }, deadline_);
+    if (!groups_) return covered_within(whole_, nullptr);
+    std::size_t cells = 0;
+    for (const GroupSheet::Part& part : groups_->parts()) {
+      Cell within = whole_;
+      std::copy(part.cell.begin(), part.cell.end(), within.begin());
+      cells += covered_within(within, &part);
+    }
+    return cells;
   }
 
  private:
+  std::size_t covered_within(const Cell& whole, const GroupSheet::Part* part) {
+    return covered(
+        whole, names_, [&](const Cell& cell) { return region_->is_apart(cell) || is_beyond_balls(cell); },
+        [&](const Cell& cell, std::vector<double>& spreads) { return holds(cell, part, spreads); }, deadline_);
+  }
+
+  /// A pose of the task.
+  std::vector<double> pose_inside() const {
+    std::vector<double> pose;
+    const auto& points = claim_.shape.points;
+    for (std::size_t c = 0; c < coordinates_; ++c) {
+      const bool box = claim_.shape.name == "box";
+      pose.push_back((box ? Rational((points[0][c] + points[1][c]) / 2) : points[0][c]).get_d());
+    }
+    return pose;
+  }
+
+  /// Over the coordinates and the parameters that vary; loads do nothing to them.
+  void close_groups() {
+    if (m_.groups.empty()) return;
+    const auto count = static_cast<std::ptrdiff_t>(coordinates_ + claim_.parameters.size());
+    groups_.emplace(
+        m_, claim_.sides, std::vector<std::string>(names_.begin(), names_.begin() + count),
+        Cell(whole_.begin(), whole_.begin() + count), pose_inside(),
+        [&](const Cell& cell) { return region_->is_apart(cell); }, deadline_);
+  }
+
   void check_names() const {
     if (m_.coordinates.size() != coordinates_ || coordinates_ == 0)
       throw FalseClaim("coordinates: they are not the model's");
@@ -148,7 +182,11 @@ class PoseTaskCheck {
         throw FalseClaim("parameters: '" + own.parameter.substr(0, 40) +
                          "' is none of the model's, or not in its range");
     }
-    if (claim_.demands.empty()) throw FalseClaim("demands: there is none");
+    // Where efforts have bounds, that they keep to these is a claim.
+    const bool bounded = std::any_of(m_.joints.begin(), m_.joints.end(), [](const mechanism::Joint& joint) {
+      return joint.meshing || (joint.actuated && joint.within);
+    });
+    if (claim_.demands.empty() && !bounded) throw FalseClaim("demands: there is none");
     for (const auto& point : claim_.shape.points)
       for (std::size_t c = 0; c < coordinates_; ++c) {
         const Rational above = claim_.shape.above.empty() ? Rational(0) : claim_.shape.above[c];
@@ -231,22 +269,14 @@ class PoseTaskCheck {
     return own;
   }
 
-  PoseVariables variables_over(const Cell& cell, Jet::Offsets& offsets) const {
-    PoseVariables variables{names_, {}};
-    std::vector<Interval> ranges;
-    offsets.clear();
-    for (const auto& own : cell) {
-      ranges.emplace_back(own[0], own[1], cell_bits);
-      offsets.push_back(ranges.back() - middle_of(ranges.back()));
-    }
-    for (std::size_t c = 0; c < cell.size(); ++c) variables.values.emplace_back(ranges[c], offsets, c);
-    return variables;
-  }
-
-  bool holds(const Cell& cell, std::vector<double>& spreads) const {
+  /// `part`: that the cell is in, of a mechanism with groups.
+  bool holds(const Cell& cell, const GroupSheet::Part* part, std::vector<double>& spreads) const {
     Jet::Offsets offsets;
-    const PoseVariables variables = variables_over(cell, offsets);
-    const PosePosture posture = posture_over(m_, claim_.sides, variables);
+    const PoseVariables variables = variables_over(names_, cell, offsets);
+    std::optional<GroupCell> groups;
+    if (part != nullptr && !(groups = groups_->over(*part, variables, offsets, spreads))) return false;
+    const PosePosture posture =
+        posture_over(m_, claim_.sides, variables, groups ? groups->places : std::vector<std::array<Jet, 3>>());
     if (posture.stopped_by) {
       const std::vector<Interval>& slopes = posture.stopped_by->slopes();
       for (std::size_t c = 0; c < slopes.size(); ++c)
@@ -267,10 +297,19 @@ class PoseTaskCheck {
   /// Lengths within links do not change with the pose, at a pose of the task and two beside it.
   void check_links() const {
     for (const double share : {0.5, 0.3819, 0.7071}) {
+      const GroupSheet::Part* part = nullptr;
+      if (groups_)
+        part = &groups_->parts()[static_cast<std::size_t>(share * static_cast<double>(groups_->parts().size()))];
       Cell cell = whole_;
+      if (part != nullptr) std::copy(part->cell.begin(), part->cell.end(), cell.begin());
       for (auto& own : cell) own[0] = own[1] = own[0] + share * (own[1] - own[0]);
       Jet::Offsets offsets;
-      const PosePosture posture = posture_over(m_, claim_.sides, variables_over(cell, offsets));
+      const PoseVariables variables = variables_over(names_, cell, offsets);
+      std::vector<double> spreads(names_.size());
+      std::optional<GroupCell> groups;
+      if (part != nullptr && !(groups = groups_->over(*part, variables, offsets, spreads))) continue;
+      const PosePosture posture =
+          posture_over(m_, claim_.sides, variables, groups ? groups->places : std::vector<std::array<Jet, 3>>());
       if (posture.stopped_by) continue;  // the cells tell
       for (const mechanism::Link& link : m_.links) check_link(link, posture);
     }
@@ -300,6 +339,7 @@ class PoseTaskCheck {
   std::optional<TaskRegion> region_;
   Cell whole_;
   std::vector<LoadBall> balls_;
+  std::optional<GroupSheet> groups_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 // That a mechanism keeps clear of every locus over a task of poses, over one to six coordinates, and of the parameters
 // that vary within tolerances and loads that vary within ranges: cells that cover the task and its margin, each shown
-// by equations of the checker's own. Private to check/.
+// by equations of the checker's own; groups are in the assembly of their file (check/group_sheet.hpp).
+// Private to check/.
 //
 // Over a cell with the middle m, C is an inverse of A(m) in doubles, w0 one of the solution, and E = I - C A. With
 // rho = C (b - A w0) each solution w over the cell has

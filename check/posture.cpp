@@ -15,14 +15,18 @@ class Placing {
  public:
   using Vector = VectorOf<Number>;
 
-  Placing(const Mechanism& m, const std::vector<int>& sides, const VariablesOf<Number>& variables)
-      : m_(m), sides_(sides), values_(m, variables) {}
+  Placing(const Mechanism& m, const std::vector<int>& sides, const VariablesOf<Number>& variables,
+          const std::vector<Vector>& groups)
+      : m_(m), sides_(sides), values_(m, variables), groups_(groups) {}
+
+  PostureOf<Number> first(std::size_t count) {
+    for (std::size_t i = 0; i < count && !result_.stopped_by; ++i)
+      result_.points.push_back(std::visit([&](const auto& form) { return place(form); }, m_.points[i].form));
+    return std::move(result_);
+  }
 
   PostureOf<Number> run() {
-    for (const mechanism::Point& point : m_.points) {
-      if (result_.stopped_by) break;
-      result_.points.push_back(std::visit([&](const auto& form) { return place(form); }, point.form));
-    }
+    result_ = first(m_.points.size());
     for (const mechanism::Limit& limit : m_.limits)
       if (!result_.stopped_by) hold(limit);
     for (const mechanism::JointIndex joint : mechanism::bounded_laws(m_))
@@ -60,9 +64,13 @@ class Placing {
   Vector place(const mechanism::ShiftedPoint& form) const {
     return at(form.from) + values_.vector(form.by, result_.points);
   }
-  Vector place(const mechanism::GroupPoint&) const {
-    throw core::InputError({m_.file}, "a certificate is of points with closed forms, and some of these close together",
-                           "");
+  Vector place(const mechanism::GroupPoint&) {
+    if (next_of_groups_ >= groups_.size())
+      throw core::InputError({m_.file},
+                             "a certificate of loci is of points with closed forms, and some of these "
+                             "close together",
+                             "");
+    return groups_[next_of_groups_++];
   }
 
   Vector place(const mechanism::DyadPoint& form) {
@@ -126,7 +134,8 @@ class Placing {
   const std::vector<int>& sides_;
   Values<Number> values_;
   PostureOf<Number> result_;
-  std::size_t next_side_ = 0;
+  const std::vector<Vector>& groups_;
+  std::size_t next_side_ = 0, next_of_groups_ = 0;
 };
 
 template <class Number>
@@ -145,12 +154,22 @@ void Placing<Number>::hold(const mechanism::Spring& spring) {
 }  // namespace
 
 template <class Number>
-PostureOf<Number> posture_over(const Mechanism& m, const std::vector<int>& sides,
-                               const VariablesOf<Number>& variables) {
-  return Placing<Number>(m, sides, variables).run();
+PostureOf<Number> posture_over(const Mechanism& m, const std::vector<int>& sides, const VariablesOf<Number>& variables,
+                               const std::vector<VectorOf<Number>>& groups) {
+  return Placing<Number>(m, sides, variables, groups).run();
 }
 
-template PosePosture posture_over(const Mechanism&, const std::vector<int>&, const PoseVariables&);
-template PostureOf<Interval> posture_over(const Mechanism&, const std::vector<int>&, const VariablesOf<Interval>&);
+template <class Number>
+PostureOf<Number> first_points_over(const Mechanism& m, std::size_t count, const std::vector<int>& sides,
+                                    const VariablesOf<Number>& variables, const std::vector<VectorOf<Number>>& groups) {
+  return Placing<Number>(m, sides, variables, groups).first(count);
+}
+
+template PosePosture posture_over(const Mechanism&, const std::vector<int>&, const PoseVariables&,
+                                  const std::vector<VectorOf<Jet>>&);
+template PosePosture first_points_over(const Mechanism&, std::size_t, const std::vector<int>&, const PoseVariables&,
+                                       const std::vector<VectorOf<Jet>>&);
+template PostureOf<Interval> posture_over(const Mechanism&, const std::vector<int>&, const VariablesOf<Interval>&,
+                                          const std::vector<VectorOf<Interval>>&);
 
 }  // namespace clearloci::check

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iterator>
+#include "analysis/flanks.hpp"
 
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
@@ -32,17 +33,20 @@ void add_certificate_argument(CLI::App& command, std::string& file, const std::s
 bool has_certified_loci(const mechanism::Mechanism& mechanism) {
   const bool lengths =
       mechanism.coordinates.size() == 2 && !mechanism.coordinates[0].angle && !mechanism.coordinates[1].angle;
-  return mechanism.space == mechanism::Space::planar && lengths && !mechanism::has_effort_bounds(mechanism);
+  return mechanism.space == mechanism::Space::planar && lengths && !mechanism::has_effort_bounds(mechanism) &&
+         mechanism.groups.empty() && !meshes(mechanism);
 }
 
 void require_certifiable(const mechanism::Mechanism& mechanism) {
   mechanism::require_preload(mechanism);
   if (has_certified_loci(mechanism)) return;
   if (mechanism::has_effort_bounds(mechanism))
-    throw core::InputError({.file = "--certificate"}, "there is no certificate of mechanisms whose efforts have bounds",
-                           "leave it out for this mechanism");
+    throw core::InputError({.file = "--certificate"},
+                           "there is no certificate of the loci and zones of mechanisms whose efforts have bounds",
+                           "leave it out for this mechanism; verify has one of a task");
   throw core::InputError({.file = "--certificate"},
-                         "loci and zones have certificates only for planar mechanisms over two lengths",
+                         "loci and zones have certificates only for planar mechanisms over two lengths, without points "
+                         "that close together, gears and belts",
                          "leave it out; verify writes certificates of tasks over any coordinates");
 }
 

@@ -129,7 +129,7 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
   VerifyRequest request{.fit = parse_fit(arguments.fit)};
   const Task task = read_task(arguments.task, model);
   const bool certified = !arguments.certificate.empty();
-  if (certified && !goes_with_loci(mechanism, task)) require_certifiable(mechanism, task);
+  if (certified && !goes_with_loci(mechanism, task)) require_certifiable(task);
   limit.known([common = arguments.common, name = mechanism.name] {
     nlohmann::ordered_json body = incomplete_body(name, "the verdict was");
     body["verdict"] = to_string(core::Verdict::undecided);

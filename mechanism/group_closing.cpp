@@ -85,10 +85,15 @@ core::PoseProgram group_program(const Mechanism& mechanism, const std::vector<in
 }
 
 std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& mechanism,
-                                                              const std::vector<double>& pose) {
+                                                              const std::vector<double>& pose,
+                                                              const std::vector<int>& sides) {
   const Group& group = mechanism.groups.back();
-  const auto known = sample_points(mechanism, pose);  // those before the group have their places, whatever it does
-  GroupClosing closing(mechanism, working_mode(mechanism));
+  // Those before the group have their places, whatever it does.
+  Mechanism before = mechanism;
+  before.groups.pop_back();
+  before.points.resize(static_cast<std::size_t>(group.first));
+  const auto known = sample_points(before, pose, sides);
+  GroupClosing closing(mechanism, sides);
   const std::optional<std::vector<double>> lengths = closing.lengths(pose);
   if (!lengths) return std::nullopt;
   const std::size_t count = static_cast<std::size_t>(group.last - group.first) + 1;
@@ -130,6 +135,13 @@ std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& m
       box.push_back({low[k][c], high[k][c]});
     }
   return box;
+}
+
+Mechanism up_to_group(Mechanism mechanism, std::size_t group) {
+  const PointIndex last = mechanism.groups.at(group).last;
+  mechanism.groups.resize(group + 1);
+  mechanism.points.resize(static_cast<std::size_t>(last) + 1);
+  return mechanism;
 }
 
 std::size_t group_unknowns(const Mechanism& mechanism) {

@@ -45,10 +45,14 @@ class GroupClosing {
 /// The points as steps, with the groups as blocks.
 core::PoseProgram group_program(const Mechanism& mechanism, const std::vector<int>& sides);
 
-/// Where the unknowns of the last group can be at a pose: its points are no farther from known ones than the lengths
-/// between them add up to. Nothing where known points are not placed.
+/// Where the unknowns of the last group can be at a pose in a working mode: its points are no farther from known ones
+/// than the lengths between them add up to. Nothing where known points are not placed.
 std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& mechanism,
-                                                              const std::vector<double>& pose);
+                                                              const std::vector<double>& pose,
+                                                              const std::vector<int>& sides);
+
+/// The points up to those of a group, for what is asked of their places alone.
+Mechanism up_to_group(Mechanism mechanism, std::size_t group);
 
 /// How many unknowns the groups have together.
 std::size_t group_unknowns(const Mechanism& mechanism);

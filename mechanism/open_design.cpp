@@ -223,15 +223,19 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
   }
   change(result.mechanism, by);
   const Change meaning = [&](const Expression& e) { return opening.meaning(e); };
+  // The statics ask for the half length alone, and for what a belt carries; what is varied is nominal here.
+  const Change nominal = [&](const Expression& e) { return Expression::number(value_of(e, mechanism)); };
   for (Joint& joint : result.mechanism.joints) {
+    if (joint.meshing) {
+      joint.meshing->most = nominal(joint.meshing->most);
+      joint.meshing->radius = nominal(joint.meshing->radius);
+    }
     if (!joint.clearance) continue;
     if (opening.dependence(joint.clearance->half_length).varied)
       throw core::InputError(joint.where, "the half length of the guide " + joint.name + " is varied",
                              "vary other parameters, or give the guide a number");
     result.clearances.push_back(opened(*joint.clearance, meaning));
-    // The statics ask for the half length alone; what is varied is nominal here.
-    joint.clearance =
-        opened(*joint.clearance, [&](const Expression& e) { return Expression::number(value_of(e, mechanism)); });
+    joint.clearance = opened(*joint.clearance, nominal);
   }
   for (Limit& limit : result.mechanism.limits) {
     for (Expression* own : {&limit.lower, &limit.upper}) {

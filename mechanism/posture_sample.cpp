@@ -120,6 +120,10 @@ MaybePoints points_at(const Mechanism& mechanism, const std::vector<double>& pos
 
 }  // namespace
 
+MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose, const std::vector<int>& sides) {
+  return points_at(mechanism, pose, sides);
+}
+
 MaybePoints sample_points(const Mechanism& mechanism, const std::vector<double>& pose) {
   return points_at(mechanism, pose, working_mode(mechanism));
 }

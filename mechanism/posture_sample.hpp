@@ -15,7 +15,10 @@ using PosturePoints = std::vector<std::array<double, 3>>;  ///< one a point, m; 
 /// Poses (one value a coordinate) spread evenly over the box: the first `count` of one fixed sequence.
 std::vector<std::vector<double>> spread_poses(const Mechanism& mechanism, std::size_t count, std::size_t first = 0);
 
-/// Every point at a pose, in the file's working mode; nothing for a point that cannot be built there.
+/// Every point at a pose; nothing for a point that cannot be built there. Without `sides` in the file's working mode.
+std::vector<std::optional<std::array<double, 3>>> sample_points(const Mechanism& mechanism,
+                                                                const std::vector<double>& pose,
+                                                                const std::vector<int>& sides);
 std::vector<std::optional<std::array<double, 3>>> sample_points(const Mechanism& mechanism,
                                                                 const std::vector<double>& pose);
 

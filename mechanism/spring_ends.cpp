@@ -38,6 +38,9 @@ class Ends {
     };
     std::vector<double> seen;
     for (int i = 0; i <= looks; ++i) seen.push_back(at(static_cast<double>(i) / looks));
+    // Ends that keep their distance, as those of a belt do, are nearest nowhere.
+    const auto [nearest, farthest] = std::minmax_element(seen.begin(), seen.end());
+    if (*farthest - *nearest <= rounding * greatest_) return *nearest;
     double least = INFINITY;
     for (int i = 1; i < looks; ++i) {
       const auto k = static_cast<std::size_t>(i);

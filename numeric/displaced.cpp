@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "numeric/displaced_wheels.hpp"
 #include "numeric/wrench_rows.hpp"
 
 namespace clearloci::numeric {
@@ -51,6 +53,7 @@ class DisplacedMechanism {
       : model_(model), posture_(posture), links_(links), columns_(linear.columns), contacts_(linear.contacts) {
     for (std::size_t j = 0; j < contacts_.size(); ++j) contacts_[j].axis = rotation(joint(j).from) * contacts_[j].axis;
     for (ReactionColumn& column : columns_) turn(column);
+    for (std::size_t j = 0; j < contacts_.size(); ++j) mesh(j);
   }
 
   const std::vector<ReactionColumn>& columns() const { return columns_; }
@@ -67,11 +70,13 @@ class DisplacedMechanism {
     for (Eigen::Index k = 0; k < size; ++k) {
       const ReactionColumn& column = columns_[static_cast<std::size_t>(k)];
       const mechanism::Joint& own = joint(static_cast<std::size_t>(column.joint));
-      const Vector3d to = arm(own.to, point(own.at));
+      Vector3d to = arm(own.to, point(own.at)), from = arm(own.from, point(own.at));
       // What slides bears where its `to` is now.
-      const Vector3d from = mechanism::traits(own).slides
-                                ? Vector3d(moved(own.to, point(own.at)) - translation(own.from))
-                                : arm(own.from, point(own.at));
+      if (mechanism::traits(own).slides) from = moved(own.to, point(own.at)) - translation(own.from);
+      if (const auto& line = meshes_[static_cast<std::size_t>(column.joint)]) {
+        to = line->at - translation(own.to);
+        from = line->at - translation(own.from);
+      }
       add_wrench(model_.mechanism, own.to, wrench_of(to, column.force, column.couple), 1, A.col(k));
       add_wrench(model_.mechanism, own.from, wrench_of(from, column.force, column.couple), -1, A.col(k));
     }
@@ -94,7 +99,9 @@ class DisplacedMechanism {
       const ReactionColumn& column = columns_[static_cast<std::size_t>(k)];
       const auto j = static_cast<std::size_t>(column.joint);
       const mechanism::Joint& own = joint(j);
-      if (column.force != Vector3d::Zero())
+      if (meshes_[j])
+        r(k) += meshes_[j]->apart;
+      else if (column.force != Vector3d::Zero())
         r(k) += column.force.dot(moved(own.to, point(own.at)) - moved(own.from, point(own.at)));
       else if (is_cross(own))
         r(k) += cross_closure(j);
@@ -185,7 +192,7 @@ class DisplacedMechanism {
     const Vector3d p = moved(spring.from, point(spring.from_point)), q = moved(spring.to, point(spring.to_point));
     const double length = (q - p).norm();
     const double tension = spring.kind == mechanism::Spring::Kind::constant_force
-                               ? value(spring.force)
+                               ? value(spring.force) * share_along(spring)
                                : value(spring.stiffness) * (length - value(spring.free_length));
     if (length == 0) return;
     const Vector3d force = tension / length * (q - p);
@@ -197,11 +204,44 @@ class DisplacedMechanism {
     put(spring.to, spring.to_point, -1);
   }
 
+  /// Of a belt, whose spans are inclined to the line of the centres: what they pull along it now over what they did.
+  double share_along(const mechanism::Spring& spring) const {
+    const auto& joints = model_.mechanism.joints;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (meshes_[j] && joints[j].name == spring.name) return meshes_[j]->along;
+    return 1;
+  }
+
+  double turned(mechanism::LinkIndex link) const { return rotation_vector(rotation(link)).z(); }
+
+  /// Teeth and belts with another force than along a constant line, where their wheels are now.
+  void mesh(std::size_t j) {
+    meshes_.emplace_back();
+    const mechanism::Joint& own = joint(j);
+    if (!own.meshing || own.axes.empty()) return;
+    const mechanism::Meshing& wheels = *own.meshing;
+    const Wheels before{point(wheels.first) - reference(), wheels.second ? point(*wheels.second) - reference() : none(),
+                        point(own.at) - reference(), posture_.axes[j]};
+    const Vector3d first = moved(own.from, point(wheels.first));
+    if (!wheels.flank)
+      meshes_[j] = before.belt(first, moved(own.to, point(*wheels.second)), value(wheels.radius), turned(own.from),
+                               turned(own.to));
+    else if (wheels.second)
+      meshes_[j] = before.teeth(first, moved(own.to, point(*wheels.second)), turned(own.from), turned(own.to));
+    else
+      meshes_[j] = before.rack(first, moved(own.to, point(own.at)), rotation(own.to), turned(own.from), turned(own.to));
+    for (ReactionColumn& column : columns_)
+      if (column.joint == static_cast<mechanism::JointIndex>(j)) column.force = meshes_[j]->force;
+    contacts_[j].axis = meshes_[j]->force / meshes_[j]->force.squaredNorm();
+  }
+  static Vector3d none() { return Vector3d::Zero(); }
+
   const NumericModel& model_;
   const Posture& posture_;
   const std::vector<LinkMotion>& links_;
   std::vector<ReactionColumn> columns_;
   std::vector<JointContact> contacts_;
+  std::vector<std::optional<Meshed>> meshes_;
 };
 
 /// Couples of clearance joints that changed sign between two iterates.
@@ -319,8 +359,21 @@ class Iteration {
     return most;
   }
 
+  /// A gear whose teeth would have to pull in the displaced geometry; empty without one.
+  std::string pulled(const DisplacedMechanism& displaced) const {
+    for (std::size_t k = 0; k < displaced.columns().size(); ++k) {
+      const mechanism::Joint& own = model_.mechanism.joints[static_cast<std::size_t>(displaced.columns()[k].joint)];
+      const bool teeth = own.meshing && own.meshing->flank;
+      const double was = linear_.reactions.values(static_cast<Eigen::Index>(k));
+      if (teeth && result_.reactions(static_cast<Eigen::Index>(k)) * was < 0) return own.name;
+    }
+    return {};
+  }
+
   ActualPose finish() {
     const DisplacedMechanism displaced(model_, posture_, linear_, links_);
+    if (const std::string gear = pulled(displaced); !gear.empty())
+      return refuse("the load presses the other flank of gear " + gear + " as the clearances are taken up");
     result_.converged = true;
     result_.residual = displaced.closure(result_.take_up).cwiseAbs().maxCoeff();
     result_.displacements = displacements();

@@ -208,10 +208,11 @@ double centrality(std::span<const double> pose, std::span<const std::array<doubl
   return least;
 }
 
-/// Poses of a grid over the box, off its symmetries, about a thousand in all; pose after pose.
-std::vector<double> pose_grid(std::span<const std::array<double, 2>> box) {
+/// Poses of a grid over the box, off its symmetries, about a thousand in all, of groups about fifty, which take twenty
+/// times as long each; pose after pose.
+std::vector<double> pose_grid(std::span<const std::array<double, 2>> box, bool groups) {
   const std::size_t n = box.size();
-  const int steps = n == 1 ? 400 : n == 2 ? 33 : 10;
+  const int steps = groups ? (n == 1 ? 40 : n == 2 ? 8 : 4) : n == 1 ? 400 : n == 2 ? 33 : 10;
   std::vector<double> poses;
   std::vector<int> index(n, 0);
   while (true) {
@@ -281,7 +282,7 @@ core::Sketch sketch(const NumericModel& model, std::span<const double> pose, std
 std::optional<std::vector<double>> sample_pose(const NumericModel& model, std::span<const int> mode,
                                                std::span<const std::array<double, 2>> box) {
   core::ensure(box.size() == model.box.size(), "a box has a range for each free coordinate");
-  const std::vector<double> poses = pose_grid(box);
+  const std::vector<double> poses = pose_grid(box, !model.mechanism.groups.empty());
   ReactionField field;
   reaction_field(model, poses, mode, field);
   double largest = 0;

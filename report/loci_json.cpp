@@ -244,7 +244,7 @@ Json loci_object(const core::LocusMap& map) {
   }
   root["isolated_points"] = Json::array();
   for (const auto& point : map.isolated_points) root["isolated_points"].push_back(isolated_point_object(map, point));
-  if (map.tower.coordinates.size() == 2) root["open"] = open_array(map);
+  if (map.tower.coordinates.size() <= 2) root["open"] = open_array(map);
   root["workspace"] = Json::array();
   for (const auto& region : map.workspace) {
     root["workspace"].push_back({{"working_mode", mode_object(map.tower, region.mode)}, {"rings", region.rings}});

@@ -7,6 +7,7 @@
 
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
+#include "core/fold.hpp"
 #include "core/interval.hpp"
 #include "loci/numbers/numbers.hpp"
 #include "loci/sheet/sheet.hpp"
@@ -170,8 +171,10 @@ void ArcOrders::place_roots(const EnclosedPoint& at) {
     place_roots_on(1);
   }
   for (const int side : sides_)
-    for (const Germ& square : squares_[side]) {
-      const Rational order = square.order / 2;
+    for (std::size_t j = 0; j < squares_[side].size(); ++j) {
+      // The workspace ends at a limit, but nothing depends on the root of what is left to it.
+      if (tower_.roots[j].name == core::limit_name) continue;
+      const Rational order = squares_[side][j].order / 2;
       ramification_ = std::lcm(ramification_, static_cast<int>(order.get_den().get_si()));
     }
 }

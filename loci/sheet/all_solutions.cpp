@@ -12,15 +12,20 @@
 namespace clearloci::loci::pose {
 namespace {
 
-using Box = std::vector<std::array<double, 2>>;
+using Box = UnknownsBox;
 using Form = FlatAffine;
 
 class Search {
  public:
-  Search(const core::PoseProgram& program, const Pose& at)
-      : block_(program.blocks.front()), at_(at), program_(program) {
+  Search(const core::PoseProgram& program, const Pose& at, const Box& before)
+      : block_(program.blocks.back()), at_(at), program_(program) {
     program_.steps.resize(static_cast<std::size_t>(block_.end));
-    program_.blocks.resize(1);
+    for (const auto& [low, high] : before) {
+      Form own(0.5 * (low + high));
+      own.r = std::nextafter(std::max(high - own.c, own.c - low), HUGE_VAL);
+      before_.push_back(own);
+      middle_.push_back(own.c);
+    }
     forms_.emplace(program_);
     values_.emplace(program_);
   }
@@ -34,6 +39,10 @@ class Search {
     if (!result.complete) search_from_places(whole, most, result.found);
     if (most && result.found.size() == *most) result.complete = true;
     std::sort(result.found.begin(), result.found.end());
+    for (core::BlockUnknowns& own : result.found) {
+      result.enclosed.push_back(enclosure(own));
+      own.insert(own.begin(), middle_.begin(), middle_.end());
+    }
     return result;
   }
 
@@ -99,7 +108,7 @@ class Search {
     const std::size_t n = unknowns.size();
     constexpr int most_steps = 60;
     for (int i = 0; i < most_steps; ++i) {
-      if (!values_->put(at_, unknowns)) return false;
+      if (!values_->put(at_, behind_others(unknowns))) return false;
       std::vector<double> jacobian, step;
       for (const int own : block_.jacobian) jacobian.push_back((*values_)[own]);
       for (const int own : block_.equations) step.push_back((*values_)[own]);
@@ -132,6 +141,29 @@ class Search {
     return widest;
   }
 
+  core::BlockUnknowns behind_others(const core::BlockUnknowns& own) const {
+    core::BlockUnknowns all = middle_;
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+  }
+
+  typename PoseForms<Form>::Outcome put(const std::vector<Form>& own) {
+    std::vector<Form> all = before_;
+    all.insert(all.end(), own.begin(), own.end());
+    return forms_->put(at_, all);
+  }
+
+  /// Where a solution that is known is, as narrow as it is proven.
+  Box enclosure(const core::BlockUnknowns& solution) {
+    for (double part = 1e-13; part < 1e-4; part *= 10) {
+      Box box;
+      for (const double own : solution) box.push_back({own - part * size_, own + part * size_});
+      std::vector<core::BlockUnknowns> here;
+      if (is_done(box, here) && !here.empty()) return box;
+    }
+    return {};
+  }
+
   /// Whether a box holds nothing more than is known. It is made smaller where no solution is near a side.
   bool is_done(Box& box, std::vector<core::BlockUnknowns>& found) {
     const std::size_t n = box.size();
@@ -145,7 +177,7 @@ class Search {
       unknowns[k] = Form(centre[k]);
       unknowns[k].r = radius[k];
     }
-    if (forms_->put(at_, unknowns) != PoseForms<Form>::Outcome::complete) return false;
+    if (put(unknowns) != PoseForms<Form>::Outcome::complete) return false;
     for (const int equation : block_.equations)
       if (!(*forms_)[equation].contains_zero()) return true;
     std::vector<Form> jacobian;
@@ -156,7 +188,7 @@ class Search {
     }
     if (!loci::invert(middle, inverse, n)) return false;
     for (std::size_t k = 0; k < n; ++k) unknowns[k] = Form(centre[k]);
-    if (forms_->put(at_, unknowns) != PoseForms<Form>::Outcome::complete) return false;
+    if (put(unknowns) != PoseForms<Form>::Outcome::complete) return false;
     bool inside = true;
     for (std::size_t i = 0; i < n; ++i) {
       SumOf<Form> moved;
@@ -182,7 +214,9 @@ class Search {
   }
 
   void add(core::BlockUnknowns solution, std::vector<core::BlockUnknowns>& found) {
-    if (!values_->close(at_, solution)) return;
+    core::BlockUnknowns all = behind_others(solution);
+    if (!values_->close(at_, all)) return;
+    solution.assign(all.begin() + static_cast<std::ptrdiff_t>(middle_.size()), all.end());
     constexpr double same = 1e-9;
     for (const core::BlockUnknowns& own : found) {
       double apart = 0, size = 0;
@@ -198,18 +232,23 @@ class Search {
   core::PoseProgram::Block block_;
   Pose at_;
   core::PoseProgram program_;
-  double size_ = 0;  ///< of the box
+  std::vector<Form> before_;    ///< the unknowns of the blocks before
+  core::BlockUnknowns middle_;  ///< of them
+  double size_ = 0;             ///< of the box
   std::optional<PoseForms<Form>> forms_;
   std::optional<core::PoseValues> values_;
 };
 
 }  // namespace
 
-AllSolutions all_solutions(const core::PoseProgram& program, const Pose& at, const Box& box,
-                           std::optional<std::size_t> most) {
-  core::ensure(program.blocks.size() == 1 && box.size() == program.blocks.front().unknowns.size(),
-               "one block, with a range for every unknown");
-  return Search(program, at).run(box, most);
+AllSolutions all_solutions(const core::PoseProgram& program, const Pose& at, const UnknownsBox& before,
+                           const UnknownsBox& box, std::optional<std::size_t> most) {
+  std::size_t unknowns = 0;
+  for (const core::PoseProgram::Block& own : program.blocks) unknowns += own.unknowns.size();
+  core::ensure(!program.blocks.empty() && box.size() == program.blocks.back().unknowns.size() &&
+                   before.size() + box.size() == unknowns,
+               "a range for every unknown");
+  return Search(program, at, before).run(box, most);
 }
 
 }  // namespace clearloci::loci::pose

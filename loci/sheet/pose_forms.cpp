@@ -66,9 +66,10 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run(const PoseChart& chart, c
 
 template <class Form>
 typename PoseForms<Form>::Outcome PoseForms<Form>::put(const Pose& at, std::span<const Form> unknowns) {
-  const core::PoseProgram::Block& block = program_->blocks.front();
-  for (std::size_t k = 0; k < unknowns.size(); ++k) (*this)[block.unknowns[k]] = unknowns[k];
-  return run_steps(0, block.end, {at, {}}, {}, nullptr);
+  auto own = unknowns.begin();
+  for (const core::PoseProgram::Block& block : program_->blocks)
+    for (const int step : block.unknowns) (*this)[step] = *own++;
+  return run_steps(0, program_->blocks.back().end, {at, {}}, {}, nullptr);
 }
 
 template <class Form>

@@ -36,7 +36,7 @@ class PoseForms {
   /// run.
   Outcome run(const PoseChart& chart, const PoseBox& box, std::span<const double> starts = {},
               std::vector<Form>* boundaries = nullptr);
-  /// The steps up to the end of the first block, with these unknowns, at a single pose.
+  /// The steps up to the end of the last block, with these unknowns of all blocks, at a single pose.
   Outcome put(const Pose& at, std::span<const Form> unknowns);
   /// Of the last run in doubt: what may vanish. Where a block is at its dead centre, how far J varies.
   const Form& doubt() const { return doubt_; }

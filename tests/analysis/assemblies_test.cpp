@@ -9,6 +9,7 @@
 
 #include "clearloci/pose.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
@@ -139,6 +140,65 @@ TEST_F(Assemblies, NoneIsMissedWhereLegsHaveOtherLengths) {
     std::vector<double> lengths = published;
     for (double& own : lengths) own *= part(random);
     EXPECT_GT(hold(lengths), 1U);
+  }
+}
+
+/// The sense of a triangle.
+double turn_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return (b - a).cross(c - a).z(); }
+
+Vector3d at_in(const Pose& pose, const std::string& name) {
+  for (const PosePoint& own : pose.points)
+    if (own.name == name) return {own.at[0], own.at[1], 0};
+  throw std::out_of_range(name);
+}
+
+TEST(AssembliesOfAPlate, DoNotTurnItOver) {
+  const Model model = Model::read(source_dir() + "/examples/three_rpr_legs.yaml");
+  for (const std::vector<double>& lengths :
+       {std::vector<double>{0.71, 0.718, 0.655}, {0.65, 0.9, 0.7}, {0.8, 0.75, 0.6}, {0.85, 0.72, 0.78}}) {
+    const PoseInModes all = solve_pose_in_modes(model, lengths);
+    // As many as a search over the turn of the plate finds.
+    EXPECT_EQ(all.modes.size(), 2U);
+    for (const ModePose& own : all.modes) {
+      ASSERT_TRUE(own.pose) << own.why_not;
+      EXPECT_GT(turn_of(at_in(*own.pose, "B1"), at_in(*own.pose, "B2"), at_in(*own.pose, "B3")), 0);
+      EXPECT_EQ(own.working_mode.back().second.find("or more"), std::string::npos);
+    }
+  }
+}
+
+/// A rod pair that stands on a group, as a group: twice as many assemblies where its rods reach.
+TEST(AssembliesOfSeveralGroups, AreThoseOfEachOverThoseBeforeIt) {
+  const std::string first = example_text("stephenson_outside");
+  std::string text = replaced(first, "links:\n",
+                              "  K: [0.2, 1.8]\n"
+                              "  tip: {group: [P], lengths: {E-P: 0.9, K-P: 0.8},\n"
+                              "        near: {at: {phi: 123 deg}, P: [0.981, 1.624]}}\n"
+                              "links:\n"
+                              "  EP: {points: [E, P]}\n"
+                              "  KP: {points: [K, P]}\n");
+  text = replaced(text, "joints:\n",
+                  "joints:\n"
+                  "  E2: {revolute: [BCE, EP], at: E}\n"
+                  "  P: {revolute: [EP, KP], at: P}\n"
+                  "  K: {revolute: [ground, KP], at: K}\n");
+  for (const double phi : {2.15, 2.3, 2.5}) {
+    std::size_t expected = 0;
+    for (const ModePose& own : solve_pose_in_modes(Model::parse(first), {phi}).modes) {
+      ASSERT_TRUE(own.pose) << own.why_not;
+      const double d = (at_in(*own.pose, "E") - Vector3d(0.2, 1.8, 0)).norm();
+      expected += d < 1.7 && d > 0.1 ? 2 : 0;
+    }
+    const PoseInModes all = solve_pose_in_modes(Model::parse(text), {phi});
+    ASSERT_GT(expected, 0U);
+    EXPECT_EQ(all.modes.size(), expected);
+    for (const ModePose& own : all.modes) {
+      ASSERT_TRUE(own.pose) << own.why_not;
+      EXPECT_EQ(own.working_mode.back().second.find("or more"), std::string::npos);
+      EXPECT_NEAR((at_in(*own.pose, "P") - at_in(*own.pose, "E")).norm(), 0.9, 1e-9);
+      EXPECT_NEAR((at_in(*own.pose, "P") - Vector3d(0.2, 1.8, 0)).norm(), 0.8, 1e-9);
+      EXPECT_GT(turn_of(at_in(*own.pose, "B"), at_in(*own.pose, "C"), at_in(*own.pose, "E")), 0);
+    }
   }
 }
 

@@ -13,7 +13,7 @@
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/analysis/by_hand.hpp"
 #include "tests/texts.hpp"
 
 namespace clearloci {
@@ -22,17 +22,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double degree = 0.017453292519943295;
-
-Model shipped(const std::string& name) { return Model::read(source_dir() + "/examples/" + name); }
-
-double part(const Pose& pose, const std::string& joint, Quantity quantity) {
-  for (const JointReaction& own : pose.reactions)
-    for (const ReactionComponent& component : own.components)
-      if (own.joint == joint && component.quantity == quantity) return component.value;
-  throw std::out_of_range(joint);
-}
-
-double moment(const Vector2d& arm, const Vector2d& force) { return arm(0) * force(1) - arm(1) * force(0); }
 
 /// The geared five-bar of examples/ by hand.
 struct GearedFiveBar {
@@ -189,6 +178,32 @@ TEST(GearedFiveBar, TasksKeepTheirFlank) {
   EXPECT_EQ(verify(model, across(change - 2, change + 2)).verdict, Verdict::refuted);
 }
 
+/// Where a task crosses a change of flanks it is moved beside it, on whichever flank bears there.
+TEST(GearedFiveBar, TasksAreMovedAsideOfAChangeOfFlanks) {
+  const Model model = shipped("geared_five_bar.yaml");
+  const double change = zeros_of(trace_loci(model), "W", Quantity::F).front() / degree;
+  for (const double off : {-1.0, 1.0}) {
+    const Task task = parse_task("format: 1\nbox: {theta: [" + std::to_string(change + off - 2) + ", " +
+                                     std::to_string(change + off + 2) + "]}\n",
+                                 model);
+    ASSERT_EQ(verify(model, task).verdict, Verdict::refuted);
+    const Verification moved = verify(model, task, {.fit = TaskFit::nearest});
+    ASSERT_TRUE(moved.verified());
+    ASSERT_TRUE(moved.moved_by);
+    const double by = to_double(moved.moved_by->front()) / degree;
+    EXPECT_NEAR(by, off, 0.05);
+    // The teeth push all over it on the flank that is told.
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double theta = (change + off + by + (4 * share - 2) * (1 - 1e-6)) * degree;
+      const double needed = -GearedFiveBar(theta).on_second();
+      for (const auto& [point, side] : moved.working_mode)
+        if (point == "flank_W") {
+          EXPECT_EQ(side, needed > 0 ? "left" : "right") << theta;
+        }
+    }
+  }
+}
+
 TEST(GearedFiveBar, HalfTheBacklashIsTakenUp) {
   std::string text = shipped("geared_five_bar.yaml").text();
   for (const char* other :
@@ -206,19 +221,10 @@ TEST(GearedFiveBar, HalfTheBacklashIsTakenUp) {
   }
 }
 
-std::string told_by(const std::string& text) {
-  try {
-    (void)Model::parse(text);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(Gears, RefuseWhatDoesNotMesh) {
   const std::string text = shipped("geared_five_bar.yaml").text();
   const auto says = [&](const std::string& from, const std::string& to, const std::string& words) {
-    const std::string told = told_by(replaced(text, from, to));
+    const std::string told = refusal(replaced(text, from, to));
     EXPECT_NE(told.find(words), std::string::npos) << told;
     EXPECT_EQ(told.find('\n'), std::string::npos) << told;
   };

@@ -9,7 +9,7 @@
 #include "clearloci/pose.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
-#include "tests/source_dir.hpp"
+#include "tests/analysis/by_hand.hpp"
 #include "tests/texts.hpp"
 
 namespace clearloci {
@@ -21,16 +21,6 @@ using Eigen::Vector3d;
 
 constexpr double degree = 0.017453292519943295;
 
-Model shipped(const std::string& name) { return Model::read(source_dir() + "/examples/" + name); }
-
-double part(const Pose& pose, const std::string& joint, Quantity quantity) {
-  for (const JointReaction& own : pose.reactions)
-    for (const ReactionComponent& component : own.components)
-      if (own.joint == joint && component.quantity == quantity) return component.value;
-  throw std::out_of_range(joint);
-}
-
-double moment(const Vector2d& arm, const Vector2d& force) { return arm(0) * force(1) - arm(1) * force(0); }
 Vector2d left_of(const Vector2d& a) { return {-a(1), a(0)}; }
 
 Vector2d elbow(const Vector2d& a, const Vector2d& b, double from_a, double from_b, double side) {
@@ -178,15 +168,6 @@ TEST(Slots, BearWhatAPinnedBlockBears) {
     for (const char* joint : {"A", "M", "C"})
       EXPECT_NEAR(part(slots, joint, Quantity::fy), part(other, joint, Quantity::fy), 1e-8) << joint;
   }
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)Model::parse(text);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(Slots, RefuseWhatIsNoSlot) {

@@ -1,10 +1,12 @@
 // The same mechanism over two coordinates: a Stephenson six-bar (III) over its crank, where every point is placed by a
 // dyad, and over the link at its far end, where B, C and E close together. Its loci are the same postures.
+// CLEARLOCI_DESIGNS=n in the environment compares n designs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -140,7 +142,14 @@ struct Compared {
 
 void compare(const SixBar& own, std::mt19937& random, Compared& count) {
   const bool c_left = random() % 2 == 0, h_left = random() % 2 == 0;
-  const Model dyads = Model::parse(by_dyads(own, c_left, h_left), "dyads.yaml");
+  std::optional<Model> built;
+  try {
+    built = Model::parse(by_dyads(own, c_left, h_left), "dyads.yaml");
+  } catch (const InputError& error) {
+    ASSERT_NE(std::string(error.what()).find("unreachable in the whole box"), std::string::npos) << error.what();
+    return;
+  }
+  const Model& dyads = *built;
   const double theta = std::uniform_real_distribution<double>(0, 2 * std::numbers::pi)(random);
   const Pose posture = solve_pose(dyads, {theta});
   if (!posture.unreachable.empty() || posture.singular) return;
@@ -200,8 +209,10 @@ void compare(const SixBar& own, std::mt19937& random, Compared& count) {
 }
 
 TEST(GroupLaw, LociAreThoseOfTheDyadsAsPostures) {
+  const char* const wanted = std::getenv("CLEARLOCI_DESIGNS");
+  const unsigned last = wanted != nullptr ? static_cast<unsigned>(std::atoi(wanted)) : 60;
   Compared count;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
+  for (unsigned seed = 1; seed <= last; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     compare(six_bar(random, seed % 2 == 0), random, count);

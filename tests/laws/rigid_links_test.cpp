@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +14,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <tuple>
 
 #include "analysis/loci.hpp"
 #include "core/errors.hpp"
@@ -23,6 +26,7 @@
 #include "symbolic/locus_problem.hpp"
 #include "tests/laws/judged.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
@@ -109,6 +113,64 @@ TEST(RigidLinks, KeepTheirLengthsAtEveryPoseThatIsReached) {
     }
   }
   EXPECT_GT(looked_at, 100 * designs());
+}
+
+/// The sides of the triangles of links in the plane, at poses that are reached; each is always the same.
+void expect_no_link_turned_over(const mechanism::Mechanism& m, std::mt19937& random, const std::vector<int>& mode) {
+  const numeric::NumericModel model = numeric::compile(m);
+  std::map<std::string, std::array<int, 2>> sides;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<double> pose;
+    for (const auto& range : model.box)
+      pose.push_back(std::uniform_real_distribution<double>(range[0], range[1])(random));
+    const numeric::Posture posture = numeric::posture(model, pose, mode);
+    if (!posture.reachable()) continue;
+    for (const mechanism::Link& link : m.links)
+      for (std::size_t k = 2; k < link.points.size(); ++k) {
+        const auto at = [&](std::size_t j) { return posture.points[static_cast<std::size_t>(link.points[j])]; };
+        const Eigen::Vector3d a = at(1) - at(0), b = at(k) - at(0);
+        const double turn = a.cross(b).z();
+        if (std::abs(turn) > 1e-9 * a.norm() * b.norm()) ++sides[fmt::format("{} {}", link.name, k)][turn > 0 ? 1 : 0];
+      }
+  }
+  for (const auto& [name, count] : sides) EXPECT_TRUE(count[0] == 0 || count[1] == 0) << name;
+}
+
+/// Groups, slots, gears and belts, and offsets, with other lengths than the files': some of them do not close.
+TEST(RigidLinks, OfGroupsSlotsGearsAndBeltsAreRigid) {
+  using Ranges = std::vector<std::tuple<std::string, double, double>>;
+  const std::vector<std::pair<std::string, Ranges>> files = {
+      {"stephenson_outside", {}},
+      {"double_butterfly", {}},
+      {"three_rpr_legs", {{"r", 0.24, 0.26}}},
+      {"scissor_lift", {{"bar", 900, 1100}}},
+      {"geared_five_bar", {{"crank1", 10, 30}, {"crank2", 10, 20}, {"rod1", 70, 110}, {"rod2", 70, 110}}},
+      {"scara_belt", {{"arm", 150, 250}, {"forearm", 120, 200}}},
+      {"planar_delta", {{"arm", 80, 120}, {"forearm", 150, 250}, {"w", 10, 40}, {"tilt", -20, 20}}}};
+  std::mt19937 random(20260703);
+  int looked_at = 0, mechanisms = 0;
+  for (const auto& [name, ranges] : files)
+    for (int n = 0; n < (ranges.empty() ? 1 : designs()); ++n) {
+      std::vector<std::pair<std::string, std::string>> set;
+      for (const auto& [parameter, low, high] : ranges)
+        set.emplace_back(parameter, fmt::format("{:.4f}", std::uniform_real_distribution<double>(low, high)(random)));
+      SCOPED_TRACE(name + " " + std::to_string(n));
+      std::optional<mechanism::Mechanism> m;
+      try {
+        m = mechanism::parse_mechanism(example_text(name), name + ".yaml", set);
+      } catch (const core::InputError& error) {
+        EXPECT_EQ(std::string(error.what()).find("rigid"), std::string::npos) << error.what();
+        continue;
+      }
+      int reached = 0;
+      const std::vector<int> mode = mechanism::working_mode(*m);
+      EXPECT_LE(bent(*m, random, mode, reached), 1e-10);
+      expect_no_link_turned_over(*m, random, mode);
+      looked_at += reached;
+      ++mechanisms;
+    }
+  EXPECT_GT(mechanisms, 4 + designs());
+  EXPECT_GT(looked_at, 20 * mechanisms);
 }
 
 TEST(RigidLinks, TheSideOnWhichOneBendsIsNoWorkspace) {
