@@ -118,20 +118,13 @@ class PreloadSearch {
     constexpr double none = std::numeric_limits<double>::infinity();
     const double found = smallest_ ? smallest_->size : none;
     answer_.size = {std::min(least_open_, found), found};
-    answer_.ranges = ranges_ = joined_ranges(cells_);
+    answer_.ranges = joined_ranges(cells_);
     if (smallest_) answer_.value = {core::to_double(smallest())};
     return std::move(answer_);
   }
 
  public:
   const std::vector<core::StudyCell>& cells() const { return cells_; }
-  /// Of every range the value nearest to zero, inside it by a little.
-  std::vector<Rational> smallest_of_each_range() const {
-    std::vector<Rational> all;
-    for (const core::ProvenRange& own : ranges_)
-      all.push_back(nearest_to_none(Rational(own.from[1]), Rational(own.to[0])));
-    return all;
-  }
   /// The smallest that was found, of few digits: all of its range verify.
   Rational smallest() const {
     const ExactRange& range = smallest_->range;
@@ -146,33 +139,10 @@ class PreloadSearch {
   std::optional<numeric::EffortGap> own_gap_;
   std::priority_queue<Part> queue_;
   std::vector<core::StudyCell> cells_;
-  std::vector<core::ProvenRange> ranges_;
   std::optional<Part> smallest_;
   double least_open_ = std::numeric_limits<double>::infinity();  ///< of what is not decided, the smallest size
   core::PreloadAnswer answer_;
 };
-
-/// Of several efforts each alone, the others as near to none as they can be: what verifies.
-std::vector<std::vector<Rational>> each_alone(const Model& model, const std::vector<WantedEffort>& wanted,
-                                              const Task& task, const VerifyRequest& request) {
-  std::vector<std::vector<Rational>> found;
-  std::vector<Rational> none;
-  for (const WantedEffort& own : wanted) none.push_back(nearest_to_none(own.lower, own.upper));
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    std::vector<WantedEffort> others = wanted;
-    std::vector<Rational> efforts = none;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    efforts.erase(efforts.begin() + static_cast<std::ptrdiff_t>(k));
-    const Model own = with_efforts(model, others, efforts);
-    PreloadSearch search(own.content().mechanism, wanted[k], task, request);
-    (void)search.run();
-    for (const Rational& value : search.smallest_of_each_range()) {
-      found.push_back(none);
-      found.back()[k] = value;
-    }
-  }
-  return found;
-}
 
 /// What is known of constant preloads, and the smallest that verifies.
 struct ConstantAnswer {
@@ -196,8 +166,7 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
     cells = search.cells();
   }
   const ConstantEfforts patterns =
-      wanted.size() == 1 ? constant_efforts(model, wanted, task, request, {}, &cells)
-                         : constant_efforts(model, wanted, task, request, each_alone(model, wanted, task, request));
+      constant_efforts(model, wanted, task, request, wanted.size() == 1 ? &cells : nullptr);
   double least = patterns.complete ? none : 0;
   for (std::size_t i = 0; i < patterns.patterns.size(); ++i) {
     const core::PreloadPattern& pattern = patterns.patterns[i];
@@ -219,11 +188,6 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
     own.answer.upper.push_back(core::to_double(each.upper));
   }
   return own;
-}
-
-Task constant(Task task) {
-  task.controlled_preload = task.knows_load = false;
-  return task;
 }
 
 }  // namespace
@@ -252,11 +216,10 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
                            "the task is to be moved, and the effort of " + named_efforts(wanted) + " is free",
                            "give it by --preload, or leave --fit out");
   if (task.controlled_preload) {
-    if (only_tensions_are_free(mechanism)) return verify_with_choices(model, task, request, {});
-    if (wanted.size() > 1 || task.knows_load)
-      return verify_with_choices(model, task, request, each_alone(model, wanted, constant(task), request));
+    if (only_tensions_are_free(mechanism)) return verify_with_choices(model, task, request);
+    if (wanted.size() > 1 || task.knows_load) return verify_with_choices(model, task, request);
     Verification law = verify_with_law(model, task, request);
-    return law.verdict == core::Verdict::undecided ? verify_with_choices(model, task, request, {}) : law;
+    return law.verdict == core::Verdict::undecided ? verify_with_choices(model, task, request) : law;
   }
   ConstantAnswer own = constant_answer(model, wanted, task, request);
   const bool found = own.answer.value.has_value();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/effort_patterns.hpp"
 #include "analysis/effort_system.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/proven_cells.hpp"
@@ -81,6 +82,8 @@ class StaticsPreload : public PreloadJudge {
                        PoseRegion(task.shape, metric_, widened_.beside()).samples(), notes);
     statics_ = symbolic::pose_statics(loads, sides, demands);
     cell_.emplace(statics_);
+    const std::size_t n = mechanism.coordinates.size();
+    find_patterns(PoseRegion(task.shape, {std::vector<double>(n, 1.0), std::vector<bool>(n, true)}).samples());
   }
 
   BoxVerdict judge(const std::vector<ExactRange>& efforts, bool finest) override {
@@ -88,7 +91,8 @@ class StaticsPreload : public PreloadJudge {
     for (std::size_t i = 0; i < wanted_.size(); ++i)
       ranges[wanted_[i].name] = core::range_of(efforts[i].first, efforts[i].second);
     const PoseRegion region(task_.shape, metric_, widened_.beside_with(ranges));
-    std::string reason;
+    std::string reason = failing_rows(ranges);
+    if (!reason.empty()) return {Verdict::refuted, reason};
     const auto all_fail = [&](const PoseSuspect& suspect) {
       reason = suspect.kind == Doubt::demand ? failing(suspect, ranges) : std::string();
       return !reason.empty();
@@ -115,6 +119,40 @@ class StaticsPreload : public PreloadJudge {
       task.tolerances.push_back({own.name, own.lower - value, own.upper - value});
     }
     return task;
+  }
+
+  /// The patterns of signs that are possible, with what some poses ask of each.
+  void find_patterns(const std::vector<loci::pose::Pose>& samples) {
+    constexpr std::size_t most_patterns = 16, most_poses = 32;
+    std::optional<SignPatterns> found;
+    for (std::size_t i = 0; i < samples.size() && !found; ++i)
+      found = sign_patterns(system_, system_.places(samples[i]));
+    if (!found || found->possible.size() > most_patterns) return;
+    const std::size_t stride = (samples.size() + most_poses - 1) / most_poses;
+    for (const SignPattern& signs : found->possible) {
+      std::vector<EffortInequality>& rows = patterns_.emplace_back(system_.rows_of_efforts(signs));
+      for (std::size_t i = 0; i < samples.size(); i += i < most_poses / 2 ? 1 : stride)
+        for (const loci::pose::Pose& place : system_.places(samples[i]))
+          if (const auto own = system_.rows(place, signs)) rows.insert(rows.end(), own->begin(), own->end());
+    }
+  }
+
+  /// Why no effort of a box has any of the patterns; empty where some may have.
+  std::string failing_rows(const Ranges& efforts) const {
+    const EffortInequality* last = nullptr;
+    for (const std::vector<EffortInequality>& rows : patterns_) {
+      const auto failing = std::find_if(rows.begin(), rows.end(), [&](const EffortInequality& row) {
+        std::vector<core::Interval> box;
+        for (const ParameterRange& own : wanted_) box.push_back(efforts.at(own.name));
+        return all_fail(row, box);
+      });
+      if (failing == rows.end()) return {};
+      last = &*failing;
+    }
+    if (last == nullptr) return {};
+    const std::string joint = last->reaction.substr(last->reaction.find('_') + 1);
+    if (last->bound) return joint + " beyond its bounds";
+    return (last->reaction.front() == 'f' ? "contact lost in " : "backlash in ") + joint;
   }
 
   /// Of every demand of one component two samples of a region between which it turns, those farthest from zero.
@@ -238,6 +276,7 @@ class StaticsPreload : public PreloadJudge {
   double margin_ = 0;
   core::PoseStatics statics_;
   std::optional<PoseCell> cell_;
+  std::vector<std::vector<EffortInequality>> patterns_;  ///< rows of each; none where they are not known
   std::vector<PoseSuspect> turning_;  ///< whose demand turned for all efforts of some box: tried first of the next
 };
 
