@@ -66,15 +66,14 @@ class ConstantSearch {
     answer.complete = true;
     for (SignPattern& signs : patterns->possible) {
       Looked own{.signs = std::move(signs)};
+      own.told.size = {0, unbounded};
       own.rows = system_.rows_of_efforts(own.signs);
       asked_for_.clear();
       const std::size_t stride = std::max<std::size_t>(1, poses_.size() / first_poses);
       // The middle and the corners, and some of the others.
       for (std::size_t i = 0; i < poses_.size(); i += i < first_poses / 2 ? 1 : stride) add(own, poses_[i]);
-      if (by_ranges_)
-        look_at_ranges(own);
-      else
-        look_from_both_sides(own);
+      if (by_ranges_) look_at_ranges(own);
+      if (own.told.verdict == Verdict::undecided) look_from_both_sides(own);
       own.told.signs.assign(own.signs.begin(), own.signs.end());
       answer.patterns.push_back(std::move(own.told));
       answer.values.push_back(std::move(own.value));
@@ -111,7 +110,6 @@ class ConstantSearch {
 
   /// Sizes between what poses ask for and the smallest that verifies, until both are near each other.
   void look(Looked& own) {
-    own.told.size = {0, unbounded};
     std::size_t level = 0;
     int at_level = 0;
     double failed = 0;  // the largest size within which what was tried fails
@@ -201,6 +199,7 @@ class ConstantSearch {
     if (own.told.verdict == Verdict::undecided && own.told.size[0] == unbounded) own.told.verdict = Verdict::refuted;
     if (const auto smallest = smallest_efforts(system_, own.rows))
       own.told.refutation = told_rows(system_, smallest->below);
+    if (own.told.verdict == Verdict::undecided) own.told.size[1] = unbounded;
   }
 
   /// Efforts that verify, where they are smaller than those before.

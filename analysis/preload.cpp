@@ -20,6 +20,7 @@
 #include "analysis/wanted_efforts.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci {
@@ -44,6 +45,7 @@ class PreloadSearch {
  public:
   PreloadSearch(const Mechanism& mechanism, WantedEffort wanted, const Task& task, const VerifyRequest& request)
       : wanted_(std::move(wanted)),
+        units_(mechanism.units),
         request_(request),
         judge_(preload_judge(mechanism, {wanted_}, task, request.loci)),
         own_gap_(own_gap(mechanism, wanted_.joint, request_of(task, request.loci).min_couple)) {}
@@ -85,7 +87,7 @@ class PreloadSearch {
       if (from < least && to > -least) return {};
       if (least == 0 && from <= 0 && to >= 0) return {};
     }
-    return judge_->judge({range}, is_finest(range));
+    return judge_->judge({range}, is_finest(range) || in_earnest(range));
   }
 
   bool out_of_time() const {
@@ -93,6 +95,13 @@ class PreloadSearch {
   }
 
   void push(const ExactRange& range) { queue_.push({least_size(wanted_, range), range}); }
+
+  /// Much is spent on some ranges that are not the finest: else large ranges of little reserve would be cut to dust.
+  bool in_earnest(const ExactRange& range) const {
+    constexpr int every = 4;
+    const double part = core::to_double((range.second - range.first) / (wanted_.upper - wanted_.lower));
+    return part < 1 && std::ilogb(part) % every == 0;
+  }
 
   bool is_finest(const ExactRange& range) const {
     return range.second - range.first <= finest * (wanted_.upper - wanted_.lower);
@@ -125,6 +134,26 @@ class PreloadSearch {
 
  public:
   const std::vector<core::StudyCell>& cells() const { return cells_; }
+  /// Ranges that are neither proven to verify nor to fail, but for those at the ends of others.
+  std::vector<std::string> undecided() const {
+    std::vector<core::StudyCell> open = cells_;
+    std::erase_if(open, [](const core::StudyCell& own) { return own.status != Status::undecided; });
+    std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.lower[0] < b.lower[0]; });
+    std::vector<std::array<double, 2>> joined;
+    for (const core::StudyCell& own : open) {
+      if (joined.empty() || own.lower[0] > joined.back()[1]) joined.push_back({own.lower[0], own.lower[0]});
+      joined.back()[1] = own.upper[0];
+    }
+    constexpr double at_an_end = 1.0 / 256;
+    const double least = at_an_end * core::to_double(wanted_.upper - wanted_.lower);
+    const std::string unit = wanted_.force ? "N" : "N m";
+    std::vector<std::string> words;
+    for (const auto& [from, to] : joined)
+      if (to - from > least)
+        words.push_back(wanted_.joint + " from " + core::told(from, unit, units_, 4) + " to " +
+                        core::told(to, unit, units_, 4) + " is not decided; --preload decides single efforts");
+    return words;
+  }
   /// The smallest that was found, of few digits: all of its range verify.
   Rational smallest() const {
     const ExactRange& range = smallest_->range;
@@ -134,6 +163,7 @@ class PreloadSearch {
 
  private:
   WantedEffort wanted_;
+  core::Units units_;
   const VerifyRequest& request_;
   std::unique_ptr<PreloadJudge> judge_;
   std::optional<numeric::EffortGap> own_gap_;
@@ -148,7 +178,8 @@ class PreloadSearch {
 struct ConstantAnswer {
   core::PreloadAnswer answer;
   std::vector<Rational> smallest = {};
-  std::vector<std::string> words = {};  ///< why all fail
+  std::vector<std::string> words = {};      ///< why all fail
+  std::vector<std::string> undecided = {};  ///< ranges that are neither proven to verify nor to fail
 };
 
 /// Ranges of one effort, and patterns of any number.
@@ -164,6 +195,7 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
     own.answer = search.run();
     if (own.answer.value) own.smallest = {search.smallest()};
     cells = search.cells();
+    own.undecided = search.undecided();
   }
   const ConstantEfforts patterns =
       constant_efforts(model, wanted, task, request, wanted.size() == 1 ? &cells : nullptr);
@@ -171,7 +203,9 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
   for (std::size_t i = 0; i < patterns.patterns.size(); ++i) {
     const core::PreloadPattern& pattern = patterns.patterns[i];
     least = std::min(least, pattern.size[0]);
-    if (wanted.size() > 1 && pattern.verdict == core::Verdict::verified && pattern.size[1] < own.answer.size[1]) {
+    constexpr double smaller = 0.99;
+    const double beside = own.answer.value && wanted.size() == 1 ? smaller : 1;
+    if (pattern.verdict == core::Verdict::verified && pattern.size[1] < beside * own.answer.size[1]) {
       own.answer.size[1] = pattern.size[1];
       own.answer.value = pattern.value;
       own.smallest = patterns.values[i];
@@ -237,6 +271,7 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
     own.words.resize(std::min(own.words.size(), most_notes));
     result.notes.insert(result.notes.end(), own.words.begin(), own.words.end());
   }
+  result.notes.insert(result.notes.end(), own.undecided.begin(), own.undecided.end());
   result.preload = std::move(own.answer);
   return result;
 }

@@ -276,7 +276,8 @@ class FourMotors(InOwnFolder):
         self.assertGreaterEqual(most, best * (1 - 1e-6))
         self.assertLessEqual(least, best * 1.01)
         for pattern in preload["patterns"]:
-            own = patterns[tuple(pattern["signs"][f"M_A{k}"] for k in (1, 2, 3))]
+            told = [pattern["signs"].get(f"M_A{k}") for k in (1, 2, 3)]  # of some one sign is enough to refute it
+            own = min(size for signs, size in patterns.items() if all(b in (None, a) for a, b in zip(signs, told)))
             if pattern["verdict"] == "verified":
                 self.assertGreaterEqual(pattern["size"][1], own * (1 - 1e-6))
             if pattern["verdict"] == "refuted":
@@ -310,8 +311,8 @@ class Antagonistic(InOwnFolder):
         for effort in (-5, 0, 5, 10, 100):
             self.assertIs(self.verdict(preload["ranges"], effort), False, effort)
         ends = [end for own in preload["ranges"] for end in (own["from"], own["to"])]
-        near = [end for end in ends if max(map(abs, end)) < 100]
-        self.assertEqual(len(near), 3)
+        near = [end for end in ends if max(map(abs, end)) < 1000]
+        self.assertEqual(len(near), 4)
         for low, high in near:
             self.assertLess(high - low, 0.1)
         self.assertLess(preload["size"][1] - preload["size"][0], 0.1)

@@ -291,6 +291,41 @@ class RandomPreloads(InOwnFolder):
         print(f"cables: {seen}")
 
 
+class Ranges(InOwnFolder):
+    """All ranges of one effort, also those that hold as a whole only in small parts."""
+
+    TEXT = """format: 1
+workspace: {x: [-0.7, 1.0], y: [-1.1, 1.1]}
+points:
+  A1: [0, 0]
+  A2: [0.44, 0]
+  P: [x, y]
+  B1: {dyad: [A1, P], lengths: [0.62, 0.55], side: left}
+  B2: {dyad: [A2, P], lengths: [0.64, 0.65], side: right}
+links: {a: {points: [A1, B1]}, b: {points: [A2, B2]}, c: {points: [B1, P]}, e: {points: [P, B2]}}
+joints:
+  A1: {revolute: [ground, a], at: A1, actuated: true, clearance: {radial: 1e-5, angular: 1e-3}}
+  A2: {revolute: [ground, b], at: A2, actuated: true, clearance: {radial: 1e-5, angular: 1e-3}}
+  B1: {revolute: [a, c], at: B1, actuated: {effort: free, within: [-59.8, 59.8]}, clearance: {radial: 1e-5}}
+  B2: {revolute: [b, e], at: B2, clearance: {radial: 1e-5}}
+  P: {revolute: [c, e], at: P, clearance: {radial: 1e-5}}
+end_effector: {link: c, at: P}
+loads: [{link: c, at: P, force: [-24.1, -26.6]}]
+"""
+
+    def test_all_are_listed(self):
+        """Ends by other statics: M_A1 is zero at some pose from -1.682 to 5.171 N m, M_A2 from 11.494 to 19.589 N m."""
+        (self.folder / "m.yaml").write_text(self.TEXT, encoding="utf-8")
+        (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [-0.07, 0.03], y: [0.14, 0.24]}\n", encoding="utf-8")
+        self.run_program("verify", "m.yaml", "t.yaml", "--quiet", "-o", "out")
+        preload = json.loads((self.folder / "out" / "verify.json").read_text(encoding="utf-8"))["preload"]
+        ends = [end for own in preload["ranges"] for end in (own["from"], own["to"])]
+        self.assertEqual(len(ends), 6)
+        for (low, high), expected in zip(ends, (-59.8, -1.682, 5.171, 11.494, 19.589, 59.8)):
+            self.assertLess(high - low, 0.01)
+            self.assertAlmostEqual(low, expected, delta=0.01)
+
+
 ANTAGONISTIC = SOURCE / "examples" / "studies" / "antagonistic.yaml"
 BOX = "format: 1\nbox: {x: [-0.05, 0.15], y: [0.45, 0.6]}\nmin_force: 1\n"
 
