@@ -5,12 +5,15 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "analysis/effort_chooser.hpp"
 #include "analysis/effort_patterns.hpp"
 #include "analysis/effort_system.hpp"
 #include "analysis/loci.hpp"
+#include "analysis/preload_judges.hpp"
+#include "analysis/smaller_efforts.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/rational.hpp"
 
@@ -24,7 +27,9 @@ using PoseAt = loci::pose::Pose;
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Efforts that are tried keep within so many times what poses ask for.
 constexpr std::array<double, 8> sizes_tried = {1.006, 1.02, 1.05, 1.1, 1.2, 1.5, 3, unbounded};
-constexpr int most_tries = 24;
+constexpr int most_tries = 40;
+/// Both sides of the smallest size are to be so near each other.
+constexpr double near_enough = 1.008;
 constexpr std::size_t first_poses = 24;
 
 /// One pattern, and the rows of the poses that were looked at.
@@ -40,12 +45,10 @@ struct Looked {
 class ConstantSearch {
  public:
   ConstantSearch(const Model& model, const std::vector<WantedEffort>& wanted, const Task& task,
-                 const VerifyRequest& request, std::vector<std::vector<Rational>> known,
-                 const std::vector<core::StudyCell>* by_ranges)
+                 const VerifyRequest& request, const std::vector<core::StudyCell>* by_ranges)
       : model_(model),
         task_(task),
         request_(request),
-        known_(std::move(known)),
         by_ranges_(by_ranges),
         system_(model.content().mechanism, wanted, task, sides_of(model, task, request),
                 request_of(task, request.loci)) {
@@ -63,15 +66,14 @@ class ConstantSearch {
     answer.complete = true;
     for (SignPattern& signs : patterns->possible) {
       Looked own{.signs = std::move(signs)};
+      own.told.size = {0, unbounded};
       own.rows = system_.rows_of_efforts(own.signs);
       asked_for_.clear();
       const std::size_t stride = std::max<std::size_t>(1, poses_.size() / first_poses);
       // The middle and the corners, and some of the others.
       for (std::size_t i = 0; i < poses_.size(); i += i < first_poses / 2 ? 1 : stride) add(own, poses_[i]);
-      if (by_ranges_)
-        look_at_ranges(own);
-      else
-        look(own);
+      if (by_ranges_) look_at_ranges(own);
+      if (own.told.verdict == Verdict::undecided) look_from_both_sides(own);
       own.told.signs.assign(own.signs.begin(), own.signs.end());
       answer.patterns.push_back(std::move(own.told));
       answer.values.push_back(std::move(own.value));
@@ -106,42 +108,64 @@ class ConstantSearch {
     }
   }
 
+  /// Sizes between what poses ask for and the smallest that verifies, until both are near each other.
   void look(Looked& own) {
-    own.told.size = {0, unbounded};
-    for (const std::vector<Rational>& efforts : known_)
-      if (meets_rows(own, efforts)) take(own, efforts);
     std::size_t level = 0;
     int at_level = 0;
-    for (int i = 0; i < most_tries && level < sizes_tried.size() && !out_of_time(); ++i) {
-      if (const auto none = excluded(system_, own.rows)) {
-        own.told.verdict = Verdict::refuted;
-        own.told.size = {unbounded, unbounded};
-        own.told.refutation = told_rows(system_, *none);
-        own.words = exclusion_words(system_, *none);
-        return;
-      }
-      const auto smallest = smallest_efforts(system_, own.rows);
-      if (!smallest) return;
-      if (smallest->size > own.told.size[0]) {
-        own.told.size[0] = smallest->size;
-        own.told.refutation = told_rows(system_, smallest->below);
-      }
-      const double within = std::max(smallest->size, least_size()) * sizes_tried[level];
-      if (within >= own.told.size[1]) return;
+    double failed = 0;  // the largest size within which what was tried fails
+    for (int i = 0; i < most_tries && !out_of_time(); ++i) {
+      if (!ask(own)) return;
+      const double needed = std::max(own.told.size[0], least_size());
+      if (own.told.size[1] <= near_enough * needed) return;
+      const bool found = own.told.size[1] < unbounded;
+      if (!found && level == sizes_tried.size()) return;
+      const double within =
+          found ? std::sqrt(std::max(needed, failed) * own.told.size[1]) : needed * sizes_tried[level];
       const auto efforts = deep_within(own, within);
-      if (!efforts) {
-        ++level;
-        continue;
-      }
       const double before = own.told.size[1];
-      const std::optional<PoseAt> failing = tried(own, *efforts);
-      if (own.told.size[1] < before) return;
-      if (failing) add(own, *failing);
+      const std::optional<PoseAt> failing = efforts ? tried(own, *efforts) : std::nullopt;
+      if (own.told.size[1] < before) continue;
       constexpr int tries_of_level = 3;
+      if (failing) add(own, *failing);
       if (failing && ++at_level < tries_of_level) continue;
+      failed = std::max(failed, within);
+      if (found && own.told.size[1] <= near_enough * failed) return;
       ++level;
       at_level = 0;
     }
+  }
+
+  void look_from_both_sides(Looked& own) {
+    look(own);
+    look_below(own);
+  }
+
+  /// What pins ask for beyond the rows, where both sides are apart.
+  void look_below(Looked& own) {
+    auto& [least, most] = own.told.size;
+    if (own.told.verdict != Verdict::verified || most <= near_enough * std::max(least, least_size())) return;
+    if (!judge_) judge_ = preload_judge(model_.content().mechanism, system_.wanted(), task_, request_.loci);
+    std::vector<PoseAt> poses = asked_for_;
+    poses.insert(poses.end(), poses_.begin(), poses_.begin() + std::min<std::ptrdiff_t>(9, std::ssize(poses_)));
+    least = size_below_which_all_fail(system_, own.rows, poses, *judge_, least, most / near_enough, most,
+                                      request_.loci.deadline);
+  }
+
+  /// What the rows ask for: whether some efforts meet them.
+  bool ask(Looked& own) const {
+    if (const auto none = excluded(system_, own.rows)) {
+      own.told.verdict = Verdict::refuted;
+      own.told.size = {unbounded, unbounded};
+      own.told.refutation = told_rows(system_, *none);
+      own.words = exclusion_words(system_, *none);
+      return false;
+    }
+    const auto smallest = smallest_efforts(system_, own.rows);
+    if (smallest && smallest->size > own.told.size[0]) {
+      own.told.size[0] = smallest->size;
+      own.told.refutation = told_rows(system_, smallest->below);
+    }
+    return smallest.has_value();
   }
 
   /// Of one effort whose ranges are known: those of its parts that meet the rows.
@@ -175,14 +199,7 @@ class ConstantSearch {
     if (own.told.verdict == Verdict::undecided && own.told.size[0] == unbounded) own.told.verdict = Verdict::refuted;
     if (const auto smallest = smallest_efforts(system_, own.rows))
       own.told.refutation = told_rows(system_, smallest->below);
-  }
-
-  bool meets_rows(const Looked& own, const std::vector<Rational>& efforts) const {
-    return std::all_of(own.rows.begin(), own.rows.end(), [&](const EffortInequality& row) {
-      double value = row.offset.value;
-      for (std::size_t k = 0; k < efforts.size(); ++k) value += row.slope[k].value * core::to_double(efforts[k]);
-      return value >= 0;
-    });
+    if (own.told.verdict == Verdict::undecided) own.told.size[1] = unbounded;
   }
 
   /// Efforts that verify, where they are smaller than those before.
@@ -246,9 +263,9 @@ class ConstantSearch {
   const Model& model_;
   Task task_;
   const VerifyRequest& request_;
-  std::vector<std::vector<Rational>> known_;
   const std::vector<core::StudyCell>* by_ranges_;
   EffortSystem system_;
+  std::unique_ptr<PreloadJudge> judge_;  ///< made where it is asked
   std::vector<PoseAt> poses_, asked_for_;
   long tries_ = 0;
 };
@@ -256,9 +273,8 @@ class ConstantSearch {
 }  // namespace
 
 ConstantEfforts constant_efforts(const Model& model, const std::vector<WantedEffort>& wanted, const Task& task,
-                                 const VerifyRequest& request, const std::vector<std::vector<Rational>>& known,
-                                 const std::vector<core::StudyCell>* by_ranges) {
-  return ConstantSearch(model, wanted, task, request, known, by_ranges).run();
+                                 const VerifyRequest& request, const std::vector<core::StudyCell>* by_ranges) {
+  return ConstantSearch(model, wanted, task, request, by_ranges).run();
 }
 
 }  // namespace clearloci

@@ -20,10 +20,9 @@ struct ConstantEfforts {
   long cells = 0;                                   ///< efforts that were tried
 };
 
-/// `known`: efforts that verify. `by_ranges`: of one effort, parts of its range that verify as a whole, fail as a whole
+/// `by_ranges`: of one effort, parts of its range that verify as a whole, fail as a whole
 /// or are undecided: nothing is tried then. Throws as verify().
 ConstantEfforts constant_efforts(const Model& model, const std::vector<WantedEffort>& wanted, const Task& task,
-                                 const VerifyRequest& request, const std::vector<std::vector<core::Rational>>& known,
-                                 const std::vector<core::StudyCell>* by_ranges = nullptr);
+                                 const VerifyRequest& request, const std::vector<core::StudyCell>* by_ranges = nullptr);
 
 }  // namespace clearloci

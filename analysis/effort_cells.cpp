@@ -159,10 +159,7 @@ class EffortCells {
     for (std::size_t k = 0; k < free_.size(); ++k)
       for (const int side : {1, -1}) {
         Row row = scaled(unit(k), side, 0);
-        const auto& within = joint_of(k).free_effort->within;
-        Rational reference = 1;
-        if (within) reference = std::max(abs(within->first), abs(within->second));
-        row.slope.push_back(reference > 0 ? reference : Rational(1));
+        row.slope.push_back(reference_effort(*joint_of(k).free_effort));
         sized.rows.push_back(std::move(row));
       }
     std::vector<Rational> size(sized.efforts);

@@ -51,7 +51,7 @@ struct PatternProof {
 class ChoiceSearch {
  public:
   ChoiceSearch(const Mechanism& mechanism, const std::vector<WantedEffort>& wanted, const Task& task,
-               const VerifyRequest& request, const std::vector<std::vector<core::Rational>>& known)
+               const VerifyRequest& request)
       : mechanism_(mechanism),
         task_(task),
         request_(request),
@@ -60,10 +60,6 @@ class ChoiceSearch {
         systems_(mechanism, wanted, task, requested_modes(mechanism, asked_).front(), asked_),
         region_(task.shape, metric_of(mechanism, task)),
         margin_(core::to_double(task.margin)) {
-    for (const std::vector<core::Rational>& efforts : known) {
-      std::vector<double>& own = known_.emplace_back();
-      for (const core::Rational& value : efforts) own.push_back(core::to_double(value));
-    }
     side_names(mechanism, systems_.sides());  // there is one for every dyad
   }
 
@@ -149,7 +145,6 @@ class ChoiceSearch {
       const double within =
           std::isfinite(sizes_tried[level]) ? sizes_tried[level] * std::max(needed, least_size()) : unbounded;
       own.chooser->keep_within(within);
-      own.chooser->begin_with(known_);
       const bool last = level + 1 == sizes_tried.size() && !result.verified();
       loci::pose::EffortProof proof = proven(own, margin_, last ? cells_of_verdict : cells_of_size);
       result.cells += proof.proof.cells;
@@ -332,19 +327,17 @@ class ChoiceSearch {
   EffortSystems systems_;
   PoseRegion region_;
   double margin_;
-  std::vector<std::vector<double>> known_;
   std::vector<PatternProof> patterns_;
   PoseAt first_;
 };
 
 }  // namespace
 
-Verification verify_with_choices(const Model& model, const Task& task, const VerifyRequest& request,
-                                 const std::vector<std::vector<core::Rational>>& known) {
+Verification verify_with_choices(const Model& model, const Task& task, const VerifyRequest& request) {
   const Mechanism& mechanism = model.content().mechanism;
   require_answerable_by_choice(task, request);
   const std::vector<WantedEffort> wanted = wanted_efforts(model, task, request);
-  Verification result = ChoiceSearch(mechanism, wanted, task, request, known).run();
+  Verification result = ChoiceSearch(mechanism, wanted, task, request).run();
   core::PreloadAnswer answer;
   if (result.preload) answer = std::move(*result.preload);
   answer.of_poses = true;

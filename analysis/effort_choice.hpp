@@ -11,9 +11,8 @@
 
 namespace clearloci {
 
-/// Of any number of free efforts. `known`: constant ones that verify. Throws core::InputError for tasks that ask for a
+/// Of any number of free efforts. Throws core::InputError for tasks that ask for a
 /// pose error or are to be moved, and as verify().
-Verification verify_with_choices(const Model& model, const Task& task, const VerifyRequest& request,
-                                 const std::vector<std::vector<core::Rational>>& known);
+Verification verify_with_choices(const Model& model, const Task& task, const VerifyRequest& request);
 
 }  // namespace clearloci

@@ -392,6 +392,15 @@ EffortExclusion exclusion_of(const std::vector<EffortInequality>& rows, const st
 
 }  // namespace
 
+bool all_fail(const EffortInequality& row, const std::vector<core::Interval>& box) {
+  const auto enclosed = [](const Bounded& own) {
+    return core::Interval(own.value) + core::Interval(-own.error, own.error);
+  };
+  core::Interval value = enclosed(row.offset);
+  for (std::size_t k = 0; k < box.size(); ++k) value = value + enclosed(row.slope[k]) * box[k];
+  return value.upper() < 0;
+}
+
 std::optional<EffortExclusion> excluded(const EffortSystem& system, const std::vector<EffortInequality>& rows) {
   const EffortPolytope polytope = polytope_of_rows(system, rows);
   std::vector<Rational> widths;

@@ -14,6 +14,7 @@
 #include "analysis/effort_polytope.hpp"
 #include "analysis/wanted_efforts.hpp"
 #include "analysis/widened_task.hpp"
+#include "core/interval.hpp"
 #include "loci/tasks/tasks.hpp"
 #include "numeric/model.hpp"
 
@@ -112,6 +113,9 @@ class EffortSystem {
 std::string reaction_name(const core::TaskDemand& demand);
 /// The sign that a pattern has for a demand; 0: none, or of several components. Of a bound its side.
 int sign_of(const core::PoseDemand& demand, const SignPattern& signs);
+
+/// Whether no efforts of a box meet a row, for certain.
+bool all_fail(const EffortInequality& row, const std::vector<core::Interval>& box);
 
 /// Whether no efforts that are looked at meet all rows, for certain: multipliers of a linear program, under which what
 /// is left of the slopes is too small for any of these efforts to matter.

@@ -56,6 +56,12 @@ std::vector<Cluster> clusters_of(std::vector<EffortGap> gaps) {
 
 }  // namespace
 
+core::Rational reference_effort(const mechanism::FreeEffort& effort) {
+  if (!effort.within) return 1;
+  const core::Rational largest = std::max(abs(effort.within->first), abs(effort.within->second));
+  return largest > 0 ? largest : core::Rational(1);
+}
+
 FeasibleEfforts efforts_without_ranges(const mechanism::Joint& joint) {
   FeasibleEfforts efforts;
   efforts.joint = joint.name;

@@ -17,6 +17,9 @@ inline core::Rational nearest_to_none(const core::Rational& lower, const core::R
   return lower > 0 ? lower : upper < 0 ? upper : core::Rational();
 }
 
+/// The effort that counts as a size of 1, N or N m: the larger bound of `within`; 1 where there is none.
+core::Rational reference_effort(const mechanism::FreeEffort& effort);
+
 /// What is known of a free actuator at every pose: its joint, what it exerts and within which bounds.
 FeasibleEfforts efforts_without_ranges(const mechanism::Joint& joint);
 

@@ -20,6 +20,7 @@
 #include "analysis/wanted_efforts.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci {
@@ -44,6 +45,7 @@ class PreloadSearch {
  public:
   PreloadSearch(const Mechanism& mechanism, WantedEffort wanted, const Task& task, const VerifyRequest& request)
       : wanted_(std::move(wanted)),
+        units_(mechanism.units),
         request_(request),
         judge_(preload_judge(mechanism, {wanted_}, task, request.loci)),
         own_gap_(own_gap(mechanism, wanted_.joint, request_of(task, request.loci).min_couple)) {}
@@ -85,7 +87,7 @@ class PreloadSearch {
       if (from < least && to > -least) return {};
       if (least == 0 && from <= 0 && to >= 0) return {};
     }
-    return judge_->judge({range}, is_finest(range));
+    return judge_->judge({range}, is_finest(range) || in_earnest(range));
   }
 
   bool out_of_time() const {
@@ -93,6 +95,13 @@ class PreloadSearch {
   }
 
   void push(const ExactRange& range) { queue_.push({least_size(wanted_, range), range}); }
+
+  /// Much is spent on some ranges that are not the finest: else large ranges of little reserve would be cut to dust.
+  bool in_earnest(const ExactRange& range) const {
+    constexpr int every = 4;
+    const double part = core::to_double((range.second - range.first) / (wanted_.upper - wanted_.lower));
+    return part < 1 && std::ilogb(part) % every == 0;
+  }
 
   bool is_finest(const ExactRange& range) const {
     return range.second - range.first <= finest * (wanted_.upper - wanted_.lower);
@@ -118,19 +127,32 @@ class PreloadSearch {
     constexpr double none = std::numeric_limits<double>::infinity();
     const double found = smallest_ ? smallest_->size : none;
     answer_.size = {std::min(least_open_, found), found};
-    answer_.ranges = ranges_ = joined_ranges(cells_);
+    answer_.ranges = joined_ranges(cells_);
     if (smallest_) answer_.value = {core::to_double(smallest())};
     return std::move(answer_);
   }
 
  public:
   const std::vector<core::StudyCell>& cells() const { return cells_; }
-  /// Of every range the value nearest to zero, inside it by a little.
-  std::vector<Rational> smallest_of_each_range() const {
-    std::vector<Rational> all;
-    for (const core::ProvenRange& own : ranges_)
-      all.push_back(nearest_to_none(Rational(own.from[1]), Rational(own.to[0])));
-    return all;
+  /// Ranges that are neither proven to verify nor to fail, but for those at the ends of others.
+  std::vector<std::string> undecided() const {
+    std::vector<core::StudyCell> open = cells_;
+    std::erase_if(open, [](const core::StudyCell& own) { return own.status != Status::undecided; });
+    std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.lower[0] < b.lower[0]; });
+    std::vector<std::array<double, 2>> joined;
+    for (const core::StudyCell& own : open) {
+      if (joined.empty() || own.lower[0] > joined.back()[1]) joined.push_back({own.lower[0], own.lower[0]});
+      joined.back()[1] = own.upper[0];
+    }
+    constexpr double at_an_end = 1.0 / 256;
+    const double least = at_an_end * core::to_double(wanted_.upper - wanted_.lower);
+    const std::string unit = wanted_.force ? "N" : "N m";
+    std::vector<std::string> words;
+    for (const auto& [from, to] : joined)
+      if (to - from > least)
+        words.push_back(wanted_.joint + " from " + core::told(from, unit, units_, 4) + " to " +
+                        core::told(to, unit, units_, 4) + " is not decided; --preload decides single efforts");
+    return words;
   }
   /// The smallest that was found, of few digits: all of its range verify.
   Rational smallest() const {
@@ -141,44 +163,23 @@ class PreloadSearch {
 
  private:
   WantedEffort wanted_;
+  core::Units units_;
   const VerifyRequest& request_;
   std::unique_ptr<PreloadJudge> judge_;
   std::optional<numeric::EffortGap> own_gap_;
   std::priority_queue<Part> queue_;
   std::vector<core::StudyCell> cells_;
-  std::vector<core::ProvenRange> ranges_;
   std::optional<Part> smallest_;
   double least_open_ = std::numeric_limits<double>::infinity();  ///< of what is not decided, the smallest size
   core::PreloadAnswer answer_;
 };
 
-/// Of several efforts each alone, the others as near to none as they can be: what verifies.
-std::vector<std::vector<Rational>> each_alone(const Model& model, const std::vector<WantedEffort>& wanted,
-                                              const Task& task, const VerifyRequest& request) {
-  std::vector<std::vector<Rational>> found;
-  std::vector<Rational> none;
-  for (const WantedEffort& own : wanted) none.push_back(nearest_to_none(own.lower, own.upper));
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    std::vector<WantedEffort> others = wanted;
-    std::vector<Rational> efforts = none;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    efforts.erase(efforts.begin() + static_cast<std::ptrdiff_t>(k));
-    const Model own = with_efforts(model, others, efforts);
-    PreloadSearch search(own.content().mechanism, wanted[k], task, request);
-    (void)search.run();
-    for (const Rational& value : search.smallest_of_each_range()) {
-      found.push_back(none);
-      found.back()[k] = value;
-    }
-  }
-  return found;
-}
-
 /// What is known of constant preloads, and the smallest that verifies.
 struct ConstantAnswer {
   core::PreloadAnswer answer;
   std::vector<Rational> smallest = {};
-  std::vector<std::string> words = {};  ///< why all fail
+  std::vector<std::string> words = {};      ///< why all fail
+  std::vector<std::string> undecided = {};  ///< ranges that are neither proven to verify nor to fail
 };
 
 /// Ranges of one effort, and patterns of any number.
@@ -194,15 +195,17 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
     own.answer = search.run();
     if (own.answer.value) own.smallest = {search.smallest()};
     cells = search.cells();
+    own.undecided = search.undecided();
   }
   const ConstantEfforts patterns =
-      wanted.size() == 1 ? constant_efforts(model, wanted, task, request, {}, &cells)
-                         : constant_efforts(model, wanted, task, request, each_alone(model, wanted, task, request));
+      constant_efforts(model, wanted, task, request, wanted.size() == 1 ? &cells : nullptr);
   double least = patterns.complete ? none : 0;
   for (std::size_t i = 0; i < patterns.patterns.size(); ++i) {
     const core::PreloadPattern& pattern = patterns.patterns[i];
     least = std::min(least, pattern.size[0]);
-    if (wanted.size() > 1 && pattern.verdict == core::Verdict::verified && pattern.size[1] < own.answer.size[1]) {
+    constexpr double smaller = 0.99;
+    const double beside = own.answer.value && wanted.size() == 1 ? smaller : 1;
+    if (pattern.verdict == core::Verdict::verified && pattern.size[1] < beside * own.answer.size[1]) {
       own.answer.size[1] = pattern.size[1];
       own.answer.value = pattern.value;
       own.smallest = patterns.values[i];
@@ -219,11 +222,6 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
     own.answer.upper.push_back(core::to_double(each.upper));
   }
   return own;
-}
-
-Task constant(Task task) {
-  task.controlled_preload = task.knows_load = false;
-  return task;
 }
 
 }  // namespace
@@ -252,11 +250,10 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
                            "the task is to be moved, and the effort of " + named_efforts(wanted) + " is free",
                            "give it by --preload, or leave --fit out");
   if (task.controlled_preload) {
-    if (only_tensions_are_free(mechanism)) return verify_with_choices(model, task, request, {});
-    if (wanted.size() > 1 || task.knows_load)
-      return verify_with_choices(model, task, request, each_alone(model, wanted, constant(task), request));
+    if (only_tensions_are_free(mechanism)) return verify_with_choices(model, task, request);
+    if (wanted.size() > 1 || task.knows_load) return verify_with_choices(model, task, request);
     Verification law = verify_with_law(model, task, request);
-    return law.verdict == core::Verdict::undecided ? verify_with_choices(model, task, request, {}) : law;
+    return law.verdict == core::Verdict::undecided ? verify_with_choices(model, task, request) : law;
   }
   ConstantAnswer own = constant_answer(model, wanted, task, request);
   const bool found = own.answer.value.has_value();
@@ -274,6 +271,7 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
     own.words.resize(std::min(own.words.size(), most_notes));
     result.notes.insert(result.notes.end(), own.words.begin(), own.words.end());
   }
+  result.notes.insert(result.notes.end(), own.undecided.begin(), own.undecided.end());
   result.preload = std::move(own.answer);
   return result;
 }

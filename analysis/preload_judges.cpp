@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/effort_patterns.hpp"
 #include "analysis/effort_system.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/proven_cells.hpp"
@@ -28,11 +29,67 @@ using loci::pose::PoseSuspect;
 using mechanism::Mechanism;
 using mechanism::ParameterRange;
 
+/// The patterns of signs that are possible, with what some poses ask of each.
+class PatternRows {
+ public:
+  /// The system must outlive them.
+  PatternRows(const EffortSystem& system, const Task& task) {
+    const std::size_t n = system.mechanism().coordinates.size();
+    const PoseRegion region(task.shape, {std::vector<double>(n, 1.0), std::vector<bool>(n, true)});
+    const std::vector<loci::pose::Pose> samples = region.samples();
+    constexpr std::size_t most_patterns = 16, most_poses = 32;
+    std::optional<SignPatterns> found;
+    for (std::size_t i = 0; i < samples.size() && !found; ++i) found = sign_patterns(system, system.places(samples[i]));
+    if (!found || found->possible.size() > most_patterns) return;
+    const std::size_t stride = (samples.size() + most_poses - 1) / most_poses;
+    for (const SignPattern& signs : found->possible) {
+      std::vector<EffortInequality>& rows = patterns_.emplace_back(system.rows_of_efforts(signs));
+      for (std::size_t i = 0; i < samples.size(); i += i < most_poses / 2 ? 1 : stride)
+        for (const loci::pose::Pose& place : system.places(samples[i]))
+          if (const auto own = system.rows(place, signs)) rows.insert(rows.end(), own->begin(), own->end());
+    }
+  }
+
+  /// Why no effort of a box has any of the patterns; empty where some may have.
+  std::string failing(const std::vector<core::Interval>& box) const {
+    const EffortInequality* last = nullptr;
+    for (const std::vector<EffortInequality>& rows : patterns_) {
+      const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return all_fail(row, box); });
+      if (found == rows.end()) return {};
+      last = &*found;
+    }
+    if (last == nullptr) return {};
+    const std::string joint = last->reaction.substr(last->reaction.find('_') + 1);
+    if (last->bound) return joint + " beyond its bounds";
+    return (last->reaction.front() == 'f' ? "contact lost in " : "backlash in ") + joint;
+  }
+
+ private:
+  std::vector<std::vector<EffortInequality>> patterns_;  ///< none where they are not known
+};
+
+std::vector<core::Interval> intervals_of(const std::vector<ExactRange>& efforts) {
+  std::vector<core::Interval> box;
+  for (const ExactRange& own : efforts) box.push_back(core::range_of(own.first, own.second));
+  return box;
+}
+
+std::vector<ParameterRange> ranges_of(const std::vector<WantedEffort>& wanted) {
+  std::vector<ParameterRange> ranges;
+  for (const WantedEffort& own : wanted) ranges.push_back({own.parameter, own.lower, own.upper});
+  return ranges;
+}
+
 class DesignPreload : public PreloadJudge {
  public:
-  DesignPreload(const Mechanism& mechanism, const std::vector<ParameterRange>& wanted, const Task& task,
+  DesignPreload(const Mechanism& mechanism, const std::vector<WantedEffort>& wanted, const Task& task,
                 const LociRequest& request)
-      : task_(mechanism, wanted, task, request), judge_(task_.judge()), deadline_(request.deadline) {}
+      : task_(mechanism, ranges_of(wanted), task, request),
+        judge_(task_.judge()),
+        system_(mechanism, wanted, task, requested_modes(mechanism, request_of(task, request)).front(),
+                request_of(task, request)),
+        rows_(system_, task),
+        deadline_(request.deadline) {}
 
   BoxVerdict judge(const std::vector<ExactRange>& efforts, bool finest) override {
     const auto box = task_.box(efforts);
@@ -40,20 +97,19 @@ class DesignPreload : public PreloadJudge {
     loci::DesignEffort effort = finest ? effort_of_finest_cells : effort_of_coarse_cells;
     effort.deadline = deadline_;
     const loci::DesignProof proof = judge_->judge(*box, task_.margin(), loci::Refuting::all, effort);
+    if (proof.verdict == Verdict::undecided)
+      if (const std::string reason = rows_.failing(intervals_of(efforts)); !reason.empty())
+        return {Verdict::refuted, reason};
     return {proof.verdict, proof.failure ? task_.reason(*proof.failure) : std::string()};
   }
 
  private:
   DesignTask task_;
   std::unique_ptr<loci::DesignJudge> judge_;
+  EffortSystem system_;
+  PatternRows rows_;
   std::optional<std::chrono::steady_clock::time_point> deadline_;
 };
-
-std::vector<ParameterRange> ranges_of(const std::vector<WantedEffort>& wanted) {
-  std::vector<ParameterRange> ranges;
-  for (const WantedEffort& own : wanted) ranges.push_back({own.parameter, own.lower, own.upper});
-  return ranges;
-}
 
 /// With the efforts as coordinates beside those of the pose. All efforts of a box fail where at two poses of the task
 /// a reaction has opposite signs for each of them, or at one an effort is beyond its bound or a reaction too small.
@@ -65,6 +121,7 @@ class StaticsPreload : public PreloadJudge {
         task_(task),
         request_(request_of(task, request)),
         system_(mechanism, wanted, task, requested_modes(mechanism, request_).front(), request_),
+        rows_(system_, task),
         widened_(mechanism, with_efforts(mechanism, wanted_, task)),
         metric_(widened_.metric(mechanism, task)),
         margin_(core::to_double(task.margin)) {
@@ -88,7 +145,8 @@ class StaticsPreload : public PreloadJudge {
     for (std::size_t i = 0; i < wanted_.size(); ++i)
       ranges[wanted_[i].name] = core::range_of(efforts[i].first, efforts[i].second);
     const PoseRegion region(task_.shape, metric_, widened_.beside_with(ranges));
-    std::string reason;
+    std::string reason = rows_.failing(intervals_of(efforts));
+    if (!reason.empty()) return {Verdict::refuted, reason};
     const auto all_fail = [&](const PoseSuspect& suspect) {
       reason = suspect.kind == Doubt::demand ? failing(suspect, ranges) : std::string();
       return !reason.empty();
@@ -233,6 +291,7 @@ class StaticsPreload : public PreloadJudge {
   Task task_;
   LociRequest request_;
   EffortSystem system_;
+  PatternRows rows_;
   WidenedTask widened_;
   loci::pose::PoseMetric metric_;
   double margin_ = 0;
@@ -248,7 +307,7 @@ std::unique_ptr<PreloadJudge> preload_judge(const Mechanism& mechanism, const st
   const bool spatial = mechanism.space == mechanism::Space::spatial;
   if (mechanism::is_plane(mechanism) && !mechanism::has_effort_bounds(mechanism) &&
       !(spatial && (task.loads || !task.loads_within.empty())))
-    return std::make_unique<DesignPreload>(mechanism, ranges_of(wanted), task, request);
+    return std::make_unique<DesignPreload>(mechanism, wanted, task, request);
   return std::make_unique<StaticsPreload>(mechanism, wanted, task, request);
 }
 

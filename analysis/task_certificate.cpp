@@ -33,7 +33,13 @@ core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, cons
   const WidenedTask widened(mechanism, task);
   const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
   std::vector<numeric::NumericModel> models;
-  for (const mechanism::Mechanism& loaded : widened.loads()) models.push_back(numeric::compile(loaded));
+  const std::vector<mechanism::JointIndex> open = mechanism::joints_without_preload(mechanism);
+  for (const mechanism::Mechanism& loaded : widened.loads())
+    for (const int effort : {0, 1}) {
+      mechanism::Mechanism given = loaded;
+      for (const mechanism::JointIndex j : open) mechanism::give_effort(given, j, effort);
+      if (effort == 0 || !open.empty()) models.push_back(numeric::compile(given));
+    }
   std::vector<std::string> notes;
   own.demands = loaded_demands(models, own.sides, demands_of(mechanism, request), region.samples(), notes);
   // Bounds of efforts are the model's.

@@ -7,6 +7,7 @@
 
 #include "analysis/loci.hpp"
 #include "analysis/pose.hpp"
+#include "analysis/pose_efforts.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/rational.hpp"
 #include "core/task.hpp"
@@ -102,7 +103,7 @@ std::vector<WantedEffort> wanted_efforts(const Model& model, const Task& task, c
     if (const auto& within = joints[i]->free_effort->within) {
       own.lower = within->first;
       own.upper = within->second;
-      own.size_of_one = 1 / core::to_double(std::max(abs(own.lower), abs(own.upper)));
+      own.size_of_one = 1 / core::to_double(reference_effort(*joints[i]->free_effort));
     } else {
       own.upper = range_without_bounds(model, wanted, i, task, request);
       own.lower = -own.upper;

@@ -66,17 +66,15 @@ class SampleEfforts {
     for (const EffortRange& range : efforts.ranges) {
       preload.patterns.push_back(pattern_of(range, gaps));
       const double effort = range.from > 0 ? range.from : range.to < 0 ? range.to : 0;
-      if (preload.smallest && *preload.smallest <= size_of(effort, efforts)) continue;
-      preload.smallest = size_of(effort, efforts);
+      if (preload.smallest && *preload.smallest <= size_of(effort)) continue;
+      preload.smallest = size_of(effort);
       efforts.effort = effort;
     }
     return preload;
   }
 
-  static double size_of(double effort, const FeasibleEfforts& efforts) {
-    const auto& within = efforts.within;
-    const double most = within ? std::max(std::abs((*within)[0]), std::abs((*within)[1])) : 1;
-    return std::abs(effort) / (most > 0 ? most : 1);
+  double size_of(double effort) const {
+    return std::abs(effort) / core::to_double(reference_effort(*joint_.free_effort));
   }
 
   static Signs pattern_of(const EffortRange& range, const std::vector<EffortGap>& gaps) {

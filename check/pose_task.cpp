@@ -4,111 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "check/certificate.hpp"
 #include "check/group_sheet.hpp"
+#include "check/law_cells.hpp"
 #include "check/pose_cell.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::check {
 namespace {
 
-using Json = nlohmann::json;
 using core::Expression;
 using core::Rational;
 using mechanism::Mechanism;
 
-constexpr std::size_t most_variables = 32, most_points = 10'000, most_demands = 10'000;
-
-class Reader {
- public:
-  explicit Reader(const std::string& file) : file_(file) {}
-
-  PoseTaskClaim read(const Json& root) const {
-    PoseTaskClaim claim;
-    claim.model = text(at(at(root, "model"), "text"));
-    for (const Json& pair : list(at(at(root, "model"), "set"), most_variables))
-      claim.overrides.emplace_back(text(item(pair, 0)), text(item(pair, 1)));
-    for (const Json& name : list(at(root, "coordinates"), most_variables)) claim.coordinates.push_back(text(name));
-    const Json& task = at(root, "pose_task");
-    claim.shape = shape(task);
-    if (const Json& own = at(task, "angle_length"); !own.is_null()) claim.angle_length = rational(own);
-    for (const Json& side : list(at(task, "sides"), 10 * most_variables)) {
-      if (side != 1 && side != -1) fail("a side is 1 or -1");
-      claim.sides.push_back(side.get<int>());
-    }
-    for (const Json& own : list(at(task, "parameters"), most_variables))
-      claim.parameters.push_back({text(item(own, 0)), rational(item(own, 1)), rational(item(own, 2))});
-    for (const Json& own : list(at(task, "demands"), most_demands))
-      claim.demands.push_back({text(item(own, 0)), quantity(text(item(own, 1))), rational(item(own, 2))});
-    for (const Json& own : list(at(task, "unchecked"), most_variables)) claim.unchecked.push_back(text(own));
-    if (task.contains("loads_from"))
-      for (const Json& own : list(task["loads_from"], 2)) claim.loads_from.push_back(rationals(own));
-    if (task.contains("loads_within"))
-      for (const Json& own : list(task["loads_within"], most_variables))
-        claim.loads_within.push_back({index(item(own, 0)), rational(item(own, 1)), rational(item(own, 2))});
-    if (!claim.shape.is_shape(claim.coordinates.size()) || (claim.angle_length && *claim.angle_length <= 0))
-      fail("the task has no shape");
-    return claim;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw core::InputError({file_}, "this is no certificate that can be read: " + what,
-                           "write it anew with --certificate");
-  }
-  const Json& at(const Json& json, const char* key) const {
-    if (!json.is_object() || !json.contains(key)) fail(fmt::format("'{}' is missing", key));
-    return json[key];
-  }
-  const Json& item(const Json& json, std::size_t i) const {
-    if (!json.is_array() || i >= json.size()) fail("a list is too short");
-    return json[i];
-  }
-  const Json& list(const Json& json, std::size_t most) const {
-    if (!json.is_array() || json.size() > most) fail("a list is missing, or too long");
-    return json;
-  }
-  std::string text(const Json& json) const {
-    if (!json.is_string()) fail("a text is missing");
-    return json.get<std::string>();
-  }
-  Rational rational(const Json& json) const {
-    const std::string digits = text(json);
-    const std::optional<Rational> value = fraction_of(digits);
-    if (!value) fail("'" + digits.substr(0, 40) + "' is no fraction");
-    return *value;
-  }
-  std::vector<Rational> rationals(const Json& json) const {
-    std::vector<Rational> all;
-    for (const Json& own : list(json, most_variables)) all.push_back(rational(own));
-    return all;
-  }
-  core::Quantity quantity(const std::string& name) const {
-    for (const core::Quantity q : core::all_quantities)
-      if (core::to_string(q) == name) return q;
-    fail("an unknown quantity");
-  }
-  std::size_t index(const Json& json) const {
-    if (!json.is_number_unsigned() || json.get<std::size_t>() >= most_variables)
-      fail("a number is missing, or too large");
-    return json.get<std::size_t>();
-  }
-  ClaimedShape shape(const Json& task) const {
-    ClaimedShape own;
-    own.name = text(at(task, "shape"));
-    for (const Json& point : list(at(task, "points"), most_points)) own.points.push_back(rationals(point));
-    own.radius = rational(at(task, "radius"));
-    own.margin = rational(at(task, "margin"));
-    if (task.contains("across")) own.across = {index(item(task["across"], 0)), index(item(task["across"], 1))};
-    if (task.contains("above")) own.above = rationals(task["above"]);
-    return own;
-  }
-
-  const std::string& file_;
-};
+const char* const way_of_load = "way of the load";  // no name of a file
 
 Expression sum(const Expression& a, const Expression& b) { return Expression::apply(Expression::Kind::add, {a, b}); }
 Expression product(const Expression& a, const Expression& b) {
@@ -117,7 +28,11 @@ Expression product(const Expression& a, const Expression& b) {
 
 class PoseTaskCheck {
  public:
-  PoseTaskCheck(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline)
+  using Efforts = PoseTaskClaim::Law::Efforts;
+
+  /// `part`: of a law, poses at which the efforts are any convex combination of some.
+  PoseTaskCheck(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline, const Cell* part = nullptr,
+                const std::vector<Efforts>& efforts = {})
       : m_(m), claim_(claim), deadline_(deadline), coordinates_(claim.coordinates.size()), names_(claim.coordinates) {
     check_names();
     region_.emplace(region());
@@ -125,11 +40,13 @@ class PoseTaskCheck {
     for (const PoseTaskClaim::Range& own : claim.parameters) add_variable(own.parameter, own.lower, own.upper);
     if (!claim.loads_from.empty()) turn_load();
     for (const PoseTaskClaim::LoadWithin& own : claim.loads_within) widen_load(own);
+    if (part == nullptr) return;
+    std::copy(part->begin(), part->end(), whole_.begin());
+    give_efforts(efforts);
   }
 
   std::size_t run() {
     close_groups();
-    check_links();
     if (!groups_) return covered_within(whole_, nullptr);
     std::size_t cells = 0;
     for (const GroupSheet::Part& part : groups_->parts()) {
@@ -140,10 +57,37 @@ class PoseTaskCheck {
     return cells;
   }
 
+  /// Lengths within links do not change with the pose, at a pose of the task and two beside it.
+  void check_links() {
+    close_groups();
+    for (const double share : {0.5, 0.3819, 0.7071}) {
+      const GroupSheet::Part* part = nullptr;
+      if (groups_)
+        part = &groups_->parts()[static_cast<std::size_t>(share * static_cast<double>(groups_->parts().size()))];
+      Cell cell = whole_;
+      if (part != nullptr) std::copy(part->cell.begin(), part->cell.end(), cell.begin());
+      for (auto& own : cell) own[0] = own[1] = own[0] + share * (own[1] - own[0]);
+      Jet::Offsets offsets;
+      const PoseVariables variables = variables_over(names_, cell, offsets);
+      std::vector<double> spreads(names_.size());
+      std::optional<GroupCell> groups;
+      if (part != nullptr && !(groups = groups_->over(*part, variables, offsets, spreads))) continue;
+      const PosePosture posture =
+          posture_over(m_, claim_.sides, variables, groups ? groups->places : std::vector<std::array<Jet, 3>>());
+      if (posture.stopped_by) continue;  // the cells tell
+      for (const mechanism::Link& link : m_.links) check_link(link, posture);
+    }
+  }
+
+  /// The poses of the task and its margin.
+  Cell poses() const { return {whole_.begin(), whole_.begin() + static_cast<std::ptrdiff_t>(coordinates_)}; }
+  const TaskRegion& task() const { return *region_; }
+
  private:
   std::size_t covered_within(const Cell& whole, const GroupSheet::Part* part) {
     return covered(
-        whole, names_, [&](const Cell& cell) { return region_->is_apart(cell) || is_beyond_balls(cell); },
+        whole, names_,
+        [&](const Cell& cell) { return region_->is_apart(cell) || is_beyond_balls(cell) || is_beyond_shares(cell); },
         [&](const Cell& cell, std::vector<double>& spreads) { return holds(cell, part, spreads); }, deadline_);
   }
 
@@ -160,7 +104,7 @@ class PoseTaskCheck {
 
   /// Over the coordinates and the parameters that vary; loads do nothing to them.
   void close_groups() {
-    if (m_.groups.empty()) return;
+    if (m_.groups.empty() || groups_) return;
     const auto count = static_cast<std::ptrdiff_t>(coordinates_ + claim_.parameters.size());
     groups_.emplace(
         m_, claim_.sides, std::vector<std::string>(names_.begin(), names_.begin() + count),
@@ -219,7 +163,7 @@ class PoseTaskCheck {
     if (m_.loads.size() != 1 || claim_.loads_from.size() != 2 || m_.loads[0].force_vector ||
         first.size() != m_.loads[0].force.size() || last.size() != first.size())
       throw FalseClaim("loads: the model has no such force");
-    const Expression way = Expression::symbol("way of the load");  // no name of a file
+    const Expression way = Expression::symbol(way_of_load);
     for (std::size_t c = 0; c < first.size(); ++c)
       m_.loads[0].force[c] = sum(Expression::number(first[c]), product(Expression::number(last[c] - first[c]), way));
     add_variable(way.name(), 0, 1);
@@ -237,6 +181,59 @@ class PoseTaskCheck {
     std::vector<Expression> couple = {load.couple};
     add_ball(couple, within.couple);
     load.couple = couple.front();
+  }
+
+  /// The first of them, and shares of what the others differ by from it.
+  void give_efforts(const std::vector<Efforts>& efforts) {
+    first_share_ = names_.size();
+    for (std::size_t k = 1; k < efforts.size(); ++k) add_variable(fmt::format("share {} of efforts", k), 0, 1);
+    for (std::size_t j = 0; j < claim_.law->joints.size(); ++j) {
+      const auto joint = std::find_if(m_.joints.begin(), m_.joints.end(),
+                                      [&](const auto& own) { return own.name == claim_.law->joints[j]; });
+      if (joint == m_.joints.end() || !joint->free_effort || joint->free_effort->given)
+        throw FalseClaim("law: '" + claim_.law->joints[j].substr(0, 40) + "' has no free effort");
+      const Expression first = effort_of(efforts.front(), j);
+      Expression effort = first;
+      for (std::size_t k = 1; k < efforts.size(); ++k) {
+        const Expression more = sum(effort_of(efforts[k], j), product(Expression::number(-1), first));
+        effort = sum(effort, product(Expression::symbol(names_[first_share_ + k - 1]), more));
+      }
+      joint->effort = effort;
+      require_bounds(*joint, efforts, j);
+    }
+  }
+
+  /// As it depends on what is known of the load.
+  Expression effort_of(const Efforts& own, std::size_t joint) const {
+    Expression effort = Expression::number(own.at_loads.front()[joint]);
+    if (own.at_loads.size() > 1) {
+      if (claim_.loads_from.empty()) throw FalseClaim("law: it depends on a load that does not vary");
+      const Rational more = own.at_loads.back()[joint] - own.at_loads.front()[joint];
+      effort = sum(effort, product(Expression::number(more), Expression::symbol(way_of_load)));
+    }
+    std::vector<std::string> parts;
+    for (const LoadBall& ball : balls_)
+      for (std::size_t c = 0; c < ball.count; ++c) parts.push_back(names_[ball.first + c]);
+    if (!own.gains.empty() && own.gains.size() != parts.size())
+      throw FalseClaim("law: it depends on a load that does not vary");
+    for (std::size_t c = 0; c < own.gains.size(); ++c)
+      effort = sum(effort, product(Expression::number(own.gains[c][joint]), Expression::symbol(parts[c])));
+    return effort;
+  }
+
+  static void require_bounds(const mechanism::Joint& joint, const std::vector<Efforts>& efforts, std::size_t j) {
+    if (!joint.free_effort->within) return;
+    for (const Efforts& own : efforts)
+      for (const auto& values : own.at_loads)
+        if (values[j] < joint.free_effort->within->first || values[j] > joint.free_effort->within->second)
+          throw FalseClaim("law: the effort of " + joint.name + " is beyond its bounds");
+  }
+
+  /// The shares of a convex combination are 1 together.
+  bool is_beyond_shares(const Cell& cell) const {
+    double sum = 0;
+    for (std::size_t k = first_share_; k < cell.size(); ++k) sum += cell[k][0];
+    return sum > 1 + 1e-12;
   }
 
   void add_ball(std::vector<Expression>& parts, const Rational& radius) {
@@ -294,27 +291,6 @@ class PoseTaskCheck {
     return proof.holds();
   }
 
-  /// Lengths within links do not change with the pose, at a pose of the task and two beside it.
-  void check_links() const {
-    for (const double share : {0.5, 0.3819, 0.7071}) {
-      const GroupSheet::Part* part = nullptr;
-      if (groups_)
-        part = &groups_->parts()[static_cast<std::size_t>(share * static_cast<double>(groups_->parts().size()))];
-      Cell cell = whole_;
-      if (part != nullptr) std::copy(part->cell.begin(), part->cell.end(), cell.begin());
-      for (auto& own : cell) own[0] = own[1] = own[0] + share * (own[1] - own[0]);
-      Jet::Offsets offsets;
-      const PoseVariables variables = variables_over(names_, cell, offsets);
-      std::vector<double> spreads(names_.size());
-      std::optional<GroupCell> groups;
-      if (part != nullptr && !(groups = groups_->over(*part, variables, offsets, spreads))) continue;
-      const PosePosture posture =
-          posture_over(m_, claim_.sides, variables, groups ? groups->places : std::vector<std::array<Jet, 3>>());
-      if (posture.stopped_by) continue;  // the cells tell
-      for (const mechanism::Link& link : m_.links) check_link(link, posture);
-    }
-  }
-
   void check_link(const mechanism::Link& link, const PosePosture& posture) const {
     for (std::size_t i = 0; i < link.points.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -340,15 +316,45 @@ class PoseTaskCheck {
   Cell whole_;
   std::vector<LoadBall> balls_;
   std::optional<GroupSheet> groups_;
+  std::size_t first_share_ = static_cast<std::size_t>(-1);  ///< of efforts, behind all others
 };
+
+/// The cells at the rim of the task end where it does, but for their roundings.
+std::vector<Cell> up_to_rim(std::vector<Cell> cells, const Cell& whole) {
+  constexpr double rounding = 1e-12;
+  for (Cell& cell : cells)
+    for (std::size_t c = 0; c < cell.size(); ++c)
+      for (const std::size_t end : {0U, 1U})
+        if (std::abs(cell[c][end] - whole[c][end]) <= rounding * (1 + std::abs(whole[c][end])))
+          cell[c][end] = whole[c][end];
+  return cells;
+}
+
+/// Each cell with its efforts, and each place that several cells hold with all convex combinations of theirs.
+std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
+                      const PoseTaskCheck& task) {
+  const PoseTaskClaim::Law& law = *claim.law;
+  const std::vector<Cell> cells = up_to_rim(law.cells, task.poses());
+  require_cover(task.poses(), cells, claim.coordinates, [&](const Cell& cell) { return task.task().is_apart(cell); });
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    count += PoseTaskCheck(m, claim, deadline, &cells[i], {law.efforts[i]}).run();
+  for (const CommonPlace& own : common_places(cells)) {
+    std::vector<PoseTaskClaim::Law::Efforts> efforts;
+    for (const std::size_t i : own.cells)
+      if (std::find(efforts.begin(), efforts.end(), law.efforts[i]) == efforts.end()) efforts.push_back(law.efforts[i]);
+    if (efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, &own.place, efforts).run();
+  }
+  return count;
+}
 
 }  // namespace
 
-PoseTaskClaim read_pose_task(const Json& root, const std::string& file) { return Reader(file).read(root); }
-
 void check_pose_task(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
                      Examination& examination) {
-  examination.task_cells = PoseTaskCheck(m, claim, deadline).run();
+  PoseTaskCheck check(m, claim, deadline);
+  check.check_links();
+  examination.task_cells = claim.law ? check_law(m, claim, deadline, check) : check.run();
   examination.unchecked = claim.unchecked;
   for (std::string& own : examination.unchecked) own = "task: " + own.substr(0, 200);
   examination.accepted = true;

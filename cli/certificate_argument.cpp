@@ -56,8 +56,9 @@ void stage_certificate(report::StagedFiles& staged, const std::string& file, con
 }
 
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
-                       const CommonArguments& arguments, const core::TaskCertificate& certificate) {
-  staged.add(file, report::certificate_text(source_of(command, arguments), certificate));
+                       const CommonArguments& arguments, const core::TaskCertificate& certificate,
+                       const std::vector<core::PreloadLawCell>& law) {
+  staged.add(file, report::certificate_text(source_of(command, arguments), certificate, law));
 }
 
 }  // namespace clearloci::cli

@@ -24,6 +24,7 @@ void stage_certificate(report::StagedFiles& staged, const std::string& file, con
                        const CommonArguments& arguments, const core::Certificate& certificate,
                        const core::Task* task = nullptr);
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
-                       const CommonArguments& arguments, const core::TaskCertificate& certificate);
+                       const CommonArguments& arguments, const core::TaskCertificate& certificate,
+                       const std::vector<core::PreloadLawCell>& law = {});
 
 }  // namespace clearloci::cli

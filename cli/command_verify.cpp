@@ -101,9 +101,6 @@ std::vector<Model::Value> efforts_of(const Model& model, const Verification& res
   for (const auto& [joint, value] : result.task.preload) add(joint_of(joint), value);
   if (!result.preload) return efforts;
   const core::PreloadAnswer& found = *result.preload;
-  if (found.of_poses)
-    throw core::InputError({.file = "--certificate"}, "there is no certificate of efforts that are chosen cell by cell",
-                           "leave --certificate out, or ask for a constant preload");
   if (found.law) efforts.emplace_back(joint_of(found.joints.front()).free_effort->parameter, found.law->expression);
   for (std::size_t i = 0; found.value && i < found.joints.size(); ++i)
     add(joint_of(found.joints[i]), core::Rational((*found.value)[i]));
@@ -113,6 +110,13 @@ std::vector<Model::Value> efforts_of(const Model& model, const Verification& res
 /// With the efforts that were found as if they had been given: they are part of what is claimed.
 void certify_efforts(VerifyCommand arguments, const Model& model, Verification result, const LociRequest& request,
                      report::StagedFiles& staged) {
+  if (result.preload && result.preload->of_poses) {
+    if (!result.verified()) return;
+    const mechanism::Mechanism& mechanism = model.content().mechanism;
+    require_certifiable(mechanism, result.task);
+    return stage_certificate(staged, arguments.certificate, "verify", arguments.common,
+                             certificate_of(mechanism, result.task, request), result.preload->cells_of_law);
+  }
   const std::vector<Model::Value> efforts = efforts_of(model, result);
   for (const auto& [name, value] : efforts) arguments.common.overrides.push_back(name + "=" + value);
   result.task.preload.clear();

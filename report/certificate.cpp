@@ -167,6 +167,23 @@ Json task_object(const core::Task& task) {
           {"unchecked", std::move(unchecked)}};
 }
 
+Json exact_list(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(core::to_string(core::Rational(value)));
+  return list;
+}
+
+Json law_of(const std::vector<core::PreloadLawCell>& law) {
+  Json cells = Json::array();
+  for (const core::PreloadLawCell& own : law) {
+    Json efforts = Json::array(), gains = Json::array();
+    for (const std::vector<double>& values : own.efforts) efforts.push_back(exact_list(values));
+    for (const std::vector<double>& values : own.gains) gains.push_back(exact_list(values));
+    cells.push_back({exact_list(own.lower), exact_list(own.upper), std::move(efforts), std::move(gains)});
+  }
+  return {{"joints", law.front().joints}, {"cells", std::move(cells)}};
+}
+
 }  // namespace
 
 std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
@@ -269,7 +286,8 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
   return text_of(root);
 }
 
-std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate) {
+std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
+                             const std::vector<core::PreloadLawCell>& law) {
   const core::Task& task = certificate.task;
   Json root = begun(source);
   root["coordinates"] = certificate.coordinates;
@@ -311,6 +329,7 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
     root["pose_task"]["loads_from"] = Json::array({pose_list(task.loads->first), pose_list(task.loads->second)});
   for (const core::LoadWithin& own : task.loads_within)
     root["pose_task"]["loads_within"].push_back({own.load, core::to_string(own.force), core::to_string(own.couple)});
+  if (!law.empty()) root["pose_task"]["law"] = law_of(law);
   return text_of(root);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "clearloci/verify.hpp"
 #include "core/certificate.hpp"
 #include "core/task.hpp"
 
@@ -21,7 +22,8 @@ struct CertificateSource {
 std::string certificate_text(const CertificateSource& source, const core::Certificate& certificate,
                              const core::Task* task = nullptr);
 
-/// Of a task over any coordinates.
-std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate);
+/// Of a task over any coordinates. `law`: cells with the free efforts in them; none where all efforts are given.
+std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
+                             const std::vector<core::PreloadLawCell>& law = {});
 
 }  // namespace clearloci::report

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/fold.hpp"
+#include "core/shown_units.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -919,7 +920,8 @@ class Derivation {
       const auto of_end = [&](Quantity end) {
         LocusFactor own = margin;
         own.vanishing = {{guide.joint, end, 1}};
-        own.cause = "end of guide " + guide.joint + " at " + core::to_string(*selection_.min_force) + " N";
+        own.cause =
+            "end of guide " + guide.joint + " at " + core::told(core::to_double(*selection_.min_force), "N", {});
         return own;
       };
       if (!guide.length && !bears.is_zero()) {
@@ -1006,10 +1008,11 @@ class Derivation {
         factor.vanishing.push_back({joint, margin.quantity, 1});
       }
       const core::Rational unit = mechanism_.frame && !force ? mechanism_.frame->scale : core::Rational(1);
-      const std::string bound = core::to_string(core::Rational(margin.bound * unit));
+      const std::string bound =
+          core::told(core::to_double(core::Rational(margin.bound * unit)), force ? "N" : "N m", {});
       factor.cleared = cleared_by(margin.below, margin.power);
       factor.expression = text(margin.natural);
-      factor.cause = (force ? "contact force of " : "couple of ") + names + " at " + bound + (force ? " N" : " N m");
+      factor.cause = (force ? "contact force of " : "couple of ") + names + " at " + bound;
       const Poly sheet = elimination_.over_tower(margin.natural);
       if (sheet.is_zero())
         result_.notes.push_back(factor.cause + " in every pose");

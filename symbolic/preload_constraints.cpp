@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/shown_units.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/guide_ends.hpp"
@@ -120,8 +121,8 @@ class Demands {
 
   static std::string words_at(const mechanism::Joint& joint, const Rational& bound) {
     const bool force = mechanism::actuator_quantity(joint) == Quantity::F;
-    return (mechanism::is_cable(joint) ? "tension of " : "") + joint.name + " at " + core::to_string(bound) +
-           (force ? " N" : " N m");
+    return (mechanism::is_cable(joint) ? "tension of " : "") + joint.name + " at " +
+           core::told(core::to_double(bound), force ? "N" : "N m", {});
   }
 
   /// An effort that follows from the free ones at its bounds: N - bound |A|, of a force along an axis u over |u|.

@@ -125,9 +125,7 @@ TEST(ConstantEfforts, HaveTheSmallestSizeOfEachPatternFromBothSides) {
       }
       ++verified;
       EXPECT_LE(pattern.size[0], pattern.size[1]);
-      if (answer.preload->joints.size() == 1) {
-        EXPECT_LE(pattern.size[1], 1.01 * pattern.size[0]);
-      }
+      EXPECT_LE(pattern.size[1], 1.01 * pattern.size[0]);
       expect_exclusion(pattern.refutation);
       std::vector<Model::Value> values;
       for (std::size_t i = 0; i < pattern.value->size(); ++i)
@@ -137,6 +135,34 @@ TEST(ConstantEfforts, HaveTheSmallestSizeOfEachPatternFromBothSides) {
     }
     EXPECT_GE(verified, 2);
   }
+}
+
+/// The smallest tension is a bound that no double has.
+TEST(ConstantEfforts, OfCablesMayBeTheirBounds) {
+  std::string text = example_text("cables/point");
+  for (const char* cable : {"K3", "K4"})
+    text = replaced(text, std::string(cable) + ": {cable: [ground, load], at: [A" + cable[1] + ", P], tension: [5,",
+                    std::string(cable) + ": {cable: [ground, load], at: [A" + cable[1] + ", P], tension: [2.3,");
+  for (const char* bounds : {"5, 100", "5, 60"}) {
+    const Model own =
+        Model::parse(replaced(text, "A1, P], tension: [5, 100", "A1, P], tension: [" + std::string(bounds)));
+    const Verification answer = asked(own, "format: 1\nbox: {x: [-0.1, 0.1], y: [-0.1, 0.1]}\npreload: constant\n");
+    ASSERT_EQ(answer.verdict, Verdict::verified) << bounds;
+    for (const double tension : *answer.preload->value) EXPECT_GE(tension, 2.3);
+  }
+}
+
+/// 20 N in any direction: the ends of the ranges follow from couples at some poses.
+TEST(ConstantEfforts, UnderAnyPushAreEnclosedOverThreeCoordinates) {
+  const Model model = Model::parse(example_text("studies/four_rrr"), "m.yaml");
+  const Verification answer = asked(model, example_text("tasks/pushed_platform"));
+  ASSERT_EQ(answer.verdict, Verdict::verified);
+  ASSERT_EQ(answer.preload->ranges.size(), 2U);
+  const auto& [below, above] = std::pair(answer.preload->ranges[0].to, answer.preload->ranges[1].from);
+  EXPECT_LE(below[1] - below[0], 0.02);
+  EXPECT_LE(above[1] - above[0], 0.02);
+  EXPECT_NEAR(below[0], -7.162, 2e-3) << "by linear programs, tests/cli/test_preload_cases.py";
+  EXPECT_NEAR(above[1], 17.30, 1e-2);
 }
 
 TEST(ConstantEfforts, WithALeastForceAreDecidedOverThreeCoordinates) {

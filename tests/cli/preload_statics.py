@@ -90,12 +90,12 @@ def feasible_depth(rows, limits):
             lines.append((limit, [sign if i == k else 0 for i in range(efforts)] + [0.0]))
     offsets = numpy.array([line[0] for line in lines])
     slopes = numpy.array([line[1] for line in lines])
+    chosen = numpy.array(list(itertools.combinations(range(len(lines)), efforts + 1)))
     best = -math.inf
-    for chosen in itertools.combinations(range(len(lines)), efforts + 1):
-        part = slopes[list(chosen)]
-        if abs(numpy.linalg.det(part)) < 1e-14:
-            continue
-        at = numpy.linalg.solve(part, -offsets[list(chosen)])
-        if numpy.all(offsets + slopes @ at >= -1e-9 * (1 + numpy.abs(offsets))):
-            best = max(best, at[-1])
+    for part in numpy.array_split(chosen, 1 + len(chosen) // 20000):
+        regular = part[numpy.abs(numpy.linalg.det(slopes[part])) >= 1e-14]
+        vertices = numpy.linalg.solve(slopes[regular], -offsets[regular][..., None])[..., 0]
+        left = offsets + vertices @ slopes.T
+        met = numpy.all(left >= -1e-9 * (1 + numpy.abs(offsets)), axis=1)
+        best = max(best, vertices[met, -1].max(initial=-math.inf))
     return best

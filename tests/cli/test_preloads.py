@@ -1,8 +1,9 @@
 """The law of preloads: random mechanisms with motors or cables more than they need, and random tasks. What `verify` says
 is held against statics and linear programs of its own (preload_statics.py) at samples of the task. CLEARLOCI_PRELOAD_INPUTS
-is the number of random tasks (a few by default; 300 in a long run)."""
+is the number of random tasks (a few by default; 300 in a long run), CLEARLOCI_PRELOAD_FIRST the first of them."""
 
 import csv
+import fractions
 import json
 import math
 import os
@@ -13,7 +14,8 @@ import numpy
 from preload_statics import Mechanism, dyad, feasible_depth
 from program import SOURCE, InOwnFolder, run
 
-INPUTS = int(os.environ.get("CLEARLOCI_PRELOAD_INPUTS", "4"))
+FIRST = int(os.environ.get("CLEARLOCI_PRELOAD_FIRST", "0"))
+SEEDS = range(FIRST, FIRST + int(os.environ.get("CLEARLOCI_PRELOAD_INPUTS", "4")))
 
 
 class FiveBar:
@@ -185,7 +187,7 @@ class RandomPreloads(InOwnFolder):
 
     def test_random_five_bars_keep_to_linear_programs(self):
         seen = {}
-        for seed in range(INPUTS):
+        for seed in SEEDS:
             rng = random.Random(seed)
             mechanism = FiveBar(rng)
             if any(mechanism.reactions(at) is None for at in samples(mechanism.box, 3)):
@@ -265,7 +267,7 @@ class RandomPreloads(InOwnFolder):
 
     def test_random_cables_keep_to_linear_programs(self):
         seen = {}
-        for seed in range(INPUTS):
+        for seed in SEEDS:
             mechanism = PointOnCables(random.Random(1000 + seed))
             radius = random.Random(2000 + seed).choice([0, 3])
             more = "preload: controlled\n" + (f"loads_within: [{{load: 1, radius: {radius}}}]\n" if radius else "")
@@ -287,6 +289,41 @@ class RandomPreloads(InOwnFolder):
                     loads += [tuple(load) for load in worst if load]
                     self.assertLess(depth(answer["witness"]["at"], loads), 1e-9)
         print(f"cables: {seen}")
+
+
+class Ranges(InOwnFolder):
+    """All ranges of one effort, also those that hold as a whole only in small parts."""
+
+    TEXT = """format: 1
+workspace: {x: [-0.7, 1.0], y: [-1.1, 1.1]}
+points:
+  A1: [0, 0]
+  A2: [0.44, 0]
+  P: [x, y]
+  B1: {dyad: [A1, P], lengths: [0.62, 0.55], side: left}
+  B2: {dyad: [A2, P], lengths: [0.64, 0.65], side: right}
+links: {a: {points: [A1, B1]}, b: {points: [A2, B2]}, c: {points: [B1, P]}, e: {points: [P, B2]}}
+joints:
+  A1: {revolute: [ground, a], at: A1, actuated: true, clearance: {radial: 1e-5, angular: 1e-3}}
+  A2: {revolute: [ground, b], at: A2, actuated: true, clearance: {radial: 1e-5, angular: 1e-3}}
+  B1: {revolute: [a, c], at: B1, actuated: {effort: free, within: [-59.8, 59.8]}, clearance: {radial: 1e-5}}
+  B2: {revolute: [b, e], at: B2, clearance: {radial: 1e-5}}
+  P: {revolute: [c, e], at: P, clearance: {radial: 1e-5}}
+end_effector: {link: c, at: P}
+loads: [{link: c, at: P, force: [-24.1, -26.6]}]
+"""
+
+    def test_all_are_listed(self):
+        """Ends by other statics: M_A1 is zero at some pose from -1.682 to 5.171 N m, M_A2 from 11.494 to 19.589 N m."""
+        (self.folder / "m.yaml").write_text(self.TEXT, encoding="utf-8")
+        (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [-0.07, 0.03], y: [0.14, 0.24]}\n", encoding="utf-8")
+        self.run_program("verify", "m.yaml", "t.yaml", "--quiet", "-o", "out")
+        preload = json.loads((self.folder / "out" / "verify.json").read_text(encoding="utf-8"))["preload"]
+        ends = [end for own in preload["ranges"] for end in (own["from"], own["to"])]
+        self.assertEqual(len(ends), 6)
+        for (low, high), expected in zip(ends, (-59.8, -1.682, 5.171, 11.494, 19.589, 59.8)):
+            self.assertLess(high - low, 0.01)
+            self.assertAlmostEqual(low, expected, delta=0.01)
 
 
 ANTAGONISTIC = SOURCE / "examples" / "studies" / "antagonistic.yaml"
@@ -320,9 +357,51 @@ class Certificates(InOwnFolder):
         certificate["pose_task"]["points"][1][0] = "1/2"
         self.check(certificate, 1)
 
-    def test_a_law_by_cells_has_no_certificate(self):
-        (self.folder / "t.yaml").write_text(BOX + "preload: controlled\nknows_load: true\n", encoding="utf-8")
-        self.run_program("verify", ANTAGONISTIC, "t.yaml", "--certificate", "c.cert", "-o", "out", status=2)
+    def test_a_law_by_cells_is_certified_and_mutations_are_not(self):
+        certificate = self.certified("preload: controlled\nknows_load: true\n")
+        cells = certificate["pose_task"]["law"]["cells"]
+        self.check(certificate, 0)
+        lower, upper, efforts, gains = cells[0]
+        for wrong in ("5", "-3", "200"):
+            cells[0] = [lower, upper, [[wrong]], gains]
+            self.check(certificate, 1)
+        cells[0] = [lower, lower, efforts, gains]  # some poses are in no cell
+        self.check(certificate, 1)
+        cells[0] = [lower, upper, efforts, gains]
+        certificate["pose_task"]["loads_within"] = [[0, "40", "0"]]
+        self.check(certificate, 1)
+
+    def test_efforts_of_a_law_have_to_join(self):
+        """Two cells, each good alone with -20 N m and with 30 N m, between which contact is lost."""
+        certificate = self.certified("preload: controlled\nknows_load: true\n")
+        certificate["pose_task"]["loads_within"] = [[0, "5", "0"]]
+        law = certificate["pose_task"]["law"]
+
+        def of(first, second):
+            left, right = [["-1/20", "9/20"], ["1/20", "3/5"]], [["1/20", "9/20"], ["3/20", "3/5"]]
+            law["cells"] = [[*left, [[first]], []], [*right, [[second]], []]]
+            return certificate
+
+        for efforts in (("-20", "-20"), ("30", "30"), ("-20", "-22")):
+            self.check(of(*efforts), 0)
+        self.check(of("-20", "30"), 1)
+
+    def test_a_law_of_two_efforts_is_certified(self):
+        mechanism = FiveBar(random.Random(5))
+        self.assertEqual(len(mechanism.free), 2)
+        (self.folder / "m.yaml").write_text(mechanism.text(), encoding="utf-8")
+        box = mechanism.box
+        task = f"format: 1\nbox: {{x: {box[0]}, y: {box[1]}}}\npreload: controlled\nmin_couple: 20\n"
+        (self.folder / "t.yaml").write_text(task, encoding="utf-8")
+        self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out")
+        self.run_program("check", "m.yaml", "c.cert")
+        certificate = json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+        offset, slope = mechanism.reactions([sum(side) / 2 for side in box])["M_A1"]
+        turns = fractions.Fraction(-offset / slope[0])  # of the first motor alone, M_A1 is zero in the middle of the task
+        for cell in certificate["pose_task"]["law"]["cells"]:
+            cell[2] = [[str(turns), "0"]]
+        (self.folder / "c.cert").write_text(json.dumps(certificate), encoding="utf-8")
+        self.run_program("check", "m.yaml", "c.cert", status=1)
 
 
 if __name__ == "__main__":
