@@ -226,7 +226,7 @@ struct Joint {
   /// Of a free effort that is given by a law: what its actuator can exert, N m or N. Poses beyond are not of the
   /// workspace.
   std::optional<std::pair<Rational, Rational>> law_within = {};
-  PointIndex other_end = 0;                                  ///< of a cable: its end on `from`; `at` is that on `to`
+  PointIndex other_end = 0;    ///< of a cable: its end on `from`; `at` is that on `to`
   bool holds_turning = false;  ///< of a cable: it bears a couple too, in place of the turning of a link without extent
   std::optional<Meshing> meshing = {};  ///< of a gear, which is actuated: its force is an unknown along its axis
 };

@@ -1,0 +1,139 @@
+#include "symbolic/factor_emission.hpp"
+
+#include <algorithm>
+
+#include "core/fold.hpp"
+#include "mechanism/actions.hpp"
+#include "symbolic/effort_limits.hpp"
+
+namespace clearloci::symbolic {
+
+using core::FactorRole;
+using core::LocusFactor;
+
+LocusFactor FactorEmission::stretched(const TowerRoot& root) const {
+  LocusFactor factor;
+  const auto& form = d_.mechanism.points[static_cast<std::size_t>(root.point)].form;
+  if (const auto* dyad = std::get_if<mechanism::DyadPoint>(&form)) {
+    factor.expression = d_.words.of(d_.causes.stretched(root.point, *dyad));
+    factor.cause = d_.causes.stretched_wording(root.point, *dyad);
+  } else {
+    const auto& slider = std::get<mechanism::SliderPoint>(form);
+    const Poly across = d_.causes.perpendicular(slider.from, root.point, slider.along);
+    factor.expression = d_.words.of(across);
+    factor.cause = "line " + d_.point_name(slider.from) + "-" + d_.point_name(root.point) +
+                   " perpendicular to the path of " + d_.point_name(root.point);
+  }
+  return factor;
+}
+
+bool FactorEmission::is_divided_in_vain(const core::Polynomial& square, const core::StraightLine& line) const {
+  const bool has_roots = std::any_of(square.terms.begin(), square.terms.end(), [&](const core::Term& term) {
+    return std::any_of(term.exponents.begin() + d_.geometry.coordinates(), term.exponents.end(),
+                       [](int exponent) { return exponent != 0; });
+  });
+  return !has_roots && std::any_of(line.steps.begin(), line.steps.end(), [](const core::StraightLine::Step& step) {
+    return step.operation == core::StraightLine::Operation::inverse;
+  });
+}
+
+void FactorEmission::add_flip(const TowerRoot& root, const Fold& fold, LocusFactor factor) {
+  factor.role = FactorRole::workspace_boundary;
+  if (root.point >= 0)
+    if (const auto* offset =
+            std::get_if<mechanism::OffsetPoint>(&d_.mechanism.points[static_cast<std::size_t>(root.point)].form))
+      factor.cause = d_.point_name(offset->second) + " on " + d_.point_name(offset->first) + ", where " +
+                     d_.point_name(root.point) + " has no place";
+  core::Rational constant;
+  for (const PolyFactor& part : fold.where.factors(constant)) {
+    LocusFactor own = factor;
+    own.sheet = core::scaled_for_doubles(part.poly.plain(d_.geometry.tower_variables()));
+    put_implicit({part.poly, 1, d_.elimination.implicit_of_divisor(part.poly)}, own);
+    d_.result.problem.factors.push_back(std::move(own));
+  }
+}
+
+void FactorEmission::add_fold(const Fold& fold) {
+  const TowerRoot& root = d_.geometry.roots()[fold.root];
+  LocusFactor factor = root.role == core::RootRole::working_mode ? stretched(root) : LocusFactor{};
+  if (root.role != core::RootRole::working_mode) factor.expression = d_.words.of(fold.where);
+  if (d_.elimination.sheet_factors(fold.where, true).empty())
+    add_flip(root, fold, factor);
+  else
+    add(FactorRole::workspace_boundary, nullptr, fold.where, true, factor);
+  more_roots_.push_back({core::fold_name, "", core::RootRole::length,
+                         core::scaled_for_doubles(fold.where.plain(d_.geometry.tower_variables()))});
+}
+
+void FactorEmission::add_limits() {
+  for (const LimitCondition& limit : bounding_limits(d_.geometry, d_.elimination)) add_limit(limit);
+  if (!d_.preload.joints.empty()) return;  // what gears bear depends on the efforts
+  for (const LimitCondition& limit : effort_limits(d_.geometry, d_.reactions, d_.determinants.determinant))
+    if (!d_.elimination.vanishes_everywhere(limit.natural)) add_limit(limit);
+}
+
+void FactorEmission::add_limit(const LimitCondition& limit) {
+  const Poly sheet = d_.elimination.over_tower(limit.natural);
+  LocusFactor factor;
+  factor.expression = d_.words.of(limit.natural);
+  factor.cause = std::string(mechanism::limit_cause) + limit.words;
+  if (!limit.natural.is_constant()) add(FactorRole::workspace_boundary, &limit.natural, sheet, true, factor);
+  more_roots_.push_back({core::limit_name, "", core::RootRole::length,
+                         core::scaled_for_doubles(sheet.plain(d_.geometry.tower_variables()))});
+  core::StraightLine line = d_.lines.of(limit.natural);
+  if (!is_divided_in_vain(more_roots_.back().square, line)) more_roots_.back().line = std::move(line);
+  more_roots_.back().bounds = limit.bounds;
+}
+
+bool FactorEmission::add_rims(std::size_t index) {
+  const TowerRoot& root = d_.geometry.roots()[index];
+  if (d_.geometry.coordinates() != 2) return false;
+  const auto own = std::find_if(d_.geometry.dyad_ways().begin(), d_.geometry.dyad_ways().end(),
+                                [&](const Geometry::Way& way) { return way.point == root.point; });
+  if (own == d_.geometry.dyad_ways().end() || !d_.elimination.is_too_heavy(root.square)) return false;
+  const auto lines = d_.lines.rims(root.point);
+  if (!lines) return false;
+  const auto& dyad = std::get<mechanism::DyadPoint>(d_.mechanism.points[static_cast<std::size_t>(root.point)].form);
+  const auto squared = [](const Poly& length) { return length * length; };
+  // Rims are of a length itself, of which the square alone may be rational.
+  if (dyad.right_angle) return false;
+  const Poly a = d_.geometry.poly(d_.geometry.expression(dyad.from_length).expand());
+  const Poly b = d_.geometry.poly(d_.geometry.expression(dyad.to_length).expand());
+  if (!(d_.geometry.squared_length(dyad.from_length) == squared(a)) ||
+      !(d_.geometry.squared_length(dyad.to_length) == squared(b)))
+    return false;
+  const std::array<Poly, 2> rims = {d_.geometry.reduce(squared(a + b) * own->w2 - own->d),
+                                    d_.geometry.reduce(own->d - squared(a - b) * own->w2)};
+  for (std::size_t k = 0; k < rims.size(); ++k) {
+    const std::size_t first = d_.result.problem.factors.size();
+    add(FactorRole::workspace_boundary, nullptr, rims[k], true, stretched(root));
+    const bool alone = d_.result.problem.factors.size() == first + 1;
+    for (std::size_t f = first; f < d_.result.problem.factors.size(); ++f) {
+      LocusFactor& factor = d_.result.problem.factors[f];
+      if (alone) factor.line = (*lines)[k];
+      d_.result.problem.tower.roots[index].rims.push_back({factor.sheet, factor.line});
+    }
+  }
+  return true;
+}
+
+void FactorEmission::boundaries() {
+  for (std::size_t i = 0; i < d_.geometry.roots().size(); ++i) {
+    const TowerRoot& root = d_.geometry.roots()[i];
+    if (root.role == core::RootRole::working_mode && !root.value && !add_rims(i))
+      add(FactorRole::workspace_boundary, nullptr, root.square, true, stretched(root));
+  }
+  for (const Fold& fold : d_.geometry.folds()) add_fold(fold);
+  add_limits();
+  const std::vector<int> variables = d_.geometry.tower_variables();
+  const std::vector<int> free(variables.begin(), variables.begin() + d_.geometry.coordinates());
+  for (const Poly& denominator : d_.elimination.denominator_factors()) {
+    LocusFactor factor;
+    factor.role = FactorRole::construction;
+    factor.sheet = core::scaled_for_doubles(denominator.plain(variables));
+    factor.implicit = {denominator.plain(free)};
+    d_.result.problem.factors.push_back(std::move(factor));
+  }
+}
+
+}  // namespace clearloci::symbolic

@@ -1,0 +1,64 @@
+#include "symbolic/collect_factors.hpp"
+
+#include <algorithm>
+
+namespace clearloci::symbolic {
+
+using core::FactorRole;
+
+namespace {
+
+bool vanishes_everywhere(const FactoredPoly& p, const Elimination& elimination) {
+  return p.is_zero() || std::any_of(p.factors.begin(), p.factors.end(), [&](const PolyFactor& factor) {
+           return elimination.vanishes_everywhere(factor.poly);
+         });
+}
+
+}  // namespace
+
+void collect_factors(Derivation& d) {
+  for (const Reaction& reaction : d.reactions) {
+    const std::string& joint = reaction.joint;
+    const FactoredPoly& numerator = reaction.numerator;
+    if (vanishes_everywhere(numerator, d.elimination)) {
+      if (d.selected(joint) && d.is_asked_for(joint, reaction.quantity)) {
+        d.result.notes.push_back(reaction.name + " is zero in every pose under these loads");
+      }
+      d.result.problem.always_zero.push_back({joint, reaction.quantity});
+      continue;
+    }
+    d.result.problem.reactions.push_back({joint, reaction.quantity});
+    for (const PolyFactor& factor : numerator.factors) {
+      const int shared = std::min(factor.multiplicity, d.determinants.determinant.multiplicity(factor.poly));
+      if (shared > 0) d.cancelled.push_back({factor.poly, {joint, reaction.quantity, shared}});
+      const int multiplicity = factor.multiplicity - shared;
+      if (multiplicity == 0) continue;
+      auto known = std::find_if(d.factors.begin(), d.factors.end(),
+                                [&](const SharedFactor& f) { return f.natural == factor.poly; });
+      if (known == d.factors.end()) known = d.factors.insert(known, {factor.poly, {}});
+      known->vanishing.push_back({joint, reaction.quantity, multiplicity});
+    }
+  }
+}
+
+void take_determinant_apart(Derivation& d) {
+  for (const PolyFactor& factor : d.determinants.determinant.factors) {
+    std::vector<Poly> without_zeros;
+    std::vector<SheetFactor> sheets =
+        d.elimination.sheet_factors(d.elimination.over_tower(factor.poly), true, &without_zeros);
+    d.keep_without_zeros(FactorRole::direct_singularity, d.words.of(factor.poly), without_zeros);
+    const bool alone = sheets.size() == 1 && sheets.front().multiplicity == 1;
+    const bool chosen = is_singular_by_choice(d.preload, d.mechanism, factor.poly, d.selection.controlled);
+    for (SheetFactor& sheet : sheets) {
+      const int times = sheet.multiplicity;
+      DeterminantPart part{&factor, std::move(sheet), factor.multiplicity * times, alone, {}};
+      part.chosen = chosen;
+      for (const auto& [natural, vanishing] : d.cancelled)
+        if (natural == factor.poly)
+          part.cancelled.push_back({vanishing.joint, vanishing.quantity, vanishing.multiplicity * times});
+      d.determinant_parts.push_back(std::move(part));
+    }
+  }
+}
+
+}  // namespace clearloci::symbolic

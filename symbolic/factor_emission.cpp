@@ -1,0 +1,222 @@
+#include "symbolic/factor_emission.hpp"
+
+#include <algorithm>
+
+#include "mechanism/joint_traits.hpp"
+
+namespace clearloci::symbolic {
+
+using core::FactorRole;
+using core::LocusFactor;
+using core::Quantity;
+using core::Vanishing;
+
+void FactorEmission::add(FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit,
+                         LocusFactor common) {
+  common.role = role;
+  const std::vector<int> variables = d_.geometry.tower_variables();
+  std::vector<Poly> without_zeros;
+  const std::vector<SheetFactor> parts = d_.elimination.sheet_factors(sheet, with_implicit, &without_zeros);
+  if (role == FactorRole::reaction) d_.keep_without_zeros(role, common.expression, without_zeros);
+  // Where the sheet splits, the natural form has the zeros of all parts.
+  if (natural != nullptr && parts.size() == 1 && parts.front().multiplicity == 1) common.line = d_.lines.of(*natural);
+  for (const SheetFactor& part : parts) {
+    LocusFactor factor = common;
+    for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
+    if (role == FactorRole::reaction) {
+      factor.vanishing = without_determinant(part.sheet, std::move(factor.vanishing));
+      if (factor.vanishing.empty()) continue;
+    }
+    factor.sheet = core::scaled_for_doubles(part.sheet.plain(variables));
+    put_implicit(part, factor);
+    d_.result.problem.factors.push_back(std::move(factor));
+  }
+}
+
+void FactorEmission::put_implicit(const SheetFactor& part, LocusFactor& factor) const {
+  const std::vector<int> variables = d_.geometry.tower_variables();
+  const std::vector<int> free(variables.begin(), variables.begin() + d_.geometry.coordinates());
+  for (const Poly& curve : part.implicit) factor.implicit.push_back(curve.plain(free));
+  factor.implicit_too_heavy = factor.implicit_too_heavy || part.too_heavy;
+}
+
+std::vector<Vanishing> FactorEmission::without_determinant(const Poly& sheet, std::vector<Vanishing> vanishing) {
+  for (DeterminantPart& part : d_.determinant_parts) {
+    if (!(part.sheet.sheet == sheet)) continue;
+    for (Vanishing& v : vanishing) {
+      auto known = std::find_if(part.cancelled.begin(), part.cancelled.end(), [&](const Vanishing& own) {
+        return own.joint == v.joint && own.quantity == v.quantity;
+      });
+      if (known == part.cancelled.end()) known = part.cancelled.insert(known, {v.joint, v.quantity, 0});
+      const int shared = std::min(v.multiplicity, part.multiplicity - known->multiplicity);
+      known->multiplicity += shared;
+      v.multiplicity -= shared;
+      if (known->multiplicity == 0) part.cancelled.erase(known);
+    }
+  }
+  std::erase_if(vanishing, [](const Vanishing& v) { return v.multiplicity == 0; });
+  return vanishing;
+}
+
+void FactorEmission::reactions() {
+  for (const SharedFactor& shared : d_.factors) {
+    LocusFactor factor;
+    if (!shared.wanted_curve && !shared.wanted_point && !shared.wanted_order) {
+      const bool asked_for = std::any_of(shared.vanishing.begin(), shared.vanishing.end(), [&](const Vanishing& v) {
+        return d_.selected(v.joint) && d_.is_asked_for(v.joint, v.quantity);
+      });
+      if (!asked_for || d_.result.problem.tower.coordinates.size() != 2) continue;
+      factor.expression = d_.words.of(shared.natural);
+      factor.line = d_.lines.of(shared.natural);
+      d_.result.rest.push_back(std::move(factor));
+      continue;
+    }
+    factor.expression = d_.words.of(shared.natural);
+    factor.cause = d_.causes.of(shared.natural);
+    factor.vanishing = shared.vanishing;
+    add(FactorRole::reaction, &shared.natural, d_.sheet_of(static_cast<std::size_t>(&shared - d_.factors.data())),
+        shared.wanted_curve, factor);
+  }
+}
+
+bool FactorEmission::is_inverse_length(const Poly& p) const {
+  const std::vector<InverseLength>& all = d_.geometry.inverse_lengths();
+  return std::any_of(all.begin(), all.end(), [&](const InverseLength& own) {
+    return own.variable >= 0 && p == Poly::variable(d_.geometry.ring(), own.variable);
+  });
+}
+
+void FactorEmission::drop_known(std::size_t first) {
+  std::vector<LocusFactor>& factors = d_.result.problem.factors;
+  const auto is_known = [&](const LocusFactor& own) {
+    const bool singular =
+        std::any_of(d_.determinant_parts.begin(), d_.determinant_parts.end(), [&](const DeterminantPart& part) {
+          return !part.chosen &&
+                 core::scaled_for_doubles(part.sheet.sheet.plain(d_.geometry.tower_variables())) == own.sheet;
+        });
+    return singular ||
+           std::any_of(
+               factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(first), [&](const LocusFactor& other) {
+                 return other.role == FactorRole::reaction && other.sheet == own.sheet && !other.implicit.empty();
+               });
+  };
+  factors.erase(std::remove_if(factors.begin() + static_cast<std::ptrdiff_t>(first), factors.end(), is_known),
+                factors.end());
+}
+
+void FactorEmission::preload() {
+  std::vector<std::string>& notes = d_.result.notes;
+  notes.insert(notes.end(), d_.preload.notes.begin(), d_.preload.notes.end());
+  if (!d_.preload.joints.empty() &&
+      (d_.selection.min_force || (d_.selection.min_couple && d_.mechanism.space == mechanism::Space::spatial)))
+    notes.emplace_back(
+        "with free efforts no curves are traced on which a contact force, or in space a couple, has its least size: "
+        "the efforts of a zone are those at its sample");
+  if (!d_.preload.joints.empty() && std::any_of(d_.mechanism.joints.begin(), d_.mechanism.joints.end(),
+                                                [](const mechanism::Joint& own) { return own.meshing.has_value(); }))
+    notes.emplace_back("flanks of gears and spans of belts bound no preload here");
+  const std::size_t efforts = d_.preload.joints.size();
+  const std::string motors = d_.preload.motors(d_.mechanism);
+  const PreloadDeterminants all =
+      preload_determinants(d_.geometry.ring(), d_.determinants.determinant, efforts,
+                           preload_constraints(d_.geometry, d_.preload, d_.determinants.determinant, d_.result.problem,
+                                               d_.selection.min_couple));
+  for (const std::string& names : all.left_out)
+    notes.push_back("where " + names + " vanish together is too long a determinant to be derived");
+  for (const PreloadFactor& own : all.factors) {
+    const Poly sheet = d_.elimination.over_tower(own.natural);
+    if (sheet.is_zero() || is_inverse_length(own.natural)) continue;
+    LocusFactor factor;
+    factor.expression = d_.words.of(own.natural);
+    for (const PreloadEvent& event : own.events) {
+      factor.cause += (factor.cause.empty() ? "" : "; ") + words_of(event, motors, efforts);
+      for (const std::vector<Vanishing>* list : {&event.vanishing, &event.bounded})
+        for (const Vanishing& one : *list)
+          if (std::find(factor.vanishing.begin(), factor.vanishing.end(), one) == factor.vanishing.end())
+            factor.vanishing.push_back(one);
+    }
+    const std::size_t before = d_.result.problem.factors.size();
+    add(FactorRole::preload, &own.natural, sheet, true, factor);
+    drop_known(before);
+  }
+}
+
+bool FactorEmission::is_passed_by_tensions(const DeterminantPart& part) const {
+  return part.chosen &&
+         std::all_of(d_.preload.joints.begin(), d_.preload.joints.end(), [&](mechanism::JointIndex joint) {
+           return mechanism::is_cable(d_.mechanism.joints[static_cast<std::size_t>(joint)]);
+         });
+}
+
+void FactorEmission::name_motors(LocusFactor& factor) const {
+  for (const mechanism::JointIndex joint : d_.preload.joints) {
+    const mechanism::Joint& own = d_.mechanism.joints[static_cast<std::size_t>(joint)];
+    factor.vanishing.push_back({own.name, mechanism::actuator_quantity(own), 1});
+  }
+  factor.cause += (factor.cause.empty() ? "" : "; ") + std::string("singular with a constant effort of ") +
+                  d_.preload.motors(d_.mechanism);
+}
+
+void FactorEmission::direct_singularities() {
+  const std::vector<int> variables = d_.geometry.tower_variables();
+  for (const DeterminantPart& part : d_.determinant_parts) {
+    if (is_passed_by_tensions(part)) continue;
+    LocusFactor factor;
+    factor.role = part.chosen ? FactorRole::preload : FactorRole::direct_singularity;
+    factor.expression = d_.words.of(part.natural->poly);
+    factor.cause = d_.causes.of_determinant(part.natural->poly);
+    if (part.chosen) name_motors(factor);
+    factor.sheet = core::scaled_for_doubles(part.sheet.sheet.plain(variables));
+    put_implicit(part.sheet, factor);
+    if (part.alone) factor.line = d_.lines.of(part.natural->poly);
+    factor.multiplicity = part.multiplicity;
+    factor.cancelled = part.cancelled;
+    factor.may_be_idle = part.may_be_idle;
+    d_.result.problem.factors.push_back(std::move(factor));
+  }
+}
+
+void FactorEmission::undirected() {
+  for (const mechanism::Joint& joint : d_.mechanism.joints) {
+    if (!mechanism::presses_across_axis(d_.mechanism, joint) || !d_.selected(joint.name)) continue;
+    GiNaC::ex where;
+    if (has_pressing_parts(d_.mechanism, joint)) {
+      where = across_pin(d_.geometry, joint).squared;
+    } else {
+      const std::vector<GiNaC::ex> u = d_.geometry.vector(joint.axes.at(0));
+      where = u[across_component(d_.geometry, u)];
+    }
+    const Poly natural = d_.geometry.poly(where);
+    const Poly sheet = d_.elimination.over_tower(natural);
+    if (sheet.is_constant()) continue;
+    LocusFactor factor;
+    factor.role = FactorRole::construction;
+    factor.vanishing = {{joint.name, Quantity::f, 1}};
+    factor.sheet = core::scaled_for_doubles(sheet.plain(d_.geometry.tower_variables()));
+    factor.line = d_.lines.of(natural);
+    d_.result.problem.factors.push_back(std::move(factor));
+  }
+}
+
+void FactorEmission::append_roots() {
+  if (more_roots_.empty()) return;
+  core::LocusProblem& problem = d_.result.problem;
+  core::RootTower& tower = problem.tower;
+  tower.roots.insert(tower.roots.end(), more_roots_.begin(), more_roots_.end());
+  const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
+  for (core::Root& root : tower.roots) core::rewrite(root, [&](core::Polynomial p) { return widen(p), p; });
+  for (core::Polynomial& denominator : tower.denominators) widen(denominator);
+  for (core::DyadBase& base : tower.bases) {
+    widen(base.x);
+    widen(base.y);
+  }
+  for (LocusFactor& factor : problem.factors) {
+    widen(factor.sheet);
+    for (auto& [sheet, times] : factor.cleared) widen(sheet);
+    if (factor.nodes)
+      for (core::NodeForm::Part& part : factor.nodes->parts) widen(part.sheet);
+  }
+  for (core::WorkingMode& mode : problem.modes) mode.resize(tower.roots.size(), 1);
+}
+
+}  // namespace clearloci::symbolic
