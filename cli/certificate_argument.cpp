@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iterator>
-#include "analysis/flanks.hpp"
 
+#include "analysis/flanks.hpp"
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
 #include "report/files.hpp"

@@ -113,7 +113,7 @@ void certify_efforts(VerifyCommand arguments, const Model& model, Verification r
   if (result.preload && result.preload->of_poses) {
     if (!result.verified()) return;
     const mechanism::Mechanism& mechanism = model.content().mechanism;
-    require_certifiable(mechanism, result.task);
+    require_certifiable(result.task);
     return stage_certificate(staged, arguments.certificate, "verify", arguments.common,
                              certificate_of(mechanism, result.task, request), result.preload->cells_of_law);
   }
