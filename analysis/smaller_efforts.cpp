@@ -22,10 +22,9 @@ class SmallerEfforts {
                  const std::vector<loci::pose::Pose>& poses, PreloadJudge& judge, double to)
       : system_(system), rows_(rows), poses_(poses), judge_(judge), to_(to) {
     Part all;
-    for (std::size_t k = 0; k < system.wanted().size(); ++k) {
-      const WantedEffort& own = system.wanted()[k];
+    for (const WantedEffort& own : system.wanted()) {
       const double most = to / own.size_of_one;
-      all.box.push_back({std::max(Rational(-most), own.lower), std::min(Rational(most), own.upper)});
+      all.box.emplace_back(std::max(Rational(-most), own.lower), std::min(Rational(most), own.upper));
     }
     push(std::move(all.box));
   }

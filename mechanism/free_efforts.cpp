@@ -90,11 +90,9 @@ void check_given_efforts(const Value& joints, const std::optional<Value>& parame
   std::vector<std::string> known;
   for (const Entry& own : written_free_efforts(joints)) known.push_back(own.key.substr(std::string(prefix).size()));
   for (const Entry& joint : entries(joints))
-    if (joint.value.is_map() && joint.value.node.has(std::string(to_string(JointType::cable)).c_str()))
-      known.push_back(joint.key);
+    if (joint.value.is_map() && joint.value.node.has(to_string(JointType::cable))) known.push_back(joint.key);
   for (const std::string& name : names_of_efforts(efforts)) {
-    if (!name.starts_with(prefix) || (parameters && parameters->is_map() && parameters->node.has(name.c_str())))
-      continue;
+    if (!name.starts_with(prefix) || (parameters && parameters->is_map() && parameters->node.has(name))) continue;
     const std::string joint = name.substr(std::string(prefix).size());
     if (std::find(known.begin(), known.end(), joint) == known.end())
       throw InputError({.file = "--preload"}, "there is no joint of free effort called '" + joint + "'",

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "loci/sheet/chain_rule.hpp"
+
 namespace clearloci::loci::sheet {
 
 namespace {
@@ -201,7 +203,7 @@ double SheetNewton::distance(std::span<const double> place) {
   for (std::size_t v = 0; v < slopes.size(); ++v) slopes[v] = registers_.partial(0, static_cast<int>(v));
   double half = 0;
   const auto half_inverse = [&](int j) {
-    half = 1 / (2 * point_[static_cast<std::size_t>(n + j)]);
+    half = 1 / (2 * point_[static_cast<std::size_t>(n) + static_cast<std::size_t>(j)]);
     return &half;
   };
   eliminate_roots(slopes, n, half_inverse, [&](int j, int v) { return registers_.square_partial(j, v); });

@@ -87,7 +87,7 @@ describe("a five-bar from nothing", () => {
     await sheet.take("force");
     await sheet.drag([100, 300], [100, 200]);
     const [words, element] = await sheet.said();
-    expect(words).toMatch(/move.* freely: 2 freedoms, 1 coordinate, 1 motor; actuate another joint/);
+    expect(words).toMatch(/move.* freely: 2 freedoms, 1 coordinate, 1 motor; join one of them to another link, actuate another joint/);
     expect(element).toMatch(/^link /);
     await shot(page, "drawing-refused");
     await sheet.take("motor");
