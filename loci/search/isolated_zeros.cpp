@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "core/errors.hpp"
+#include "loci/search/zero_search.hpp"
 
 namespace clearloci::loci::sheet {
 
