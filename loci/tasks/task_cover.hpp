@@ -20,7 +20,7 @@ inline double size_of(const TaskRegion& region, double margin) {
 /// Doubles place the task and its margin to rounding, a few operations of 2^-53 each, many times over; a hair more
 /// covers it.
 inline double hair_of(const TaskRegion& region, double margin) {
-  constexpr double rounding_of_places = 1e-12;
+  constexpr double rounding_of_places = 0x1p-46;
   return rounding_of_places *
          (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
 }
