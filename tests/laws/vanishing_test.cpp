@@ -240,8 +240,6 @@ TEST(Vanishing, SymmetricDesignsHoldAgainstTheWitness) {
   hold(rods("1/2", "1/2", "1/4", "[1, 1]", "[10, -5]", true));
 }
 
-// A gantry: the bridge slides along x and carries the tool that slides along y. With the load (F_x, F_y) at the tool
-// the bridge's guide bears N = -F_y and T = y F_x about its middle, and an end lifts where h F_y = +-y F_x.
 // Where weighed coaxial legs of equal links are folded, P is on their common joint: their direction is undefined there,
 // and a zero of all forces there is none of a posture. Nothing around it is in doubt.
 TEST(Vanishing, AZeroAtTheConeOfCoaxialLegsLeavesNoDoubt) {
@@ -254,6 +252,8 @@ TEST(Vanishing, AZeroAtTheConeOfCoaxialLegsLeavesNoDoubt) {
     EXPECT_EQ(note.find("neither proven nor excluded"), std::string::npos) << note;
 }
 
+// A gantry: the bridge slides along x and carries the tool that slides along y. With the load (F_x, F_y) at the tool
+// the bridge's guide bears N = -F_y and T = y F_x about its middle, and an end lifts where h F_y = +-y F_x.
 TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
   const mechanism::Mechanism gantry = corpus("gantry.yaml");
   LociRequest request;
