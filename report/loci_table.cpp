@@ -63,6 +63,14 @@ std::string open_words(const core::LocusMap& map, const std::vector<const core::
                      percent < least ? "below 0.001" : fmt::format("{:.2g}", percent));
 }
 
+/// In the place of the rows of a map that has none.
+std::string nothing_words(const core::LocusMap& map, bool in_reach = true) {
+  if (map.out_of_time) return "nothing was found before the time limit";
+  if (!in_reach && map.tower.coordinates.size() == 1) return "out of reach in the whole range";
+  if (!in_reach && map.tower.coordinates.size() == 3) return "nothing vanishes in the box";
+  return map.tower.coordinates.size() == 3 ? "no surfaces" : "no curves";
+}
+
 double total_length(const core::LocusCurve& curve) {
   double length = 0;
   for (const auto& arc : curve.arcs) length += arc.length;
@@ -125,7 +133,7 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
   const int others = identifier + 18 + 6 + 4 + 8 + 6 * 2;
   heading[4].widest = std::clamp(closed_form, 11, table_width - others - least);
   heading[2].widest = table_width - others - heading[4].widest;
-  if (rows.empty()) return "no curves\n";
+  if (rows.empty()) return nothing_words(map) + "\n";
   return format_rows(heading, rows);
 }
 
@@ -173,7 +181,7 @@ std::string surface_rows(const core::LocusMap& map, const core::WorkingMode& mod
                     where(map, surface), degree > 0 ? std::to_string(degree) : "-", std::to_string(surface.components),
                     std::to_string(surface.triangles.size()), engineering(surface.area, size_digits)});
   }
-  return rows.empty() ? "no surfaces\n" : format_rows(heading, rows);
+  return rows.empty() ? nothing_words(map) + "\n" : format_rows(heading, rows);
 }
 
 /// Besides the surfaces: curves, and points with their coordinates.
@@ -259,20 +267,13 @@ std::string notes(const core::LocusMap& map) {
   return out.empty() ? "" : "\n" + out;
 }
 
-/// Of a map without a curve, a surface or a point.
-std::string nothing_words(const core::LocusMap& map) {
-  if (map.out_of_time) return "nothing was found before the time limit";
-  if (map.tower.coordinates.size() == 1) return "out of reach in the whole range";
-  return map.tower.coordinates.size() == 3 ? "nothing vanishes in the box" : "no curves";
-}
-
 }  // namespace
 
 std::string loci_table(const core::LocusMap& in_si, bool exact) {
   const core::LocusMap map = in_file_units(in_si);
   std::string out = printable(map.mechanism) + "\n" + parameter_line(map.parameters, exact);
   std::vector<core::WorkingMode> modes = modes_of(map);
-  if (modes.empty()) out += "\n" + nothing_words(map) + "\n";
+  if (modes.empty()) out += "\n" + nothing_words(map, false) + "\n";
   for (const auto& mode : modes) {
     const std::string words = printable(mode_words(map.tower, mode));
     out += words.empty() ? "\n" : "\nWorking mode: " + words + "\n";

@@ -258,7 +258,7 @@ TEST(Sdf, RefusesByName) {
                 .find("refers to 'b'"),
             std::string::npos);
   EXPECT_NE(refusal_of("<sdf version='1.7'><model name='m'><drake:linear_bushing_rpy/></model></sdf>")
-                .find("<drake:linear_bushing_rpy> holds two links together"),
+                .find("<drake:linear_bushing_rpy> is an extension of one program"),
             std::string::npos);
 }
 
