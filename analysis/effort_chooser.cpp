@@ -294,25 +294,6 @@ struct Proposal {
 
 }  // namespace
 
-namespace {
-
-/// Whether efforts have the signs of a pattern at some places.
-bool meets(const EffortStatics& statics, const std::vector<EffortColumns>& places, const std::vector<double>& efforts,
-           const SignPattern& signs) {
-  for (const EffortColumns& columns : places)
-    for (std::size_t d = 0; d < columns.size(); ++d) {
-      const int sign = sign_of(statics.demands[d], signs);
-      for (std::size_t base = 0; base < statics.bases && sign != 0; ++base) {
-        double value = columns[d].front()[base];
-        for (std::size_t k = 0; k < efforts.size(); ++k) value += efforts[k] * columns[d].front()[statics.bases + k];
-        if (!(sign * value > statics.leasts[d])) return false;
-      }
-    }
-  return true;
-}
-
-}  // namespace
-
 std::optional<EffortChoice> deep_choice(const EffortSystem& system, const std::vector<EffortColumns>& places,
                                         const SignPattern& signs, bool knows_load, double most_size) {
   const Proposal proposal{system, system.statics(), places, signs, knows_load, most_size};
@@ -364,18 +345,6 @@ const EffortStatics* PatternChooser::statics_at(const PoseAt& pose) {
 
 std::optional<EffortChoice> PatternChooser::choose(const EffortStatics& statics,
                                                    const std::vector<EffortColumns>& designs) {
-  const EffortSystem& system = systems_.of(statics);
-  for (const std::vector<double>& efforts : known_) {
-    double size = 0;
-    for (std::size_t k = 0; k < efforts.size(); ++k)
-      size = std::max(size, std::abs(efforts[k]) * system.wanted()[k].size_of_one);
-    if (designs.size() == 1 || size > most_ || !meets(statics, designs, efforts, signs_)) continue;
-    EffortChoice choice;
-    choice.efforts.assign(statics.bases, efforts);
-    choice.gains.assign(systems_.task().knows_load ? statics.directions() : 0,
-                        std::vector<double>(efforts.size(), 0.0));
-    return turned(statics, designs, choice);
-  }
   return deep_choice(systems_.of(statics), designs, signs_, systems_.task().knows_load, most_);
 }
 

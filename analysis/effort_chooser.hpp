@@ -60,8 +60,6 @@ class PatternChooser : public loci::pose::EffortChooser {
 
   /// Efforts of a larger size are not chosen, and a pose that asks for them ends the proof.
   void keep_within(double size) { most_ = size; }
-  /// Efforts that are tried before others where one choice is looked for at several poses.
-  void begin_with(std::vector<std::vector<double>> known) { known_ = std::move(known); }
   const SignPattern& signs() const { return signs_; }
 
   /// Where the pattern fails for certain: its rows, and the system that they are of.
@@ -79,7 +77,6 @@ class PatternChooser : public loci::pose::EffortChooser {
 
   EffortSystems& systems_;
   SignPattern signs_;
-  std::vector<std::vector<double>> known_;
   double most_ = std::numeric_limits<double>::infinity();
 };
 

@@ -169,6 +169,8 @@ class Field {
 
   /// Sets the coordinates, to their middles if so.
   static void set_variables(Chart& chart, const Lanes& lanes, bool middles = false);
+  /// Sets the coordinates, and makes room for the roots.
+  void begin(Chart& chart, Lanes& lanes) const;
   /// Sets coordinates and roots, these as they go on beyond the boundary; `roots` of those that may vanish reach to 0.
   void enter_with_beyond(Chart& chart, Lanes& lanes);
   /// Sets roots that may vanish as they are over all of the boxes, the others by the coordinates that are set. `held`:

@@ -29,11 +29,7 @@ bool Field::Over::rises_across(const Vector& normal, const Vector& way) const {
 }
 
 void Field::enter_with_beyond(Chart& chart, Lanes& lanes) {
-  set_variables(chart, lanes);
-  for (Lane& lane : lanes) {
-    lane.rising.assign(mode_.size(), false);
-    lane.roots.resize(mode_.size());
-  }
+  begin(chart, lanes);
   const auto root_at = [](double square) {
     const Interval size = square_root(Interval(std::abs(square)));
     return square < 0 ? -size : size;

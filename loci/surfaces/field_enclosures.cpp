@@ -58,12 +58,16 @@ void Field::set_variables(Chart& chart, const Lanes& lanes, bool middles) {
   }
 }
 
-void Field::enter(Chart& chart, Lanes& lanes) {
+void Field::begin(Chart& chart, Lanes& lanes) const {
   set_variables(chart, lanes);
   for (Lane& lane : lanes) {
     lane.rising.assign(mode_.size(), false);
     lane.roots.resize(mode_.size());
   }
+}
+
+void Field::enter(Chart& chart, Lanes& lanes) {
+  begin(chart, lanes);
   for (int j = 0; j < roots(); ++j) {
     const auto own = static_cast<std::size_t>(j);
     chart.over.run_square(j);

@@ -15,16 +15,21 @@ def test_loci_are_curves_with_arrays(five_bar):
             assert arc.dtype == np.float64 and arc.ndim == 2 and arc.shape[1] == 2
 
 
+def values_and_slopes(implicit, arc):
+    polynomial = eval(f"lambda x, y: {implicit.replace('^', '**')}")
+    x, y = arc[:, 0], arc[:, 1]
+    step = 1e-6
+    slopes = np.hypot(
+        polynomial(x + step, y) - polynomial(x - step, y), polynomial(x, y + step) - polynomial(x, y - step)
+    ) / (2 * step)
+    return np.abs(polynomial(x, y)), slopes
+
+
 def test_arcs_lie_on_their_implicit_curves(five_bar):
     for curve in five_bar.loci().curves:
-        polynomial = eval(f"lambda x, y: {curve.implicit.replace('^', '**')}")
         for arc in curve.arcs:
-            x, y = arc[:, 0], arc[:, 1]
-            step = 1e-6
-            slope = np.hypot(
-                polynomial(x + step, y) - polynomial(x - step, y), polynomial(x, y + step) - polynomial(x, y - step)
-            ) / (2 * step)
-            assert np.all(np.abs(polynomial(x, y)) <= 1e-9 * np.maximum(slope, 1))
+            values, slopes = values_and_slopes(curve.implicit, arc)
+            assert np.all(values <= 1e-9 * np.maximum(slopes, 1))
 
 
 def test_zones_are_polygons(five_bar):
@@ -150,13 +155,8 @@ def test_carried_loci_lie_on_those_of_the_new_design(five_bar):
     implicit = {curve.id: curve.implicit for curve in proven.curves}
     for curve in carried.curves:
         assert curve.arcs
-        polynomial = eval(f"lambda x, y: {implicit[curve.id].replace('^', '**')}")
         for arc in curve.arcs:
-            x, y = arc[:, 0], arc[:, 1]
-            step = 1e-6
-            slope = np.hypot(
-                polynomial(x + step, y) - polynomial(x - step, y), polynomial(x, y + step) - polynomial(x, y - step)
-            ) / (2 * step)
-            assert np.median(np.abs(polynomial(x, y)) / np.maximum(slope, 1e-12)) <= 1e-9
+            values, slopes = values_and_slopes(implicit[curve.id], arc)
+            assert np.median(values / np.maximum(slopes, 1e-12)) <= 1e-9
     again = pickle.loads(pickle.dumps(carried))
     assert [len(curve.arcs) for curve in again.curves] == [len(curve.arcs) for curve in carried.curves]
