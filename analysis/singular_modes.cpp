@@ -12,13 +12,14 @@
 namespace clearloci {
 namespace {
 
-/// What |A| depends on: no springs, known efforts or limits.
+/// What |A| depends on: no springs, given efforts or limits, the bounds of given efforts among them.
 mechanism::Mechanism bare(mechanism::Mechanism mechanism) {
   mechanism.springs.clear();
   mechanism.limits.clear();
   for (mechanism::Joint& joint : mechanism.joints) {
     joint.effort.reset();
     joint.free_effort.reset();
+    joint.law_within.reset();
   }
   return mechanism;
 }

@@ -41,6 +41,12 @@ std::vector<std::string> side_choices(const mechanism::Mechanism& mechanism) {
   return choices;
 }
 
+/// Such as L=0.4; of one name.
+bool is_assignment(const std::string& word) {
+  const std::size_t equals = word.find('=');
+  return equals != std::string::npos && equals != 0 && equals + 1 != word.size() && equals == word.rfind('=');
+}
+
 std::optional<int> whole_number(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -67,7 +73,12 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
       .add_option_function<std::vector<std::string>>(
           "--preload",
           [&arguments](const std::vector<std::string>& words) {
-            for (const std::string& word : words) arguments.overrides.push_back("preload_" + word);
+            for (const std::string& word : words) {
+              if (!is_assignment(word))
+                refuse("--preload", fmt::format("'{}' is not joint=value", word),
+                       "write e.g. --preload A4=3.5, once for each joint");
+              arguments.overrides.push_back("preload_" + word);
+            }
           },
           "Give a motor of free effort its effort, in N m or N (repeatable)")
       ->allow_extra_args(false)
@@ -86,9 +97,9 @@ void add_common_arguments(CLI::App& command, CommonArguments& arguments) {
 std::vector<mechanism::Override> parse_overrides(const std::vector<std::string>& words) {
   std::vector<mechanism::Override> overrides;
   for (const std::string& word : words) {
+    if (!is_assignment(word))
+      refuse("--set", fmt::format("'{}' is not name=value", word), "write e.g. --set L=0.4, once for each parameter");
     const std::size_t equals = word.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == word.size())
-      refuse("--set", fmt::format("'{}' is not name=value", word), "write e.g. --set L=0.4");
     overrides.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
   return overrides;

@@ -26,6 +26,11 @@ bool is_free_effort(const Value& effort) { return effort.is_scalar() && text_of(
 
 std::string free_effort_parameter(const std::string& joint) { return prefix + joint; }
 
+std::optional<std::string> joint_of_free_effort(const std::string& parameter) {
+  if (!parameter.starts_with(prefix)) return std::nullopt;
+  return parameter.substr(std::string_view(prefix).size());
+}
+
 std::string words_of_law(const Mechanism& mechanism, const Joint& joint, const Rational& value) {
   const std::string unit = core::unit_of(actuator_quantity(joint));
   return (is_cable(joint) ? "tension of cable " : "effort of joint ") + joint.name + " at " +
@@ -88,15 +93,15 @@ std::vector<Entry> free_effort_parameters(const Value& joints, const GivenEffort
 void check_given_efforts(const Value& joints, const std::optional<Value>& parameters, const GivenEfforts& efforts) {
   if (!joints.is_map()) return;
   std::vector<std::string> known;
-  for (const Entry& own : written_free_efforts(joints)) known.push_back(own.key.substr(std::string(prefix).size()));
+  for (const Entry& own : written_free_efforts(joints)) known.push_back(*joint_of_free_effort(own.key));
   for (const Entry& joint : entries(joints))
     if (joint.value.is_map() && joint.value.node.has(to_string(JointType::cable))) known.push_back(joint.key);
   for (const std::string& name : names_of_efforts(efforts)) {
-    if (!name.starts_with(prefix) || (parameters && parameters->is_map() && parameters->node.has(name))) continue;
-    const std::string joint = name.substr(std::string(prefix).size());
-    if (std::find(known.begin(), known.end(), joint) == known.end())
-      throw InputError({.file = "--preload"}, "there is no joint of free effort called '" + joint + "'",
-                       suggest(joint, known, "joints of free effort"));
+    const std::optional<std::string> joint = joint_of_free_effort(name);
+    if (!joint || (parameters && parameters->is_map() && parameters->node.has(name))) continue;
+    if (std::find(known.begin(), known.end(), *joint) == known.end())
+      throw InputError({.file = "--preload"}, "there is no joint of free effort called '" + *joint + "'",
+                       suggest(*joint, known, "joints of free effort"));
   }
 }
 

@@ -113,17 +113,15 @@ void check_degree(const Expression& expression, const Mechanism& mechanism, cons
 
 /// An override has no line in the file; it is shown as it was written.
 SourcePosition place_of(const Override& override) {
-  std::string text = "--set ";
-  text += override.first;
-  text += '=';
-  text += override.second;
-  return {text, 0, 0};
+  const std::optional<std::string> joint = joint_of_free_effort(override.first);
+  return {(joint ? "--preload " + *joint : "--set " + override.first) + '=' + override.second, 0, 0};
 }
 
 /// The value of a parameter: as in the file, or as overridden.
 Value parameter_value(const Entry& entry, const std::vector<Override>& overrides) {
   Value value = entry.value;
-  value.what = "parameter " + entry.key;
+  const std::optional<std::string> joint = joint_of_free_effort(entry.key);
+  value.what = joint ? "the effort of joint " + *joint : "parameter " + entry.key;
   for (const Override& override : overrides) {
     if (override.first != entry.key) continue;
     value.node = Node(override.second);

@@ -2,6 +2,7 @@
 // Private to mechanism/.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -108,6 +109,8 @@ void fill_inertia(Mechanism& mechanism);
 /// The word `free`.
 bool is_free_effort(const Value& effort);
 std::string free_effort_parameter(const std::string& joint);
+/// Of a parameter that is named so.
+std::optional<std::string> joint_of_free_effort(const std::string& parameter);
 [[noreturn]] void refuse_effort(const Mechanism& mechanism, const Joint& joint, const Rational& value,
                                 const std::pair<Rational, Rational>& within, const core::SourcePosition& where);
 /// Of joints as they are written: the word `free` of every effort that is, by the name of its parameter.

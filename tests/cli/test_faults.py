@@ -116,6 +116,18 @@ class Complaints(InOwnFolder):
         model = self.model(lambda text: text.replace("L:", "L" * 65 + ":").replace("L,", "L" * 65 + ","))
         self.assertIn("too long", self.complaint("loci", model))
 
+    def test_given_efforts_are_named_as_they_were_given(self):
+        cables = EXAMPLES / "cables" / "point.yaml"
+        for word, told in {
+            "K3=": "--preload: 'K3=' is not joint=value; write e.g. --preload ",
+            "K1=5,K2=5": "--preload: 'K1=5,K2=5' is not joint=value; ",
+            "K3=nan": "--preload K3=nan: the effort of joint K3: 'nan' ",
+            "K3=x": "--at: the pose is beyond the limit of the tension of cable K3 at 5 N; ",  # x is at most 0.9
+        }.items():
+            with self.subTest(word):
+                told_now = self.complaint("pose", cables, "--at", "0.2,-0.1", "--preload", word)
+                self.assertIn(f"clearloci: {told}", told_now)
+
     def test_grids_beyond_memory_are_said_to_be(self):
         self.assertIn("GB", self.complaint("error", FIVE_BAR, "--grid", "20000x20000"))
         self.assertIn("GB", self.complaint("validate", FIVE_BAR, "--grid", "20000x20000"))
