@@ -207,7 +207,10 @@ const DesignTask::Measured& DesignTask::measured() const {
   for (std::size_t i = 0; i < own.conditions.conditions.size(); ++i) {
     const core::TaskCondition& condition = own.conditions.conditions[i];
     if (condition.denominator < 0) continue;
-    (is_effort(condition.reactions.front().quantity) ? own.efforts : own.forces).push_back(static_cast<int>(i));
+    const Quantity quantity = condition.reactions.front().quantity;
+    // What a linear drive exerts is both.
+    if (is_effort(quantity)) own.efforts.push_back(static_cast<int>(i));
+    if (quantity != Quantity::M) own.forces.push_back(static_cast<int>(i));
   }
   measured_ = std::move(own);
   return *measured_;
@@ -231,7 +234,8 @@ std::string DesignTask::reason(const loci::DesignFailure& failure) const {
   const core::TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(failure.condition)];
   const bool effort = is_effort(condition.reactions.front().quantity);
   if (failure.kind == Kind::too_small && condition.least > 0)
-    return where + (effort ? "min_couple in " : "min_force in ") + joints_of(condition);
+    return where + (condition.reactions.front().quantity == Quantity::M ? "min_couple in " : "min_force in ") +
+           joints_of(condition);
   return where + (effort ? "backlash in " : "contact lost in ") + joints_of(condition);
 }
 

@@ -51,12 +51,12 @@ class EffortCells {
     });
   }
 
-  core::ZonePreload run(const std::vector<TaskDemand>& demands, const std::optional<Rational>& min_couple) {
+  core::ZonePreload run(const std::vector<TaskDemand>& demands, const LociRequest& request) {
     cells_ = {{bounds_of_efforts(), {}}};
     for (const TaskDemand& demand : demands)
       if (const auto line = line_of(demand)) cut(*line);
     for (std::size_t k = 0; k < free_.size(); ++k)
-      if (const auto own = own_gap(mechanism_, joint_of(k).name, min_couple)) cut({own->demand, unit(k)});
+      if (const auto own = own_gap(mechanism_, joint_of(k).name, request)) cut({own->demand, unit(k)});
     core::ZonePreload preload;
     preload.feasible = !cells_.empty();
     for (const Cell& cell : cells_) preload.patterns.push_back(cell.signs);
@@ -182,10 +182,10 @@ class EffortCells {
 
 std::optional<core::ZonePreload> efforts_in_cells(const Mechanism& mechanism, const std::vector<double>& pose,
                                                   const std::vector<int>& sides, const std::vector<TaskDemand>& demands,
-                                                  const std::optional<Rational>& min_couple) {
+                                                  const LociRequest& request) {
   EffortCells cells(mechanism, pose, sides);
   if (!cells.is_regular()) return std::nullopt;
-  return cells.run(demands, min_couple);
+  return cells.run(demands, request);
 }
 
 }  // namespace clearloci

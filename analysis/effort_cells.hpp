@@ -19,6 +19,6 @@ namespace clearloci {
 std::optional<core::ZonePreload> efforts_in_cells(const mechanism::Mechanism& mechanism,
                                                   const std::vector<double>& pose, const std::vector<int>& sides,
                                                   const std::vector<core::TaskDemand>& demands,
-                                                  const std::optional<core::Rational>& min_couple);
+                                                  const LociRequest& request);
 
 }  // namespace clearloci

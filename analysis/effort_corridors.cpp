@@ -61,7 +61,7 @@ class PatternSearch {
         for (EffortGap& gap : numeric::effort_gaps(none[i], one[i], at, sides_, demands))
           gaps.push_back(std::move(gap));
       }
-      if (const auto own = own_gap(mechanism, wanted.joint, request.min_couple)) gaps.push_back(*own);
+      if (const auto own = own_gap(mechanism, wanted.joint, request)) gaps.push_back(*own);
       if (regular) seen_.push_back({pose, std::move(gaps)});
     }
   }

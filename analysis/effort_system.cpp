@@ -136,7 +136,7 @@ EffortSystem::EffortSystem(const Mechanism& mechanism, std::vector<WantedEffort>
   const loci::pose::PoseRegion region(task.shape, widened_.metric(mechanism, task), widened_.beside());
   demands_ = loaded_demands(models_, sides_, std::move(demands), region.samples(), notes_);
   for (const WantedEffort& own : wanted_) {
-    const auto gap = own_gap(mechanism, own.joint, request.min_couple);
+    const auto gap = own_gap(mechanism, own.joint, request);
     own_leasts_.push_back(gap ? std::optional(gap->to) : std::nullopt);
   }
   std::vector<core::TaskDemand> plain = demands_;

@@ -62,13 +62,8 @@ std::optional<core::TaskWitness> confirmed(const core::Task& task, const Widened
   told.most = task.pose_error;
   told.design = widened.design(at);
   if (task.loads) told.load = load_between(*task.loads, found.load);
-  for (const core::LoadWithin& within : task.loads_within) {
-    const auto& load = posture.loads[within.load];
-    core::WitnessLoad own{within.load, {}, load.couple[2]};
-    for (std::size_t c = 0; c < mechanism::dimension(model.mechanism); ++c)
-      own.force.push_back(load.force[static_cast<Eigen::Index>(c)]);
-    told.loads.push_back(std::move(own));
-  }
+  for (const core::LoadWithin& within : task.loads_within)
+    told.loads.push_back(load_at(posture, within.load, model.mechanism));
   return told;
 }
 

@@ -129,7 +129,7 @@ FeasibleEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const s
       !(std::abs(determinant.value) > determinant.error))
     return efforts;
   std::vector<EffortGap> gaps = numeric::effort_gaps(models[0], models[1], at, sides, demands);
-  if (const auto own = own_gap(mechanism, joint.name, request.min_couple)) gaps.push_back(*own);
+  if (const auto own = own_gap(mechanism, joint.name, asked)) gaps.push_back(*own);
   set_ranges(gaps, efforts);
   return efforts;
 }
@@ -144,14 +144,13 @@ core::Rational smallest_of(const std::vector<EffortRange>& ranges) {
 
 }  // namespace
 
-std::optional<EffortGap> own_gap(const Mechanism& mechanism, const std::string& joint,
-                                 const std::optional<core::Rational>& min_couple) {
+std::optional<EffortGap> own_gap(const Mechanism& mechanism, const std::string& joint, const LociRequest& request) {
   for (const mechanism::Joint& own : mechanism.joints) {
     if (own.name != joint || !own.clearance) continue;
     core::TaskDemand demand{joint, mechanism::actuator_quantity(own)};
     const bool force = demand.quantity == core::Quantity::F;
     if (mechanism::value_of(force ? own.clearance->axial : own.clearance->angular, mechanism) == 0) return std::nullopt;
-    if (!force) demand.least = min_couple.value_or(0);
+    demand.least = (force ? request.min_force : request.min_couple).value_or(0);
     const double least = core::to_double(demand.least);
     return EffortGap{-least, least, std::move(demand), 0, 1};
   }

@@ -26,9 +26,10 @@ FeasibleEfforts efforts_without_ranges(const mechanism::Joint& joint);
 /// The ranges between the gaps, within the motor's own, or what fails at every effort. `efforts`: with `within`.
 void set_ranges(const std::vector<numeric::EffortGap>& gaps, FeasibleEfforts& efforts);
 
-/// The efforts of a free actuator at which its own backlash is crossed; none where it has no play.
+/// The efforts of a free actuator at which its own backlash is crossed, or that are smaller than `request` asks; none
+/// where it has no play.
 std::optional<numeric::EffortGap> own_gap(const mechanism::Mechanism& mechanism, const std::string& joint,
-                                          const std::optional<core::Rational>& min_couple);
+                                          const LociRequest& request);
 
 /// Of a mechanism some of whose efforts are free.
 struct PoseEfforts {

@@ -48,7 +48,7 @@ class PreloadSearch {
         units_(mechanism.units),
         request_(request),
         judge_(preload_judge(mechanism, {wanted_}, task, request.loci)),
-        own_gap_(own_gap(mechanism, wanted_.joint, request_of(task, request.loci).min_couple)) {}
+        own_gap_(own_gap(mechanism, wanted_.joint, request_of(task, request.loci))) {}
 
   core::PreloadAnswer run() {
     push({wanted_.lower, wanted_.upper});

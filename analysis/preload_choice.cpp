@@ -71,7 +71,7 @@ numeric::FindChoice choice_of_effort(const Mechanism& mechanism, JointIndex inde
   if (const auto& within = joint.free_effort->within)
     range = {core::to_double(within->first), core::to_double(within->second)};
   std::optional<std::array<double, 2>> gap;
-  if (const auto own = own_gap(mechanism, joint.name, request.min_couple)) gap = {own->from, own->to};
+  if (const auto own = own_gap(mechanism, joint.name, request)) gap = {own->from, own->to};
   return [none = with(0), one = with(1), demands = demands_of(mechanism, request), range, gap](
              std::span<const numeric::Bounded> pose, const std::vector<int>& sides) {
     return numeric::order_of_efforts(none, one, pose, sides, demands, range, gap);

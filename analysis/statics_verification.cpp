@@ -222,14 +222,14 @@ class Verifier {
     const auto posture = [&](const numeric::NumericModel& model) { return numeric::posture(model, at, sides_); };
     const numeric::Posture first = posture(models_.front()), last = posture(models_.back());
     if (!first.reachable() || !last.reachable()) return;
-    const std::size_t dimension = mechanism_.space == mechanism::Space::planar ? 2 : 3;
+    const auto between = [t](std::vector<double>& a, const std::vector<double>& b) {
+      for (std::size_t c = 0; c < a.size(); ++c) a[c] = (1 - t) * a[c] + t * b[c];
+    };
     for (const core::LoadWithin& within : task_.loads_within) {
-      const auto &a = first.loads[within.load], &b = last.loads[within.load];
-      core::WitnessLoad load{within.load, {}, (1 - t) * a.couple[2] + t * b.couple[2]};
-      for (std::size_t c = 0; c < dimension; ++c) {
-        const auto k = static_cast<Eigen::Index>(c);
-        load.force.push_back((1 - t) * a.force[k] + t * b.force[k]);
-      }
+      core::WitnessLoad load = load_at(first, within.load, mechanism_);
+      const core::WitnessLoad other = load_at(last, within.load, mechanism_);
+      between(load.force, other.force);
+      between(load.couple, other.couple);
       told.loads.push_back(std::move(load));
     }
   }

@@ -67,8 +67,9 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
     switch (const Quantity q = reaction.quantity; q) {
       case Quantity::M:
       case Quantity::F: {
-        const bool couple = q == Quantity::M && request.min_couple;
-        if (wanted(q) || wanted(Quantity::M) || couple) add(q, couple ? request.min_couple : std::nullopt);
+        // A linear drive, teeth and belts bear a force.
+        const std::optional<core::Rational>& least = q == Quantity::M ? request.min_couple : request.min_force;
+        if (wanted(q) || wanted(Quantity::M) || least) add(q, least);
         break;
       }
       case Quantity::end_ahead:

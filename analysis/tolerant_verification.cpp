@@ -188,9 +188,7 @@ class Tolerant {
     for (std::size_t p = 0; p < failure.parameters.size(); ++p)
       told.design.emplace_back(task_.design().varied[p], failure.parameters[p]);
     for (const core::LoadWithin& within : task_.task().loads_within)
-      if (within.force > 0 || within.couple > 0)
-        told.loads.push_back({within.load, list_of(numeric::in_plane(posture.loads[within.load].force)),
-                              posture.loads[within.load].couple[2]});
+      if (within.force > 0 || within.couple > 0) told.loads.push_back(load_at(posture, within.load, model.mechanism));
     return told;
   }
 
@@ -240,15 +238,12 @@ class Tolerant {
     for (const core::LoadWithin& within : task_.task().loads_within) {
       if (!(within.force > 0) && !(within.couple > 0)) continue;
       const numeric::LoadChange& change = found.changes[ball++];
-      core::WitnessLoad load{within.load, {0, 0}};
-      if (posture.reachable()) {
-        load.force = list_of(numeric::in_plane(posture.loads[within.load].force));
-        load.couple = posture.loads[within.load].couple[2];
-      }
+      core::WitnessLoad load{within.load, {0, 0}, {0}};
+      if (posture.reachable()) load = load_at(posture, within.load, loads_.front().mechanism);
       if (!told.load.empty() && within.load == 0) load.force = told.load;
       load.force[0] += change.fx;
       load.force[1] += change.fy;
-      load.couple += change.couple;
+      load.couple[0] += change.couple;
       told.loads.push_back(load);
     }
   }

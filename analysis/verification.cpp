@@ -61,6 +61,12 @@ std::string limit_at(const Mechanism& mechanism, const numeric::NumericModel& mo
   return end && end->slack <= passes ? mechanism::words_of_end(mechanism, end->limit, end->upper) : std::string();
 }
 
+core::WitnessLoad load_at(const numeric::Posture& posture, std::size_t load, const Mechanism& mechanism) {
+  const auto& at = posture.loads[load];
+  if (mechanism.space == mechanism::Space::planar) return {load, {at.force[0], at.force[1]}, {at.couple[2]}};
+  return {load, {at.force.begin(), at.force.end()}, {at.couple.begin(), at.couple.end()}};
+}
+
 core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::NumericModel& model, std::vector<double> at,
                                const DyadSides& sides, const numeric::TaskFailure& failure) {
   using Kind = numeric::TaskFailure::Kind;

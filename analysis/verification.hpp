@@ -19,6 +19,9 @@
 
 namespace clearloci {
 
+/// A load as it is in a posture.
+core::WitnessLoad load_at(const numeric::Posture& posture, std::size_t load, const mechanism::Mechanism& mechanism);
+
 /// What all three tell alike of a failure: its kind and the limit that is broken; of a reaction which, how large it is
 /// and how large it has to be.
 core::TaskWitness told_failure(const mechanism::Mechanism& mechanism, const numeric::NumericModel& model,

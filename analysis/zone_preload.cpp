@@ -58,7 +58,7 @@ class SampleEfforts {
     const numeric::Bounded determinant = numeric::bounded_numerators(models_[0], exactly(pose), sides).determinant;
     if (!(std::abs(determinant.value) > determinant.error)) return std::nullopt;
     std::vector<EffortGap> gaps = numeric::effort_gaps(models_[0], models_[1], exactly(pose), sides, demands);
-    if (const auto own = own_gap(mechanism_, joint_.name, request_.min_couple)) gaps.push_back(*own);
+    if (const auto own = own_gap(mechanism_, joint_.name, request_)) gaps.push_back(*own);
     core::ZonePreload preload;
     FeasibleEfforts& efforts = preload.efforts.emplace_back(efforts_without_ranges(joint_));
     set_ranges(gaps, efforts);
@@ -99,7 +99,7 @@ void add_cells(const Mechanism& mechanism, const LociRequest& request, core::Zon
   const std::vector<core::TaskDemand> demands = demands_of(mechanism, request);
   for (core::Zone& zone : map.zones)
     zone.preload = efforts_in_cells(mechanism, zone.sample, numeric::dyad_signs(model, map.loci.tower, zone.mode),
-                                    demands, request.min_couple);
+                                    demands, request);
 }
 
 core::ZonePreload tensions_at(const Mechanism& mechanism, const std::vector<double>& pose, const DyadSides& sides) {

@@ -102,7 +102,9 @@ Json witness_json(const core::Verification& result) {
   if (!witness.limit.empty()) own["limit"] = witness.limit;
   for (const auto& [name, value] : witness.design) own["design"][name] = value;
   for (const core::WitnessLoad& load : witness.loads)
-    own["loads"].push_back({{"load", load.load + 1}, {"force", load.force}, {"couple", load.couple}});
+    own["loads"].push_back({{"load", load.load + 1},
+                            {"force", load.force},
+                            {"couple", load.couple.size() == 1 ? Json(load.couple.front()) : Json(load.couple)}});
   return own;
 }
 
@@ -157,12 +159,13 @@ class Words {
 
 std::string witness_words(const core::TaskWitness& witness, const core::Units& units, bool of_angles) {
   const ShownUnit length = shown_unit("m", units), force = shown_unit("N", units);
-  const auto vector = [&](const std::vector<double>& parts) {
+  const auto listed = [](const std::vector<double>& parts, const ShownUnit& unit) {
     std::string words;
     for (const double part : parts)
-      words += (words.empty() ? "(" : ", ") + engineering(part * force.per_si, place_digits);
-    return words + ") " + force.name;
+      words += (words.empty() ? "" : ", ") + engineering(part * unit.per_si, place_digits);
+    return (parts.size() == 1 ? words : "(" + words + ")") + " " + unit.name;
   };
+  const auto vector = [&](const std::vector<double>& parts) { return listed(parts, force); };
   std::string words;
   switch (witness.kind) {
     case Kind::unreachable:
@@ -208,7 +211,7 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
   }
   if (!witness.load.empty()) words += " under the load " + vector(witness.load);
   for (const core::WitnessLoad& own : witness.loads)
-    words += fmt::format(" under {} and {} N m as load {}", vector(own.force), engineering(own.couple, place_digits),
+    words += fmt::format(" under {} and {} as load {}", vector(own.force), listed(own.couple, shown_unit("N m", units)),
                          own.load + 1);
   for (std::size_t i = 0; i < witness.design.size(); ++i)
     words += fmt::format("{}{} = {}", i == 0 ? " of the design " : ", ", witness.design[i].first,

@@ -17,7 +17,7 @@ namespace clearloci::symbolic {
 struct Selection {
   std::vector<std::string> joints;  ///< empty: every joint with a clearance, or all where none has one
   std::vector<core::Quantity> quantities = {core::Quantity::f, core::Quantity::M};
-  std::optional<core::Rational> min_force;   ///< N: adds the margin curves |f_J| = min_force
+  std::optional<core::Rational> min_force;   ///< N: adds the margin curves |f_J|, |F_J| = min_force
   std::optional<core::Rational> min_couple;  ///< N m: adds the margin curves |M_J| = min_couple
   /// Signs of the dyads and sliders, +1 left or ahead, in the order of mechanism::dyad_points; empty: the file's mode.
   std::vector<std::vector<int>> working_modes = {};

@@ -179,22 +179,34 @@ void FactorEmission::moving_guides() {
   }
 }
 
+namespace {
+
+/// "contact force of A, B and force of S".
+std::string words_of_sizes(const std::vector<core::Vanishing>& reactions) {
+  std::string words;
+  for (const auto& [quantity, name] :
+       {std::pair{Quantity::f, "contact force of "}, {Quantity::F, "force of "}, {Quantity::M, "couple of "}}) {
+    std::string names;
+    for (const core::Vanishing& own : reactions)
+      if (own.quantity == quantity) names += (names.empty() ? "" : ", ") + own.joint;
+    if (!names.empty()) words += (words.empty() ? "" : " and ") + (name + names);
+  }
+  return words;
+}
+
+}  // namespace
+
 void FactorEmission::margins() {
   for (const Margin& margin : symbolic::margins(d_.geometry, d_.elimination, d_.determinants.determinant, d_.reactions,
                                                 d_.selection, d_.result.problem.joints)) {
-    const bool force = margin.quantity == Quantity::f;
-    std::string names;
     LocusFactor factor;
-    for (const std::string& joint : margin.joints) {
-      if (!names.empty()) names += ", ";
-      names += joint;
-      factor.vanishing.push_back({joint, margin.quantity, 1});
-    }
+    factor.vanishing = margin.reactions;
+    const bool force = margin.reactions.front().quantity != Quantity::M;
     const core::Rational unit = d_.mechanism.frame && !force ? d_.mechanism.frame->scale : core::Rational(1);
     const std::string bound = core::told(core::to_double(core::Rational(margin.bound * unit)), force ? "N" : "N m", {});
     factor.cleared = cleared_by(margin.below, margin.power);
     factor.expression = d_.words.of(margin.natural);
-    factor.cause = (force ? "contact force of " : "couple of ") + names + " at " + bound;
+    factor.cause = words_of_sizes(margin.reactions) + " at " + bound;
     const Poly sheet = d_.elimination.over_tower(margin.natural);
     if (sheet.is_zero())
       d_.result.notes.push_back(factor.cause + " in every pose");

@@ -47,18 +47,24 @@ class Margins {
     }
   }
 
-  void add_couple(const mechanism::Joint& joint, const Rational& bound) {
-    const FactoredPoly* couple = numerator(reactions_, joint.name, Quantity::M);
-    if (couple == nullptr) return;
-    const FactoredPoly shared = common_factors(*couple, determinant_);
-    const Poly c = without(*couple, shared, ring()), d = without(determinant_, shared, ring());
-    const bool planar = geometry_.mechanism().space == mechanism::Space::planar;
-    const Poly axis2 = planar ? geometry_.poly(1) : squared_axis(geometry_, joint);
+  /// The couple or the force along an axis u: of an actuator, of teeth or of a belt.
+  void add_effort(const mechanism::Joint& joint, Quantity quantity, const Rational& bound) {
+    const FactoredPoly* effort = numerator(reactions_, joint.name, quantity);
+    if (effort == nullptr || effort->is_zero()) return;
+    const FactoredPoly shared = common_factors(*effort, determinant_);
+    Poly n = without(*effort, shared, ring()), d = without(determinant_, shared, ring());
+    const mechanism::Mechanism& mechanism = geometry_.mechanism();
+    const bool is_number = quantity == Quantity::M && mechanism.space == mechanism::Space::planar;
+    const bool over_axis = quantity == Quantity::F && is_force_over_axis(mechanism, joint);
+    const Poly axis2 = is_number ? geometry_.poly(1) : squared_axis(geometry_, joint);
+    Poly& scaled = over_axis ? n : d;
     if (const auto length = constant_length(axis2)) {
-      add(joint.name, Quantity::M, c - d.scaled(bound * *length), bound, {cleared(shared), 1});
-      add(joint.name, Quantity::M, c + d.scaled(bound * *length), bound, {cleared(shared), 1});
+      scaled = scaled.scaled(*length);
+      add(joint.name, quantity, n - d.scaled(bound), bound, {cleared(shared), 1});
+      add(joint.name, quantity, n + d.scaled(bound), bound, {cleared(shared), 1});
     } else {
-      add(joint.name, Quantity::M, c * c - (d * d * axis2).scaled(bound * bound), bound, {cleared(shared), 2});
+      const Poly n2 = n * n, d2 = (d * d).scaled(bound * bound);
+      add(joint.name, quantity, over_axis ? n2 * axis2 - d2 : n2 - d2 * axis2, bound, {cleared(shared), 2});
     }
   }
 
@@ -91,11 +97,14 @@ class Margins {
   Margin& add(const std::string& joint, Quantity quantity, const Poly& polynomial, const Rational& bound,
               const std::pair<FactoredPoly, int>& below, std::optional<TwoSenses> senses = std::nullopt) {
     const Poly natural = polynomial.primitive();
-    auto known = std::find_if(margins_.begin(), margins_.end(),
-                              [&](const Margin& m) { return m.quantity == quantity && m.natural == natural; });
-    if (known == margins_.end())
-      known = margins_.insert(known, {natural, quantity, bound, {}, below.first, below.second, std::move(senses)});
-    if (known->joints.empty() || known->joints.back() != joint) known->joints.push_back(joint);
+    auto known = std::find_if(margins_.begin(), margins_.end(), [&](const Margin& m) {
+      const bool couple = m.reactions.front().quantity == Quantity::M;
+      return couple == (quantity == Quantity::M) && m.natural == natural;
+    });
+    if (known == margins_.end()) known = margins_.insert(known, {natural, bound, {}, below.first, below.second});
+    if (!known->senses) known->senses = std::move(senses);
+    const core::Vanishing reaction{joint, quantity, 1};
+    if (known->reactions.empty() || known->reactions.back() != reaction) known->reactions.push_back(reaction);
     return *known;
   }
 
@@ -125,8 +134,11 @@ std::vector<Margin> margins(const Geometry& geometry, const Elimination& elimina
   Margins result(geometry, elimination, determinant, reactions);
   for (const mechanism::Joint& joint : geometry.mechanism().joints) {
     if (std::find(joints.begin(), joints.end(), joint.name) == joints.end()) continue;
-    if (selection.min_force) result.add_force(joint, *selection.min_force);
-    if (selection.min_couple) result.add_couple(joint, *selection.min_couple);
+    if (selection.min_force) {
+      result.add_force(joint, *selection.min_force);
+      result.add_effort(joint, Quantity::F, *selection.min_force);
+    }
+    if (selection.min_couple) result.add_effort(joint, Quantity::M, *selection.min_couple);
   }
   return result.take();
 }

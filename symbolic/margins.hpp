@@ -23,13 +23,12 @@ struct SquaredForce {
   FactoredPoly bound;                    ///< f_min |A|
 };
 
-/// A natural polynomial that vanishes where the joints bear `bound`.
+/// A natural polynomial that vanishes where the reactions are as large as `bound`.
 struct Margin {
   Poly natural;
-  core::Quantity quantity = core::Quantity::f;
   core::Rational bound;
-  std::vector<std::string> joints;  ///< of one chain: they bear the same force
-  FactoredPoly below;               ///< the divisor of |A| that was cleared, to `power`
+  std::vector<core::Vanishing> reactions;  ///< of one chain: forces of the same size, or couples
+  FactoredPoly below;                      ///< the divisor of |A| that was cleared, to `power`
   int power = 1;
   std::optional<TwoSenses> senses = {};
   std::optional<SquaredForce> force = {};

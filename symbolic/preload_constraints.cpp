@@ -36,13 +36,13 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 class Demands {
  public:
   Demands(const Geometry& geometry, const PreloadColumns& columns, const FactoredPoly& determinant,
-          const core::LocusProblem& demanded, const std::optional<Rational>& min_couple)
+          const core::LocusProblem& demanded, const Selection& selection)
       : geometry_(geometry),
         mechanism_(geometry.mechanism()),
         columns_(columns),
         determinant_(determinant),
         demanded_(demanded),
-        min_couple_(min_couple) {}
+        selection_(selection) {}
 
   std::vector<PreloadConstraint> run() {
     if (efforts() > 0)
@@ -87,7 +87,7 @@ class Demands {
     for (const Quantity part : parts) {
       const std::optional<std::size_t> at = place_of(joint, part);
       if (!at) return;
-      if (quantity == Quantity::M && min_couple_ && is_planar()) return add_least(joint, *at);
+      if (quantity == Quantity::M && selection_.min_couple && is_planar()) return add_least(joint, *at);
       constraint.rows.push_back(preload_row(numerators(*at)));
       chosen = chosen || changes(constraint.rows.back());
     }
@@ -103,7 +103,7 @@ class Demands {
     const std::vector<const FactoredPoly*> own = numerators(reaction);
     const Ring& ring = geometry_.ring();
     const Poly load = own.front()->is_zero() ? Poly(ring) : expanded(*own.front(), ring);
-    for (const Rational& least : {*min_couple_, Rational(-*min_couple_)}) {
+    for (const Rational& least : {*selection_.min_couple, Rational(-*selection_.min_couple)}) {
       const FactoredPoly beyond = factored(load - expanded(determinant_, ring).scaled(least), determinant_.factors);
       std::vector<const FactoredPoly*> columns = own;
       columns.front() = &beyond;
@@ -135,9 +135,7 @@ class Demands {
     const Poly load = own.front()->is_zero() ? Poly(ring) : expanded(*own.front(), ring);
     Poly unit = expanded(determinant_, ring);
     if (quantity == Quantity::F) unit = unit * geometry_.poly(geometry_.inverse_length(joint.name + ".axis").natural);
-    // In space u . f of a joint that bears other forces, too.
-    if (quantity == Quantity::F && !is_planar() && !mechanism::is_cable(joint))
-      unit = unit * squared_axis(geometry_, joint);
+    if (quantity == Quantity::F && !is_force_over_axis(mechanism_, joint)) unit = unit * squared_axis(geometry_, joint);
     for (const Rational& bound : {joint.within->first, joint.within->second}) {
       const FactoredPoly beyond = factored(load - unit.scaled(bound / scale_of(quantity)), determinant_.factors);
       std::vector<const FactoredPoly*> columns = own;
@@ -162,7 +160,9 @@ class Demands {
     }
     if (!joint.clearance || !contains(demanded_.joints, joint.name) || !wanted(quantity)) return;
     if (mechanism::value_of(force ? joint.clearance->axial : joint.clearance->angular, mechanism_) == 0) return;
-    const Rational least = !force && min_couple_ && is_planar() ? *min_couple_ * scale : Rational(0);
+    const Rational least = force         ? selection_.min_force.value_or(0)
+                           : is_planar() ? Rational(selection_.min_couple.value_or(0) * scale)
+                                         : Rational(0);
     result_.push_back({{at(least)}, {{joint.name, quantity, 1}}});
     if (least != 0) result_.push_back({{at(-least)}, {{joint.name, quantity, 1}}});
   }
@@ -172,7 +172,7 @@ class Demands {
   const PreloadColumns& columns_;
   const FactoredPoly& determinant_;
   const core::LocusProblem& demanded_;
-  const std::optional<Rational>& min_couple_;
+  const Selection& selection_;
   std::vector<PreloadConstraint> result_;
 };
 
@@ -216,8 +216,8 @@ bool is_singular_by_choice(const PreloadColumns& columns, const Mechanism& mecha
 
 std::vector<PreloadConstraint> preload_constraints(const Geometry& geometry, const PreloadColumns& columns,
                                                    const FactoredPoly& determinant, const core::LocusProblem& demanded,
-                                                   const std::optional<Rational>& min_couple) {
-  return Demands(geometry, columns, determinant, demanded, min_couple).run();
+                                                   const Selection& selection) {
+  return Demands(geometry, columns, determinant, demanded, selection).run();
 }
 
 }  // namespace clearloci::symbolic

@@ -225,6 +225,10 @@ Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint) {
   return geometry.poly(square.expand());
 }
 
+bool is_force_over_axis(const mechanism::Mechanism& mechanism, const mechanism::Joint& joint) {
+  return mechanism.space == mechanism::Space::planar || mechanism::is_cable(joint);
+}
+
 const FactoredPoly* numerator(const std::vector<Reaction>& reactions, const std::string& joint, Quantity quantity) {
   for (const Reaction& reaction : reactions)
     if (reaction.joint == joint && reaction.quantity == quantity) return &reaction.numerator;

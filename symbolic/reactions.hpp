@@ -51,6 +51,8 @@ PressingForce pressing_force(const Geometry& geometry, const std::vector<Reactio
 
 /// |u|^2 of a joint's axis u.
 Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint);
+/// Whether the numerator of F, the force along an axis u, is that of the force over |u|; otherwise it is of u . f.
+bool is_force_over_axis(const mechanism::Mechanism& mechanism, const mechanism::Joint& joint);
 
 /// Null where there is none.
 const FactoredPoly* numerator(const std::vector<Reaction>& reactions, const std::string& joint,

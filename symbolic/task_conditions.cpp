@@ -146,7 +146,8 @@ class Conditions {
     }
     const bool planar = mechanism_.space == mechanism::Space::planar;
     if (demand.least > 0 && (demand.quantity == Quantity::F || (demand.quantity == Quantity::M && !planar)))
-      add_axis(squared_axis(geometry_, joint), planar, found, result);
+      add_axis(squared_axis(geometry_, joint), demand.quantity == Quantity::F && is_force_over_axis(mechanism_, joint),
+               found, result);
     // Components that are zero whatever the pose and the load say nothing.
     result.parts.resize(many);
     for (std::size_t c = 0; c < found.front().size(); ++c) {

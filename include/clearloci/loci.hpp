@@ -256,7 +256,7 @@ using DyadSides = std::vector<int>;
 struct LociRequest {
   std::vector<std::string> joints = {};  ///< empty: every joint with a clearance, or all where none has one
   std::vector<Quantity> quantities = {Quantity::f, Quantity::M};
-  std::optional<Rational> min_force = {};   ///< N: adds the margin curves |f_J| = min_force
+  std::optional<Rational> min_force = {};   ///< N: adds the margin curves |f_J|, |F_J| = min_force
   std::optional<Rational> min_couple = {};  ///< N m: adds the margin curves |M_J| = min_couple
   /// Of free efforts without a value: they may vary with the pose. Then a pose is singular only if it is so whichever
   /// efforts are free; tensions of cables vary always.

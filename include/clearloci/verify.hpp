@@ -105,9 +105,9 @@ enum class TaskFit {
 
 /// One load of the mechanism file at a witness.
 struct WitnessLoad {
-  std::size_t load = 0;       ///< from 0
-  std::vector<double> force;  ///< N
-  double couple = 0;          ///< N m
+  std::size_t load = 0;        ///< from 0
+  std::vector<double> force;   ///< N
+  std::vector<double> couple;  ///< N m: one number in the plane, three in space
 };
 
 /// A pose of the task, or of the margin around it, at which it fails, confirmed by numeric/.

@@ -14,6 +14,10 @@ py::object or_none(const std::optional<Value>& value) {
 
 py::tuple place(const std::vector<double>& at) { return py::cast(at).cast<py::tuple>(); }
 
+py::object couple_of(const WitnessLoad& load) {
+  return load.couple.size() == 1 ? py::cast(load.couple.front()) : py::object(place(load.couple));
+}
+
 const char* name_of(TaskWitness::Kind kind) {
   switch (kind) {
     case TaskWitness::Kind::unreachable:
@@ -41,8 +45,8 @@ py::object witness_of(const Verification& answer) {
   for (const auto& [name, value] : witness.design) design[py::str(name)] = value;
   py::list loads;
   for (const WitnessLoad& own : witness.loads)
-    loads.append(
-        py::dict(py::arg("load") = own.load + 1, py::arg("force") = place(own.force), py::arg("couple") = own.couple));
+    loads.append(py::dict(py::arg("load") = own.load + 1, py::arg("force") = place(own.force),
+                          py::arg("couple") = couple_of(own)));
   one["at"] = place(witness.at);
   one["kind"] = name_of(witness.kind);
   one["vanishing"] = names_of(witness.vanishing);
