@@ -199,9 +199,12 @@ const DesignTask::Measured& DesignTask::measured() const {
   const std::lock_guard lock(mutex_);
   if (measured_) return *measured_;
   Measured own;
-  std::vector<TaskDemand> demands = demands_;
-  // A least size that anything has: conditions then say what sizes are.
-  for (TaskDemand& demand : demands) demand.least = 1;
+  // A least size that anything has: conditions then say what sizes are. What a least force is not asked of, such as a
+  // guide whose ends are not known, is not measured.
+  LociRequest sized = request_;
+  sized.min_force = sized.min_couple = 1;
+  std::vector<TaskDemand> demands = demands_of(open_.mechanism, sized);
+  std::erase_if(demands, [](const TaskDemand& demand) { return demand.least == 0; });
   own.conditions = conditions_for(demands, mechanism_.space == mechanism::Space::planar);
   own.mode = mode_of(sides_, names_of(own.conditions.tower));
   for (std::size_t i = 0; i < own.conditions.conditions.size(); ++i) {

@@ -14,6 +14,7 @@
 #include "tests/laws/design_texts.hpp"
 #include "tests/laws/judged.hpp"
 #include "tests/source_dir.hpp"
+#include "tests/texts.hpp"
 
 namespace clearloci {
 namespace {
@@ -287,6 +288,14 @@ TEST(VerifyFit, FindsTheShortestMoveThatVerifies) {
   const Verification best = verify(model_of(mechanism), task, {.fit = TaskFit::best});
   EXPECT_TRUE(best.verified());
   EXPECT_GT(*best.margin, 0.1);
+}
+
+TEST(VerifyFit, KeepsTheTaskWhereAMarginBeyondTheWorkspaceIsTheLargest) {
+  const Model model = Model::parse(replaced(example_text("five_bar"), "y: [-1.0, 1.0]", "y: [-1.0, -0.6]"));
+  const core::Task task = parse_task("format: 1\nbox: {x: [0.15, 0.35], y: [-0.72, -0.62]}", model);
+  const Verification here = verify(model, task), best = verify(model, task, {.fit = TaskFit::best});
+  ASSERT_GT(*here.margin, 0.15);
+  EXPECT_GE(*best.margin, *here.margin);
 }
 
 TEST(VerifyFit, SaysThatThereIsNoPlace) {
