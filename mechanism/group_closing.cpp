@@ -57,7 +57,7 @@ GroupClosing::Posture GroupClosing::posture() {
   if (!values.put(program.near, near)) return result;
   const std::vector<int>& equations = program.blocks.back().equations;
   for (std::size_t i = 0; i < program_->wanted.size(); ++i) {
-    const double wanted = std::abs(values[program_->wanted[i]]);
+    const double wanted = values[program_->wanted[i]];
     result.wanted.push_back(wanted);
     result.lengths.push_back(std::sqrt(std::max(0.0, values[equations[i]] + wanted * wanted)));
   }
@@ -67,7 +67,7 @@ GroupClosing::Posture GroupClosing::posture() {
   result.closed = closed;
   // Rows of J in the size of the points.
   double size = 0;
-  for (const double own : result.wanted) size = std::max(size, own);
+  for (const double own : result.wanted) size = std::max(size, std::abs(own));
   const core::PoseProgram::Block& last = program.blocks.back();
   const std::size_t n = last.unknowns.size();
   Matrix by_unknown(n, std::vector<double>(n));

@@ -193,7 +193,10 @@ class GroupReader {
     GroupClosing closing(m_, working_mode(m_));
     const GroupClosing::Posture found = closing.posture();
     double longest = 0;
-    for (const double own : found.wanted) longest = std::max(longest, own);
+    for (std::size_t i = 0; i < found.wanted.size(); ++i) {
+      if (found.wanted[i] < 0) refuse_length(name_of_equation(group, i), found.wanted[i]);
+      longest = std::max(longest, found.wanted[i]);
+    }
     for (const auto& own : group.near)
       for (const Rational& c : own)
         if (found.wanted.empty()) longest = std::max(longest, std::abs(core::to_double(c)));
@@ -213,6 +216,12 @@ class GroupReader {
     if (found.moved > noticed * longest)
       m_.notes.push_back("the posture of " + what_ + " is off by up to " + told(found.moved) +
                          ": it is closed by Newton's iteration");
+  }
+
+  [[noreturn]] void refuse_length(const std::string& name, double length) const {
+    throw InputError(mapping_.at("lengths").where,
+                     "the length of " + name + " in " + what_ + " is " + told(length) + " at the posture's pose",
+                     "write a length that is positive all over the workspace");
   }
 
   [[noreturn]] void refuse_open(const Group& group, const GroupClosing::Posture& found, const Value& near) const {

@@ -149,7 +149,10 @@ core::TaskPolygon read_polygon(const Mechanism& mechanism, const Value& value, c
     }
     return corner;
   };
-  const auto points = read_points_of(mechanism, value, 3, read);
+  constexpr std::size_t least = 3;
+  auto points = read_points_of(mechanism, value, least, read);
+  if (points.front().first == points.back().first) points.pop_back();  // closed, as other programs write it
+  if (points.size() < least) throw InputError(value.where, value.what + " has two corners", "write three at least");
   const std::size_t n = points.size();
   constexpr std::size_t most = 1000;  // every side is held against every other, exactly
   if (n > most)

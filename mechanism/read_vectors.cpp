@@ -30,6 +30,34 @@ struct Piece {
   std::string text;
 };
 
+struct Signed {
+  bool negative = false;
+  std::string text;
+};
+
+/// "-3*B" as 3*B, negative.
+Signed without_signs(std::string text) {
+  Signed own;
+  for (; !text.empty() && (text.front() == '+' || text.front() == '-'); text = trimmed(text.substr(1)))
+    own.negative = own.negative != (text.front() == '-');
+  own.text = std::move(text);
+  return own;
+}
+
+/// Whether a + or - after this text is a sign: at its beginning and after * or /.
+bool sign_follows(const std::string& text) {
+  const std::string before = trimmed(text);
+  return before.empty() || std::string_view("+-*/").find(before.back()) != std::string_view::npos;
+}
+
+/// Whether a + or - after this text is that of an exponent: "0.2e".
+bool exponent_follows(const std::string& text) {
+  if (text.empty() || (text.back() != 'e' && text.back() != 'E')) return false;
+  const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
+  const auto begin = std::find_if_not(text.rbegin(), text.rend(), in_word).base();
+  return std::isdigit(static_cast<unsigned char>(*begin)) != 0;
+}
+
 VectorExpression negated(VectorExpression v) { return {Kind::negate, {}, 0, {std::move(v)}}; }
 
 class VectorReader {
@@ -39,12 +67,12 @@ class VectorReader {
 
   VectorExpression sum(const std::string& text, int depth = 0) const {
     if (depth > deepest_nesting) refuse("it is nested too deeply", "write it in fewer steps");
-    std::vector<Piece> terms = split(text, "+-");
-    if (terms.size() > 1 && terms[0].text.empty()) terms.erase(terms.begin());
+    const std::vector<Piece> terms = split(text, "+-");
     VectorExpression result;
     for (std::size_t i = 0; i < terms.size(); ++i) {
-      VectorExpression term = product(terms[i].text, depth);
-      if (terms[i].before == '-') term = negated(std::move(term));
+      const Signed own = without_signs(terms[i].text);
+      VectorExpression term = product(own.text, depth);
+      if (own.negative != (terms[i].before == '-')) term = negated(std::move(term));
       result = i == 0 ? std::move(term) : VectorExpression{Kind::add, {}, 0, {std::move(result), std::move(term)}};
     }
     return result;
@@ -75,7 +103,8 @@ class VectorReader {
                                        : read_varying(mechanism_, part);
   }
 
-  /// Cut at any of the separators outside parentheses; a sign right after * or / belongs to the number.
+  /// Cut at any of the separators outside parentheses; a sign at the beginning or after an operator belongs to what
+  /// follows it.
   std::vector<Piece> split(const std::string& text, const std::string& separators) const {
     std::vector<Piece> pieces(1);
     int depth = 0;
@@ -83,7 +112,9 @@ class VectorReader {
       if (c == '(' || c == '[') ++depth;
       if (c == ')' || c == ']') --depth;
       if (depth < 0) break;
-      if (depth == 0 && separators.find(c) != std::string::npos) {
+      const std::string& before = pieces.back().text;
+      const bool sign = (c == '+' || c == '-') && (sign_follows(before) || exponent_follows(before));
+      if (depth == 0 && !sign && separators.find(c) != std::string::npos) {
         pieces.push_back({c, ""});
       } else {
         pieces.back().text += c;
@@ -168,6 +199,10 @@ class VectorReader {
   }
 
   VectorExpression factor(const std::string& text, int depth) const {
+    if (Signed own = without_signs(text); own.text != text) {
+      VectorExpression vector = factor(own.text, depth);
+      return own.negative ? negated(std::move(vector)) : vector;
+    }
     const auto inside = [&](std::size_t start) { return text.substr(start, text.size() - start - 1); };
     if (text.front() == '[' && text.back() == ']') {
       std::vector<std::string> parts;

@@ -128,10 +128,14 @@ bool boolean_of(const Value& value) {
 
 Mapping::Mapping(const Value& value, const std::vector<std::string>& known_keys, bool has_examples)
     : value_(value), has_examples_(has_examples), entries_(entries_of(value, form_with(known_keys))) {
+  std::vector<std::string> left = known_keys;  // to be meant by another word
+  std::erase_if(left, [&](const std::string& key) {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.key == key; });
+  });
   for (const Entry& entry : entries_) {
     if (std::find(known_keys.begin(), known_keys.end(), entry.key) == known_keys.end())
       throw InputError(entry.where, "unknown key '" + entry.key + "' in " + value.what,
-                       suggest(entry.key, known_keys, "keys"));
+                       suggest(entry.key, left.empty() ? known_keys : left, "keys", known_keys));
   }
 }
 
@@ -167,7 +171,8 @@ void Mapping::require(const std::vector<std::string>& keys) const {
                    "add " + example(missing.front()) + " and the others");
 }
 
-std::string suggest(const std::string& wrong, const std::vector<std::string>& known, const std::string& plural) {
+std::string suggest(const std::string& wrong, const std::vector<std::string>& known, const std::string& plural,
+                    const std::vector<std::string>& listed) {
   if (known.empty()) return "there are no " + plural;
   const auto distance = [&wrong](const std::string& name) {
     return edit_distance(lower_case(wrong), lower_case(name));
@@ -179,7 +184,7 @@ std::string suggest(const std::string& wrong, const std::vector<std::string>& kn
   if (wrong.size() > 1 && distance(*nearest) <= limit) return "did you mean '" + *nearest + "'?";
   if (plural == "keys")
     if (const auto instead = what_to_write_for(wrong, known)) return *instead;
-  return "the " + plural + " are " + join(known);
+  return "the " + plural + " are " + join(listed.empty() ? known : listed);
 }
 
 std::string join(const std::vector<std::string>& names) {

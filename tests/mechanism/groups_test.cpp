@@ -195,6 +195,16 @@ TEST(Groups, NameTheLengthThatIsWorstAndByHowMuch) {
   }
 }
 
+TEST(Groups, RefuseALengthThatIsNegativeInItsPosture) {
+  try {
+    parse_mechanism(with(six_bar, "E-H: 0.8", "E-H: 0.8 - 2*1"), "m.yaml");
+    FAIL() << "accepted";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("E-H"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("-1.2"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Groups, SayHowFarAPostureIsOff) {
   const Mechanism mechanism = parse_mechanism(with(six_bar, "B: [0.052, 0.295]", "B: [0.06, 0.29]"), "m.yaml");
   ASSERT_FALSE(mechanism.notes.empty());

@@ -52,6 +52,23 @@ TEST(InlinePoints, AreThePointsTheyDescribe) {
   }
 }
 
+TEST(Vectors, TakeSignsAfterOperatorsAndExponents) {
+  const auto end = [](const std::string& by) {
+    const std::string text = with(five_bar_text, "links:\n", "  Q: {from: A1, by: '" + by + "'}\nlinks:\n");
+    const Mechanism m = parse_mechanism(text, "m.yaml");
+    const auto places = sample_points(m, {0.25, -0.7});
+    for (std::size_t i = 0; i < m.points.size(); ++i)
+      if (m.points[i].name == "Q") return *places[i];
+    throw std::logic_error("no Q");
+  };
+  const auto wanted = end("2*(P - A1) - 3*(P - A2)");
+  for (const char* const written : {"2*(P - A1) + -3*(P - A2)", "-3*(P - A2) - -2*(P - A1)", "2*(P - A1) + 3*-(P - A2)",
+                                    "2e+0*(P - A1) - 300e-2*(P - A2)", "+2*(P - A1) - + 3*(P - A2)"})
+    EXPECT_EQ(end(written), wanted) << written;
+  EXPECT_NE(complaint(with(unnamed, "force: [0, -100]", "force: 'B1 - B2 -'")).find("a vector is missing"),
+            std::string::npos);
+}
+
 TEST(InlinePoints, OfAJointHasItsNameWhereNoOtherPointDoes) {
   std::string text = with(five_bar_text, "  A1: [0, 0]\n", "");
   text = with(text, "dyad: [A1, P]", "dyad: [[0, 0], P]");

@@ -55,6 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"UnknownKeyOfALink", "mass: 1}", "mas: 1}", 17, 28,
                 "unknown key 'mas' in link A1B1; did you mean 'mass'?"},
         Mistake{"UnknownKeyOfAJoint", "clearance: {", "clerance: {", 22, 58, "did you mean 'clearance'?"},
+        Mistake{"UnknownKeyLikeOneThatIsThere", "{radial: 10e-6}", "{radial: 10e-6, axial: 1e-6}", 23, 66,
+                "unknown key 'axial' in the clearance of joint B1; the keys are radial"},
         Mistake{"UnknownKeyOfALoad", "force: [", "forces: [", 29, 24, "did you mean 'force'?"},
         Mistake{"UnlikeAnyKey", "mass: 1}", "colour: red}", 17, 28, "the keys are points, mass, com, inertia"},
         Mistake{"MissingEndEffector", "end_effector: {link: PB2, at: P}\n", "", 1, 1, "'end_effector' is missing"},

@@ -82,6 +82,9 @@ TEST(Task, APolygonGoesWithTheRangesOfTheAngles) {
 
 TEST(Task, ConvexAndConcavePolygonsAreFine) {
   EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.25, -0.6]]"), "");
+  EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.25, -0.6], [0, -0.7]]"), "")
+      << "closed by its first corner";
+  EXPECT_NE(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0, -0.7]]").find("has two corners"), std::string::npos);
   EXPECT_EQ(complaint("polygon: [[0, -0.8], [0.5, -0.8], [0.5, -0.6], [0.25, -0.75], [0, -0.6]]"), "");
 }
 
