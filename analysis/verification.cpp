@@ -12,7 +12,6 @@
 #include "analysis/preload.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
-#include "analysis/widened_task.hpp"
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
@@ -59,6 +58,21 @@ std::string limit_at(const Mechanism& mechanism, const numeric::NumericModel& mo
                      const DyadSides& sides, double passes) {
   const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(model, at, sides);
   return end && end->slack <= passes ? mechanism::words_of_end(mechanism, end->limit, end->upper) : std::string();
+}
+
+core::OpenTask open_part(const loci::CoverProof& proof) {
+  using Reason = core::OpenTask::Reason;
+  return {proof.open, proof.lower, proof.upper,
+          proof.cost.out_of_time    ? Reason::time
+          : proof.cost.out_of_cells ? Reason::cells
+                                    : Reason::doubles};
+}
+
+core::OpenTask open_part(const loci::CoverProof& proof, const WidenedTask& widened) {
+  core::OpenTask open = open_part(proof);
+  open.lower = widened.pose_of(open.lower);
+  open.upper = widened.pose_of(open.upper);
+  return open;
 }
 
 core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::NumericModel& model, std::vector<double> at,
