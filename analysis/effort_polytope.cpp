@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "analysis/idle_efforts.hpp"
 #include "core/linear_program.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/model.hpp"
@@ -70,11 +71,8 @@ std::optional<std::vector<EffortRow>> effort_rows(const Mechanism& mechanism, st
   std::vector<JointIndex> bounded;
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
     if (mechanism.joints[j].actuated && mechanism.joints[j].within) bounded.push_back(static_cast<JointIndex>(j));
-  std::vector<std::vector<Bounded>> efforts;  // under none, then under a unit of each free effort
-  for (std::size_t k = 0; k <= free.size(); ++k) {
-    Mechanism own = mechanism;
-    for (std::size_t i = 0; i < free.size(); ++i) mechanism::give_effort(own, free[i], i + 1 == k ? 1 : 0);
-    const numeric::NumericModel model = numeric::compile(own);
+  std::vector<std::vector<Bounded>> efforts;
+  for (const numeric::NumericModel& model : models_under_efforts(mechanism, free)) {
     const numeric::BoundedNumerators solved = numeric::bounded_numerators(model, at, sides);
     if (!solved.reachable || may_be_zero(solved.determinant)) return std::nullopt;
     efforts.push_back(efforts_under(model, solved, bounded));
