@@ -60,9 +60,10 @@ TaskCell::State DesignJudge::enter(const Box& box) {
 }
 
 std::vector<Interval> DesignJudge::clearances_of(const DesignBox& parameters) const {
-  std::vector<Interval> own;
-  for (std::size_t k = 0; k < clearances_.parameters.size(); ++k) own.push_back(clearances_.enclosure(k, parameters));
-  return own;
+  std::vector<Interval> clearances;
+  for (std::size_t k = 0; k < clearances_.parameters.size(); ++k)
+    clearances.push_back(clearances_.enclosure(k, parameters));
+  return clearances;
 }
 
 DesignJudge::Box DesignJudge::over_designs(const DesignBox& designs, double reach) const {
@@ -74,25 +75,26 @@ DesignJudge::Box DesignJudge::over_designs(const DesignBox& designs, double reac
 
 int DesignJudge::cut(const Box& box) {
   const std::vector<double>& spreads = cell_.spreads();
-  std::vector<double> own(box.size(), 0.0);
-  own[0] = spreads[0];
-  own[1] = spreads[1];
+  std::vector<double> moved(box.size(), 0.0);
+  moved[0] = spreads[0];
+  moved[1] = spreads[1];
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
-    for (const std::size_t p : variables_.parameters[v]) own[2 + p] += spreads[2 + v];
+    for (const std::size_t p : variables_.parameters[v]) moved[2 + p] += spreads[2 + v];
   const std::vector<double>& of_clearances = cell_.clearance_spreads();
   for (std::size_t k = 0; k < of_clearances.size(); ++k)
-    for (const std::size_t p : clearances_.parameters[k]) own[2 + p] += of_clearances[k];
+    for (const std::size_t p : clearances_.parameters[k]) moved[2 + p] += of_clearances[k];
   int best = -1;
   for (std::size_t c = 0; c < box.size(); ++c)
-    if (box[c].width() > 0 && (best < 0 || own[c] > own[static_cast<std::size_t>(best)])) best = static_cast<int>(c);
+    if (box[c].width() > 0 && (best < 0 || moved[c] > moved[static_cast<std::size_t>(best)]))
+      best = static_cast<int>(c);
   return best;
 }
 
 std::vector<Interval> DesignJudge::coordinates(const Point2& pose, const std::vector<double>& parameters) const {
   const DesignBox thin(parameters.begin(), parameters.end());
-  Box own = {Interval(pose[0]), Interval(pose[1])};
-  for (std::size_t v = 0; v < variables_.parameters.size(); ++v) own.push_back(variables_.enclosure(v, thin));
-  return own;
+  Box all = {Interval(pose[0]), Interval(pose[1])};
+  for (std::size_t v = 0; v < variables_.parameters.size(); ++v) all.push_back(variables_.enclosure(v, thin));
+  return all;
 }
 
 int DesignJudge::sign_at(std::size_t watched, const Point2& pose, const std::vector<double>& parameters) {
@@ -116,18 +118,18 @@ DesignBox DesignJudge::corner_of(const Point2& pose, const DesignBox& designs) {
   const TaskCell::State state = enter(box_);
   if (state == TaskCell::State::proven || state == TaskCell::State::outside) return {};
   const std::vector<int> ways = cell_.downhill();
-  std::vector<int> own(designs.size(), 0);
+  std::vector<int> worse(designs.size(), 0);
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
     for (const std::size_t p : variables_.parameters[v])
-      if (own[p] == 0) own[p] = ways[2 + v];
+      if (worse[p] == 0) worse[p] = ways[2 + v];
   const std::vector<int> of_clearances = cell_.clearances_downhill();
   for (std::size_t k = 0; k < of_clearances.size(); ++k)
     for (const std::size_t p : clearances_.parameters[k])
-      if (own[p] == 0) own[p] = of_clearances[k];
+      if (worse[p] == 0) worse[p] = of_clearances[k];
   DesignBox corner = one_of(designs);
-  for (std::size_t p = 0; p < own.size(); ++p)
-    if (corner[p].width() == 0 && own[p] != 0)
-      corner[p] = Interval(own[p] < 0 ? designs[p].lower() : designs[p].upper());
+  for (std::size_t p = 0; p < worse.size(); ++p)
+    if (corner[p].width() == 0 && worse[p] != 0)
+      corner[p] = Interval(worse[p] < 0 ? designs[p].lower() : designs[p].upper());
   return corner;
 }
 
@@ -147,18 +149,18 @@ std::optional<DesignFailure> DesignJudge::looked_at(const Point2& pose, const De
     if (const auto loads = cell_.displaced_too_far()) {
       DesignFailure found{Kind::displaced, -1, pose, middle};
       found.load = loads->t.middle();
-      for (const Interval& own : loads->factors) found.load_factors.push_back(own.middle());
+      for (const Interval& factor : loads->factors) found.load_factors.push_back(factor.middle());
       return found;
     }
   for (std::size_t w = 0; w < cell_.watched(); ++w) {
     const int sign = cell_.sign(w);
     if (sign == 0) continue;
-    Seen& own = seen_[static_cast<std::size_t>(cell_.group_of(w))];
-    if (own.sign == 0) own = {pose, middle, sign};
-    if (own.sign == sign) continue;
+    Seen& seen = seen_[static_cast<std::size_t>(cell_.group_of(w))];
+    if (seen.sign == 0) seen = {pose, middle, sign};
+    if (seen.sign == sign) continue;
     const int condition = cell_.condition_of(w);
     return DesignFailure{
-        condition < 0 ? Kind::singular : Kind::vanishing, condition, pose, middle, w, own.at, own.parameters};
+        condition < 0 ? Kind::singular : Kind::vanishing, condition, pose, middle, w, seen.at, seen.parameters};
   }
   return std::nullopt;
 }
@@ -233,7 +235,7 @@ double DesignJudge::violation(const DesignBox& designs) {
         ++signs[static_cast<std::size_t>(cell_.group_of(w))][sign > 0 ? 1 : 0];
   }
   int minority = 0;
-  for (const auto& own : signs) minority = std::max(minority, std::min(own[0], own[1]));
+  for (const auto& of_group : signs) minority = std::max(minority, std::min(of_group[0], of_group[1]));
   return std::min(1.0, static_cast<double>(failed + minority) / static_cast<double>(poses.size()));
 }
 
@@ -259,49 +261,37 @@ double DesignJudge::clearance(const DesignBox& designs, double from, double limi
       break;
     }
     for (Box& part : halves_of(box, static_cast<std::size_t>(along))) {
-      const double own = region_.distance(part[0], part[1]);
-      left.push(std::move(part), std::max(distance, own));
+      const double from_task = region_.distance(part[0], part[1]);
+      left.push(std::move(part), std::max(distance, from_task));
     }
   }
   return std::max(from, margin - hair_of(region_, limit));
 }
 
-Interval DesignJudge::least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                                 const SearchBudget& budget) {
+Interval DesignJudge::extreme_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                                   const SearchBudget& budget, bool least) {
   const auto size = [&] {
-    Interval all = cell_.size_of(conditions.front(), true);
+    Interval all = cell_.size_of(conditions.front(), least);
     for (const int condition : conditions) {
-      const Interval own = cell_.size_of(condition, true);
-      all = Interval(std::min(all.lower(), own.lower()), std::min(all.upper(), own.upper()));
+      const Interval one = cell_.size_of(condition, least);
+      all = least ? Interval(std::min(all.lower(), one.lower()), std::min(all.upper(), one.upper()))
+                  : Interval(std::max(all.lower(), one.lower()), std::max(all.upper(), one.upper()));
     }
     return all;
   };
-  return extreme(designs, size, accuracy, budget, true);
-}
-
-Interval DesignJudge::greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                                    const SearchBudget& budget) {
-  const auto size = [&] {
-    Interval all = 0.0;
-    for (const int condition : conditions) {
-      const Interval own = cell_.size_of(condition, false);
-      all = Interval(std::max(all.lower(), own.lower()), std::max(all.upper(), own.upper()));
-    }
-    return all;
-  };
-  return extreme(designs, size, accuracy, budget, false);
+  return extreme(designs, size, accuracy, budget, least);
 }
 
 Interval DesignJudge::greatest_displacement(const DesignBox& designs, double accuracy, const SearchBudget& budget) {
   const auto size = [&] {
-    const Interval own = cell_.displacement();
+    const Interval displaced = cell_.displacement();
     cell_.doubt_displacement();
-    return own;
+    return displaced;
   };
   // Loads that differ are looked at part by part in every cell.
-  SearchBudget own = budget;
-  if (cell_.has_many_loads()) own.most_cells /= 20;
-  return extreme(designs, size, accuracy, own, false);
+  SearchBudget fewer = budget;
+  if (cell_.has_many_loads()) fewer.most_cells /= 20;
+  return extreme(designs, size, accuracy, fewer, false);
 }
 
 /// Best first: the bound of the best cell against the best value at a pose.
@@ -333,9 +323,9 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
   left.push({over_designs(designs, 0)}, -infinity);
   double bound = known;
   while (!left.empty()) {
-    const double own_bound = left.next().key;
-    bound = std::min(own_bound, known);
-    if (!meter.begin() || known - own_bound <= accuracy * std::abs(known)) break;
+    const double key = left.next().key;
+    bound = std::min(key, known);
+    if (!meter.begin() || known - key <= accuracy * std::abs(known)) break;
     const BoxToCut cell = left.take();
     bound = known;
     // Where nothing says better, what is widest as a part of the whole.
@@ -351,12 +341,13 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
     if (cell.along >= 0) c = static_cast<std::size_t>(cell.along);
     for (Box& half : halves_of(cell.box, c)) {
       if (region_.distance(half[0], half[1]) > 0) continue;
-      const auto own = over(half);
-      const int along = own && cell_.doubts_displacement() ? cut(half) : -1;
-      const double key = std::max(own_bound, own ? sign * (least ? own->lower() : own->upper()) : -infinity);
+      const auto size_of_half = over(half);
+      const int along = size_of_half && cell_.doubts_displacement() ? cut(half) : -1;
+      const double key_of_half =
+          std::max(key, size_of_half ? sign * (least ? size_of_half->lower() : size_of_half->upper()) : -infinity);
       if (const auto pose = pose_within(region_, 0, half[0], half[1]))
         look(*pose, DesignBox(half.begin() + 2, half.end()));
-      if (key < known) left.push({std::move(half), along}, key);
+      if (key_of_half < known) left.push({std::move(half), along}, key_of_half);
     }
   }
   return least ? Interval(std::max(0.0, bound), known) : Interval(-known, -bound);

@@ -75,10 +75,14 @@ class DesignJudge {
   /// An enclosure of the least size that some conditions' reactions have over the task, N or N m, to `accuracy` of
   /// itself. Requires that the designs are verified.
   core::Interval least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                            const SearchBudget& budget);
+                            const SearchBudget& budget) {
+    return extreme_size(designs, conditions, accuracy, budget, true);
+  }
   /// Likewise the greatest.
   core::Interval greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                               const SearchBudget& budget);
+                               const SearchBudget& budget) {
+    return extreme_size(designs, conditions, accuracy, budget, false);
+  }
 
   /// Likewise how far the end effector is displaced at most, m. Requires clearances.
   core::Interval greatest_displacement(const DesignBox& designs, double accuracy, const SearchBudget& budget);
@@ -109,6 +113,8 @@ class DesignJudge {
   std::optional<DesignFailure> looked_at(const core::Point2& pose, const DesignBox& designs,
                                          std::vector<double> parameters);
   DesignBox corner_of(const core::Point2& pose, const DesignBox& designs);
+  core::Interval extreme_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                              const SearchBudget& budget, bool least);
   /// `size`: of what was entered last. To `accuracy` of itself.
   core::Interval extreme(const DesignBox& designs, const std::function<core::Interval()>& size, double accuracy,
                          const SearchBudget& budget, bool least);
