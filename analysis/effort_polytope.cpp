@@ -39,23 +39,6 @@ void add_rows(const mechanism::Joint& joint, JointIndex index, const Bounded& of
   rows.push_back({index, -1, most - least, bound(most) - offset, std::move(opposite)});
 }
 
-/// By expansion along the first row.
-Bounded determinant(const std::vector<std::vector<Bounded>>& a) {
-  if (a.empty()) return Bounded(1.0);
-  Bounded sum(0.0);
-  for (std::size_t c = 0; c < a.size(); ++c) {
-    std::vector<std::vector<Bounded>> minor;
-    for (std::size_t i = 1; i < a.size(); ++i) {
-      std::vector<Bounded>& row = minor.emplace_back();
-      for (std::size_t k = 0; k < a.size(); ++k)
-        if (k != c) row.push_back(a[i][k]);
-    }
-    const Bounded part = a[0][c] * determinant(minor);
-    sum = c % 2 == 0 ? sum + part : sum - part;
-  }
-  return sum;
-}
-
 std::vector<std::size_t> binding_rows(const std::vector<Rational>& multipliers) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < multipliers.size(); ++i)
@@ -138,24 +121,6 @@ std::optional<EffortPolytope::Deepest> EffortPolytope::least(const std::vector<R
   Deepest own{-found->value, {}, binding_rows(found->solution), found->solution};
   for (const Rational& price : found->prices) own.at.emplace_back(-price);
   return own;
-}
-
-bool exclude_each_other(const std::vector<EffortRow>& rows) {
-  if (rows.empty() || rows.size() != rows.front().slope.size() + 1) return false;
-  int sign = 0;
-  Bounded sum(0.0);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::vector<std::vector<Bounded>> others;
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (k != i) others.push_back(rows[k].slope);
-    const Bounded minor = determinant(others), multiplier = i % 2 == 0 ? minor : -minor;
-    if (may_be_zero(multiplier)) return false;
-    const int own = multiplier.value > 0 ? 1 : -1;
-    if (sign != 0 && own != sign) return false;
-    sign = own;
-    sum = sum + multiplier * rows[i].offset;
-  }
-  return !may_be_zero(sum) && (sum.value > 0 ? 1 : -1) == -sign;
 }
 
 }  // namespace clearloci
