@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/effort_polytope.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/pose_efforts.hpp"
 #include "core/rational.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -35,14 +36,10 @@ Row scaled(Row row, int by, const Rational& less) {
 class EffortCells {
  public:
   EffortCells(const Mechanism& mechanism, const std::vector<double>& pose, const std::vector<int>& sides)
-      : mechanism_(mechanism), free_(mechanism::joints_without_preload(mechanism)) {
-    const std::vector<numeric::Bounded> at(pose.begin(), pose.end());
-    for (std::size_t k = 0; k <= free_.size(); ++k) {
-      Mechanism own = mechanism;
-      for (std::size_t i = 0; i < free_.size(); ++i) mechanism::give_effort(own, free_[i], i + 1 == k ? 1 : 0);
-      models_.push_back(numeric::compile(own));
-      solved_.push_back(numeric::bounded_numerators(models_.back(), at, sides));
-    }
+      : mechanism_(mechanism),
+        free_(mechanism::joints_without_preload(mechanism)),
+        models_(models_under_efforts(mechanism, free_)) {
+    for (const numeric::NumericModel& own : models_) solved_.push_back(numeric::bounded_numerators(own, pose, sides));
   }
 
   bool is_regular() const {

@@ -147,7 +147,7 @@ class ChoiceSearch {
       own.chooser->keep_within(within);
       const bool last = level + 1 == sizes_tried.size() && !result.verified();
       loci::pose::EffortProof proof = proven(own, margin_, last ? cells_of_verdict : cells_of_size);
-      result.cells += proof.proof.cells;
+      result.cells += proof.proof.cost.cells;
       if (own.chooser->unreachable) return;
       if (own.chooser->exclusion) {
         own.verdict = Verdict::refuted;
@@ -168,8 +168,8 @@ class ChoiceSearch {
 
   loci::pose::EffortProof proven(PatternProof& own, double margin, long cells) {
     const EffortSystem* const system = systems_.at(first_);
-    const loci::pose::PoseEffort effort{.most_cells = cells, .deadline = asked_.deadline};
-    return loci::pose::prove_with_efforts(*own.chooser, region_, system->designs(), margin, effort);
+    const loci::SearchBudget budget{.most_cells = cells, .deadline = asked_.deadline};
+    return loci::pose::prove_with_efforts(*own.chooser, region_, system->designs(), margin, budget);
   }
 
   /// Where no pose asks for any: a thousandth of what is looked at.
@@ -260,8 +260,10 @@ class ChoiceSearch {
     std::vector<core::PreloadLawCell> cells;
     for (const loci::pose::EffortCell& own : proof.cells) {
       core::PreloadLawCell& cell = cells.emplace_back();
-      cell.lower = own.lower;
-      cell.upper = own.upper;
+      for (const auto& [low, high] : own.poses) {
+        cell.lower.push_back(low);
+        cell.upper.push_back(high);
+      }
       for (const WantedEffort& wanted : systems_.of(*own.statics).wanted()) cell.joints.push_back(wanted.joint);
       cell.efforts = own.choice.efforts;
       if (!task_.knows_load) cell.efforts.resize(1);
@@ -314,7 +316,7 @@ class ChoiceSearch {
     result.verdict = Verdict::undecided;
     for (const PatternProof& own : patterns_) {
       if (own.verdict != Verdict::undecided || own.proof.proof.open == 0) continue;
-      result.open = open_part(own.proof.proof, own.proof.proof.lower, own.proof.proof.upper);
+      result.open = open_part(own.proof.proof);
       return;
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/idle_efforts.hpp"
 #include "analysis/verification.hpp"
 #include "core/rational.hpp"
 #include "mechanism/free_cables.hpp"
@@ -328,8 +329,7 @@ EffortSystem* EffortSystems::at(const PoseAt& pose) {
 }
 
 std::optional<core::TaskWitness> EffortSystems::unreachable(const PoseAt& pose) const {
-  Mechanism loaded = mechanism_;
-  for (const JointIndex j : mechanism::joints_without_preload(loaded)) mechanism::give_effort(loaded, j, 0);
+  const Mechanism loaded = with_idle_efforts(mechanism_);
   const numeric::NumericModel model = numeric::compile(loaded);
   const numeric::TaskWitness check({{&model}, {}, {}}, sides_, {}, {pose},
                                    numeric::TaskWitness::Rounding::of_coordinates);

@@ -95,12 +95,6 @@ std::optional<std::vector<EffortInequality>> all_rows(const EffortSystem& system
   return all;
 }
 
-std::string pattern_words(const SignPattern& signs) {
-  std::string words;
-  for (const auto& [name, sign] : signs) words += (words.empty() ? "" : ", ") + name + (sign > 0 ? " > 0" : " < 0");
-  return words.empty() ? "any signs" : words;
-}
-
 std::vector<core::PreloadRow> told_rows(const EffortSystem& system, const EffortExclusion& exclusion) {
   std::vector<core::PreloadRow> rows;
   const std::size_t poses = system.mechanism().coordinates.size();

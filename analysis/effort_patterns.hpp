@@ -28,9 +28,6 @@ std::optional<std::vector<EffortInequality>> all_rows(const EffortSystem& system
                                                       const SignPattern& signs,
                                                       const std::optional<EffortSystem::OneLoad>& load = {});
 
-/// "A1 +, A2 -": "M_A1 > 0, M_A2 < 0".
-std::string pattern_words(const SignPattern& signs);
-
 std::vector<core::PreloadRow> told_rows(const EffortSystem& system, const EffortExclusion& exclusion);
 
 /// "at (0.1 m, 0.5 m) M_A1 > 0 asks for more than 12 N m, M_A2 < 0 for less than 7 N m".

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "analysis/idle_efforts.hpp"
 #include "core/linear_program.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "numeric/model.hpp"
@@ -38,23 +39,6 @@ void add_rows(const mechanism::Joint& joint, JointIndex index, const Bounded& of
   rows.push_back({index, -1, most - least, bound(most) - offset, std::move(opposite)});
 }
 
-/// By expansion along the first row.
-Bounded determinant(const std::vector<std::vector<Bounded>>& a) {
-  if (a.empty()) return Bounded(1.0);
-  Bounded sum(0.0);
-  for (std::size_t c = 0; c < a.size(); ++c) {
-    std::vector<std::vector<Bounded>> minor;
-    for (std::size_t i = 1; i < a.size(); ++i) {
-      std::vector<Bounded>& row = minor.emplace_back();
-      for (std::size_t k = 0; k < a.size(); ++k)
-        if (k != c) row.push_back(a[i][k]);
-    }
-    const Bounded part = a[0][c] * determinant(minor);
-    sum = c % 2 == 0 ? sum + part : sum - part;
-  }
-  return sum;
-}
-
 std::vector<std::size_t> binding_rows(const std::vector<Rational>& multipliers) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < multipliers.size(); ++i)
@@ -70,11 +54,8 @@ std::optional<std::vector<EffortRow>> effort_rows(const Mechanism& mechanism, st
   std::vector<JointIndex> bounded;
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
     if (mechanism.joints[j].actuated && mechanism.joints[j].within) bounded.push_back(static_cast<JointIndex>(j));
-  std::vector<std::vector<Bounded>> efforts;  // under none, then under a unit of each free effort
-  for (std::size_t k = 0; k <= free.size(); ++k) {
-    Mechanism own = mechanism;
-    for (std::size_t i = 0; i < free.size(); ++i) mechanism::give_effort(own, free[i], i + 1 == k ? 1 : 0);
-    const numeric::NumericModel model = numeric::compile(own);
+  std::vector<std::vector<Bounded>> efforts;
+  for (const numeric::NumericModel& model : models_under_efforts(mechanism, free)) {
     const numeric::BoundedNumerators solved = numeric::bounded_numerators(model, at, sides);
     if (!solved.reachable || may_be_zero(solved.determinant)) return std::nullopt;
     efforts.push_back(efforts_under(model, solved, bounded));
@@ -140,24 +121,6 @@ std::optional<EffortPolytope::Deepest> EffortPolytope::least(const std::vector<R
   Deepest own{-found->value, {}, binding_rows(found->solution), found->solution};
   for (const Rational& price : found->prices) own.at.emplace_back(-price);
   return own;
-}
-
-bool exclude_each_other(const std::vector<EffortRow>& rows) {
-  if (rows.empty() || rows.size() != rows.front().slope.size() + 1) return false;
-  int sign = 0;
-  Bounded sum(0.0);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::vector<std::vector<Bounded>> others;
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (k != i) others.push_back(rows[k].slope);
-    const Bounded minor = determinant(others), multiplier = i % 2 == 0 ? minor : -minor;
-    if (may_be_zero(multiplier)) return false;
-    const int own = multiplier.value > 0 ? 1 : -1;
-    if (sign != 0 && own != sign) return false;
-    sign = own;
-    sum = sum + multiplier * rows[i].offset;
-  }
-  return !may_be_zero(sum) && (sum.value > 0 ? 1 : -1) == -sign;
 }
 
 }  // namespace clearloci

@@ -52,8 +52,4 @@ struct EffortPolytope {
 EffortPolytope polytope_of(const std::vector<EffortRow>& rows);
 std::vector<core::Rational> widths_of(const std::vector<EffortRow>& rows);
 
-/// Whether no efforts are within these rows, one more than there are free efforts, for certain: cofactors of their
-/// slopes are multipliers of one sign under which the slopes cancel and the offsets add up below zero.
-bool exclude_each_other(const std::vector<EffortRow>& rows);
-
 }  // namespace clearloci

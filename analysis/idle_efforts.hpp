@@ -1,7 +1,10 @@
-// Mechanisms with free efforts where efforts do not matter. Private to analysis/.
+// Mechanisms under none of their free efforts, and under a unit of each. Private to analysis/.
 #pragma once
 
+#include <vector>
+
 #include "mechanism/mechanism.hpp"
+#include "numeric/model.hpp"
 
 namespace clearloci {
 
@@ -10,6 +13,18 @@ inline mechanism::Mechanism with_idle_efforts(mechanism::Mechanism mechanism) {
   for (const mechanism::JointIndex joint : mechanism::joints_without_preload(mechanism))
     mechanism::give_effort(mechanism, joint, 0);
   return mechanism;
+}
+
+/// Under no effort of some joints, then under a unit of each alone: what the efforts do is affine in them.
+inline std::vector<numeric::NumericModel> models_under_efforts(const mechanism::Mechanism& mechanism,
+                                                               const std::vector<mechanism::JointIndex>& joints) {
+  std::vector<numeric::NumericModel> models;
+  for (std::size_t k = 0; k <= joints.size(); ++k) {
+    mechanism::Mechanism own = mechanism;
+    for (std::size_t i = 0; i < joints.size(); ++i) mechanism::give_effort(own, joints[i], i + 1 == k ? 1 : 0);
+    models.push_back(numeric::compile(own));
+  }
+  return models;
 }
 
 }  // namespace clearloci

@@ -80,14 +80,14 @@ void judge_displacement(const mechanism::Mechanism& mechanism, const core::Task&
   const PoseDisplacement found = loci::pose::most_displaced(
       displaced.statics, widened.loads().size(), displaced.take_ups, region, core::to_double(task.margin), allowed,
       accuracy, {.most_cells = most_cells, .deadline = deadline});
-  result.cells += found.cells;
+  result.cells += found.proof.cost.cells;
   if (found.most <= allowed) {
     result.pose_error = found.most;
     return;
   }
   if (found.met > allowed) result.witness = confirmed(task, widened, sides, region, found);
   result.verdict = result.witness ? core::Verdict::refuted : core::Verdict::undecided;
-  if (!result.witness) result.open = open_part(found, widened.pose_of(found.lower), widened.pose_of(found.upper));
+  if (!result.witness) result.open = open_part(found.proof, widened);
 }
 
 }  // namespace clearloci

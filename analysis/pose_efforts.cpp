@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/idle_efforts.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/rational.hpp"
@@ -110,18 +111,12 @@ std::vector<std::vector<double>> usual_poses(const Mechanism& mechanism, const s
   return all;
 }
 
-numeric::NumericModel with_effort(Mechanism mechanism, JointIndex joint, int effort) {
-  mechanism::give_effort(mechanism, joint, effort);
-  return numeric::compile(mechanism);
-}
-
 FeasibleEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const std::vector<numeric::Bounded>& at,
                            const DyadSides& sides, const PoseRequest& request, std::vector<std::string>& notes) {
   const mechanism::Joint& joint = joint_of(mechanism, index);
   FeasibleEfforts efforts = efforts_without_ranges(joint);
   efforts.effort = core::to_double(mechanism::value_of(*joint.effort, mechanism));
-  const std::vector<numeric::NumericModel> models = {with_effort(mechanism, index, 0),
-                                                     with_effort(mechanism, index, 1)};
+  const std::vector<numeric::NumericModel> models = models_under_efforts(mechanism, {index});
   const LociRequest asked{.min_force = request.min_force, .min_couple = request.min_couple};
   const std::vector<core::TaskDemand> demands =
       loaded_demands(models, sides, demands_of(mechanism, asked), usual_poses(mechanism, at), notes);

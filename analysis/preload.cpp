@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <string>
 #include <utility>
 
@@ -21,6 +19,7 @@
 #include "core/errors.hpp"
 #include "core/rational.hpp"
 #include "core/shown_units.hpp"
+#include "loci/search/search.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci {
@@ -52,12 +51,11 @@ class PreloadSearch {
 
   core::PreloadAnswer run() {
     push({wanted_.lower, wanted_.upper});
-    for (long cells = 0; !queue_.empty(); ++cells) {
-      const Part part = queue_.top();
-      queue_.pop();
-      const bool over = cells >= most_cells || out_of_time();
+    loci::SearchMeter meter({.most_cells = most_cells, .deadline = request_.loci.deadline});
+    while (!left_.empty()) {
+      const SizedRange part = left_.take();
+      const bool over = !meter.begin();
       const BoxVerdict verdict = over ? BoxVerdict{} : judged(part.range);
-      answer_.cells += over ? 0 : 1;
       const Status status = status_of(verdict.verdict);
       if (status == Status::undecided && !over && !is_finest(part.range)) {
         const Rational middle = (part.range.first + part.range.second) / 2;
@@ -68,14 +66,14 @@ class PreloadSearch {
       decided(part, status, verdict.reason);
       if (request_.loci.progress) request_.loci.progress(0, "preload");
     }
+    answer_.cells = meter.cost().cells;
     return finished();
   }
 
  private:
-  struct Part {
+  struct SizedRange {
     double size = 0;
     ExactRange range;
-    bool operator<(const Part& other) const { return size > other.size; }  // the smallest on top
   };
 
   /// Of the free actuator's own backlash, then of all else.
@@ -90,11 +88,10 @@ class PreloadSearch {
     return judge_->judge({range}, is_finest(range) || in_earnest(range));
   }
 
-  bool out_of_time() const {
-    return request_.loci.deadline && std::chrono::steady_clock::now() > *request_.loci.deadline;
+  void push(const ExactRange& range) {
+    const double size = least_size(wanted_, range);
+    left_.push({size, range}, size);
   }
-
-  void push(const ExactRange& range) { queue_.push({least_size(wanted_, range), range}); }
 
   /// Much is spent on some ranges that are not the finest: else large ranges of little reserve would be cut to dust.
   bool in_earnest(const ExactRange& range) const {
@@ -113,7 +110,7 @@ class PreloadSearch {
                                                : Status::undecided;
   }
 
-  void decided(const Part& part, Status status, const std::string& reason) {
+  void decided(const SizedRange& part, Status status, const std::string& reason) {
     core::StudyCell& cell = cells_.emplace_back();
     cell.status = status;
     cell.reason = reason;
@@ -167,9 +164,9 @@ class PreloadSearch {
   const VerifyRequest& request_;
   std::unique_ptr<PreloadJudge> judge_;
   std::optional<numeric::EffortGap> own_gap_;
-  std::priority_queue<Part> queue_;
+  loci::BoxSearch<SizedRange> left_{loci::SearchOrder::least_key_first};
   std::vector<core::StudyCell> cells_;
-  std::optional<Part> smallest_;
+  std::optional<SizedRange> smallest_;
   double least_open_ = std::numeric_limits<double>::infinity();  ///< of what is not decided, the smallest size
   core::PreloadAnswer answer_;
 };

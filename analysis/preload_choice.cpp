@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "analysis/effort_polytope.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/pose_efforts.hpp"
 #include "analysis/pose_tensions.hpp"
 #include "analysis/task_demands.hpp"
@@ -61,20 +62,15 @@ ChoiceOrder choice_of(const std::vector<EffortRow>& rows) {
 }
 
 numeric::FindChoice choice_of_effort(const Mechanism& mechanism, JointIndex index, const LociRequest& request) {
-  const auto with = [&](int effort) {
-    Mechanism own = mechanism;
-    mechanism::give_effort(own, index, effort);
-    return numeric::compile(own);
-  };
   const mechanism::Joint& joint = mechanism.joints[static_cast<std::size_t>(index)];
   std::array<double, 2> range = {-infinity, infinity};
   if (const auto& within = joint.free_effort->within)
     range = {core::to_double(within->first), core::to_double(within->second)};
   std::optional<std::array<double, 2>> gap;
   if (const auto own = own_gap(mechanism, joint.name, request)) gap = {own->from, own->to};
-  return [none = with(0), one = with(1), demands = demands_of(mechanism, request), range, gap](
+  return [models = models_under_efforts(mechanism, {index}), demands = demands_of(mechanism, request), range, gap](
              std::span<const numeric::Bounded> pose, const std::vector<int>& sides) {
-    return numeric::order_of_efforts(none, one, pose, sides, demands, range, gap);
+    return numeric::order_of_efforts(models[0], models[1], pose, sides, demands, range, gap);
   };
 }
 

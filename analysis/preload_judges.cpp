@@ -94,9 +94,9 @@ class DesignPreload : public PreloadJudge {
   BoxVerdict judge(const std::vector<ExactRange>& efforts, bool finest) override {
     const auto box = task_.box(efforts);
     if (!box) return {};
-    loci::DesignEffort effort = finest ? effort_of_finest_cells : effort_of_coarse_cells;
-    effort.deadline = deadline_;
-    const loci::DesignProof proof = judge_->judge(*box, task_.margin(), loci::Refuting::all, effort);
+    loci::SearchBudget budget = finest ? budget_of_finest_cells : budget_of_coarse_cells;
+    budget.deadline = deadline_;
+    const loci::DesignProof proof = judge_->judge(*box, task_.margin(), loci::Refuting::all, budget);
     if (proof.verdict == Verdict::undecided)
       if (const std::string reason = rows_.failing(intervals_of(efforts)); !reason.empty())
         return {Verdict::refuted, reason};
@@ -161,8 +161,8 @@ class StaticsPreload : public PreloadJudge {
       if (reason = all_too_small(pose, ranges); !reason.empty()) return {Verdict::refuted, reason};
     if (!unlike.empty() || !too_small.empty()) return {};  // the box as a whole does not verify
     constexpr long coarse = 2'000, fine = 40'000;
-    const loci::pose::PoseEffort effort{.most_cells = finest ? fine : coarse, .deadline = request_.deadline};
-    const Verdict verdict = loci::pose::prove_poses(statics_, region, margin_, all_fail, effort).verdict;
+    const loci::SearchBudget budget{.most_cells = finest ? fine : coarse, .deadline = request_.deadline};
+    const Verdict verdict = loci::pose::prove_poses(statics_, region, margin_, all_fail, budget).verdict;
     return {verdict, reason};
   }
 

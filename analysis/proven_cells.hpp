@@ -11,8 +11,8 @@
 namespace clearloci {
 
 /// Large cells seldom come out as a whole: little is spent on them. The finest are asked in earnest.
-inline constexpr loci::DesignEffort effort_of_coarse_cells = {.most_cells = 400, .most_cells_in_vain = 48};
-inline constexpr loci::DesignEffort effort_of_finest_cells = {.most_cells = 4'000, .most_cells_in_vain = 400};
+inline constexpr loci::SearchBudget budget_of_coarse_cells = {.most_cells = 400, .most_cells_in_vain = 48};
+inline constexpr loci::SearchBudget budget_of_finest_cells = {.most_cells = 4'000, .most_cells_in_vain = 400};
 
 /// Of cells over one parameter: those of designs that verify, joined, with what is undecided at their ends.
 std::vector<core::ProvenRange> joined_ranges(std::vector<core::StudyCell> cells);

@@ -1,13 +1,12 @@
 #include "analysis/smaller_efforts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <queue>
 #include <utility>
 
 #include "core/enclosure.hpp"
 #include "core/rational.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci {
 namespace {
@@ -21,85 +20,78 @@ class SmallerEfforts {
   SmallerEfforts(const EffortSystem& system, const std::vector<EffortInequality>& rows,
                  const std::vector<loci::pose::Pose>& poses, PreloadJudge& judge, double to)
       : system_(system), rows_(rows), poses_(poses), judge_(judge), to_(to) {
-    Part all;
+    Box all;
     for (const WantedEffort& own : system.wanted()) {
       const double most = to / own.size_of_one;
-      all.box.emplace_back(std::max(Rational(-most), own.lower), std::min(Rational(most), own.upper));
+      all.emplace_back(std::max(Rational(-most), own.lower), std::min(Rational(most), own.upper));
     }
-    push(std::move(all.box));
+    push(std::move(all));
   }
 
   double run(double enough, const std::optional<std::chrono::steady_clock::time_point>& deadline) {
-    for (int i = 0; i < most_boxes && judged_ < most_judged; ++i) {
-      if (queue_.empty()) return to_;
-      const Part part = queue_.top();
-      if (part.size >= enough || (deadline && std::chrono::steady_clock::now() > *deadline)) break;
-      queue_.pop();
-      if (judged(part)) continue;
-      if (is_finest(part)) return part.size;
-      cut(part);
+    loci::SearchMeter meter({.most_cells = most_boxes, .deadline = deadline});
+    while (!left_.empty() && left_.next().key < enough && judged_ < most_judged && meter.begin()) {
+      const double size = left_.next().key;
+      const Box box = left_.take();
+      if (judged(box)) continue;
+      if (is_finest(box)) return size;
+      cut(box);
     }
-    return queue_.empty() ? to_ : queue_.top().size;
+    return left_.empty() ? to_ : left_.next().key;
   }
 
  private:
-  struct Part {
-    std::vector<ExactRange> box;
-    double size = 0;                                                       ///< of its smallest effort
-    bool operator<(const Part& other) const { return size > other.size; }  // the smallest on top
-  };
+  using Box = std::vector<ExactRange>;
 
   double size_of_one(std::size_t k) const { return system_.wanted()[k].size_of_one; }
 
   /// Whether all of a box fail: asked where it is small beside the size.
-  bool judged(const Part& part) {
+  bool judged(const Box& box) {
     constexpr double small = 0.25;
-    for (std::size_t k = 0; k < part.box.size(); ++k)
-      if (core::to_double(part.box[k].second - part.box[k].first) * size_of_one(k) > small * to_) return false;
-    std::vector<std::array<double, 2>> box;
-    for (const ExactRange& own : part.box) {
+    for (std::size_t k = 0; k < box.size(); ++k)
+      if (core::to_double(box[k].second - box[k].first) * size_of_one(k) > small * to_) return false;
+    loci::pose::PoseBox enclosed;
+    for (const ExactRange& own : box) {
       const core::Interval range = core::range_of(own.first, own.second);
-      box.push_back({range.lower(), range.upper()});
+      enclosed.push_back({range.lower(), range.upper()});
     }
     for (const loci::pose::Pose& pose : poses_)
-      if (system_.too_small(pose, box) != nullptr) return true;
+      if (system_.too_small(pose, enclosed) != nullptr) return true;
     ++judged_;
-    return judge_.judge(part.box, is_finest(part)).verdict == core::Verdict::refuted;
+    return judge_.judge(box, is_finest(box)).verdict == core::Verdict::refuted;
   }
 
-  bool is_finest(const Part& part) const {
+  bool is_finest(const Box& box) const {
     constexpr double finest = 1.0 / (1 << 10);
-    for (std::size_t k = 0; k < part.box.size(); ++k)
-      if (core::to_double(part.box[k].second - part.box[k].first) * size_of_one(k) > finest * to_) return false;
+    for (std::size_t k = 0; k < box.size(); ++k)
+      if (core::to_double(box[k].second - box[k].first) * size_of_one(k) > finest * to_) return false;
     return true;
   }
 
-  void cut(const Part& part) {
+  void cut(const Box& box) {
     std::size_t widest = 0;
     double most = -1;
-    for (std::size_t k = 0; k < part.box.size(); ++k) {
-      const double width = core::to_double(part.box[k].second - part.box[k].first) * size_of_one(k);
+    for (std::size_t k = 0; k < box.size(); ++k) {
+      const double width = core::to_double(box[k].second - box[k].first) * size_of_one(k);
       if (width > most) most = width, widest = k;
     }
-    const Rational middle = (part.box[widest].first + part.box[widest].second) / 2;
-    std::vector<ExactRange> lower = part.box, upper = part.box;
+    const Rational middle = (box[widest].first + box[widest].second) / 2;
+    Box lower = box, upper = box;
     lower[widest].second = middle;
     upper[widest].first = middle;
     push(std::move(lower));
     push(std::move(upper));
   }
 
-  void push(std::vector<ExactRange> box) {
-    Part part;
+  void push(Box box) {
+    double size = 0;  // of its smallest effort
     std::vector<core::Interval> efforts;
     for (std::size_t k = 0; k < box.size(); ++k) {
       efforts.push_back(core::range_of(box[k].first, box[k].second));
-      part.size = std::max(part.size, efforts.back().mignitude() * size_of_one(k));
+      size = std::max(size, efforts.back().mignitude() * size_of_one(k));
     }
-    if (std::any_of(rows_.begin(), rows_.end(), [&](const EffortInequality& row) { return all_fail(row, efforts); }))
-      return;
-    part.box = std::move(box);
-    queue_.push(std::move(part));
+    if (std::none_of(rows_.begin(), rows_.end(), [&](const EffortInequality& row) { return all_fail(row, efforts); }))
+      left_.push(std::move(box), size);
   }
 
   const EffortSystem& system_;
@@ -108,7 +100,7 @@ class SmallerEfforts {
   PreloadJudge& judge_;
   double to_;
   int judged_ = 0;
-  std::priority_queue<Part> queue_;
+  loci::BoxSearch<Box> left_{loci::SearchOrder::least_key_first};
 };
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "analysis/side_names.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/verification.hpp"
-#include "analysis/widened_task.hpp"
 #include "core/errors.hpp"
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/actions.hpp"
@@ -59,9 +58,9 @@ Metrics metrics_of(const Mechanism& mechanism, const Task& task, const WidenedTa
   return own;
 }
 
-class Verifier {
+class StaticsVerifier {
  public:
-  Verifier(const Mechanism& mechanism, const Task& task, const LociRequest& request)
+  StaticsVerifier(const Mechanism& mechanism, const Task& task, const LociRequest& request)
       : mechanism_(mechanism),
         task_(task),
         request_(request_of(task, request)),
@@ -153,7 +152,7 @@ class Verifier {
     return near.empty() ? std::numeric_limits<double>::infinity() : near.front().distance;
   }
 
-  Verification verify(VerifyDepth depth, const loci::pose::PoseEffort& most = {}) {
+  Verification verify(VerifyDepth depth, loci::SearchBudget budget = loci::pose::budget_of_poses) {
     Verification result;
     result.task = task_;
     result.notes = mechanism::notes_of(mechanism_);
@@ -175,14 +174,11 @@ class Verifier {
         result.verdict = core::Verdict::refuted;
         return result;
       }
-    loci::pose::PoseEffort effort = most;
-    effort.deadline = request_.deadline;
-    const loci::pose::PoseProof proof = loci::pose::prove_poses(statics_, region_, margin_, refuted, effort);
+    budget.deadline = request_.deadline;
+    const loci::CoverProof proof = loci::pose::prove_poses(statics_, region_, margin_, refuted, budget);
     result.verdict = proof.verdict;
-    result.cells = proof.cells;
-    if (result.verdict == core::Verdict::undecided) {
-      result.open = open_part(proof, widened_.pose_of(proof.lower), widened_.pose_of(proof.upper));
-    }
+    result.cells = proof.cost.cells;
+    if (result.verdict == core::Verdict::undecided) result.open = open_part(proof, widened_);
     if (result.verified() && task_.pose_error) {
       progress("pose error");
       judge_displacement(mechanism_, task_, widened_, sides_, region_, request_.deadline, result);
@@ -337,16 +333,16 @@ class Verifier {
 
   /// The margins, and what reactions have at least.
   void measure(const std::vector<NearPose>& near, VerifyDepth depth, Verification& result) {
-    loci::pose::PoseEffort effort{.most_cells = cells_of_a_margin, .deadline = request_.deadline};
+    loci::SearchBudget budget{.most_cells = cells_of_a_margin, .deadline = request_.deadline};
     progress("margin");
     const double own =
-        loci::pose::pose_clearance(statics_, region_, margin_, limit_of(metrics_.asked, near), margin_accuracy, effort);
+        loci::pose::pose_clearance(statics_, region_, margin_, limit_of(metrics_.asked, near), margin_accuracy, budget);
     (metrics_.is_angle ? result.angle_margin : result.margin) = own;
     if (metrics_.angles) {
       const PoseRegion turned(task_.shape, *metrics_.angles, widened_.beside());
       const std::vector<NearPose> nearer = near_loci(turned);
       result.angle_margin =
-          loci::pose::pose_clearance(statics_, turned, 0, limit_of(*metrics_.angles, nearer), margin_accuracy, effort);
+          loci::pose::pose_clearance(statics_, turned, 0, limit_of(*metrics_.angles, nearer), margin_accuracy, budget);
     }
     if (depth != VerifyDepth::everything) return;
     progress("least reactions");
@@ -354,8 +350,8 @@ class Verifier {
     for (const PoseAt& pose : region_.samples())
       if (const auto at = cell_->at(pose))
         for (std::size_t d = 0; d < met.size(); ++d) met[d] = std::min(met[d], PoseCell::size_of(at->components[d]));
-    effort.most_cells = cells_of_least;
-    const std::vector<double> proven = loci::pose::least_sizes(statics_, region_, met, least_accuracy, effort);
+    budget.most_cells = cells_of_least;
+    const std::vector<double> proven = loci::pose::least_sizes(statics_, region_, met, least_accuracy, budget);
     for (std::size_t d = 0; d < met.size(); ++d) {
       const TaskDemand& demand = statics_.demands[d].demand;
       if (demand.bound) continue;
@@ -392,8 +388,8 @@ Verification verify_by_statics(const Mechanism& mechanism, const Task& task, con
   if (const std::optional<Framed> own = framed(mechanism, Scaling::none, parameters))
     return from_frame(verify_by_statics(own->mechanism, in_frame(task, own->frame), request), task, mechanism,
                       own->frame);
-  if (request.fit == TaskFit::none) return Verifier(mechanism, task, request.loci).verify(request.depth);
-  Verifier verifier(mechanism, task, request.loci);
+  if (request.fit == TaskFit::none) return StaticsVerifier(mechanism, task, request.loci).verify(request.depth);
+  StaticsVerifier verifier(mechanism, task, request.loci);
   const PoseJudge judge{[&](const core::TaskShape& shape) {
                           verifier.place(shape);
                           return verifier.verify(VerifyDepth::verdict, {.most_cells = cells_of_a_trial}).verified();

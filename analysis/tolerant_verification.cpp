@@ -18,7 +18,6 @@ using core::Point2;
 using loci::DesignFailure;
 using numeric::Bounded;
 
-constexpr loci::DesignEffort effort_of_the_task = {.most_cells = 400'000, .most_cells_in_vain = 20'000};
 constexpr int cells_of_a_margin = 40'000;
 /// What ends the margin is told apart to this part of the task.
 constexpr double margin_accuracy = 1e-4;
@@ -45,27 +44,27 @@ class Tolerant {
     if (!designs)
       throw core::InputError({task_.task().file}, "a link has no length above zero within the tolerances",
                              "make the tolerances smaller");
-    loci::DesignEffort effort = effort_of_the_task;
-    effort.deadline = request_.deadline;
+    loci::SearchBudget budget = loci::budget_of_task;
+    budget.deadline = request_.deadline;
     if (request_.progress) request_.progress(0, "proof");
-    const loci::DesignProof proof = judge_->judge(*designs, task_.margin(), loci::Refuting::one, effort);
+    const loci::DesignProof proof = judge_->judge(*designs, task_.margin(), loci::Refuting::one, budget);
     result.verdict = proof.verdict;
     result.open.reset();
     result.witness.reset();
     result.margin.reset();
-    result.cells = proof.cells;
+    result.cells = proof.cost.cells;
     if (result.verified() && depth_ == VerifyDepth::verdict) return;
     if (result.verified()) {
       if (request_.progress) request_.progress(0, "margin");
-      effort.most_cells = cells_of_a_margin;
-      result.margin = judge_->clearance(*designs, task_.margin(), limit(), margin_accuracy, effort);
+      budget = {.most_cells = cells_of_a_margin, .deadline = request_.deadline};
+      result.margin = judge_->clearance(*designs, task_.margin(), limit(), margin_accuracy, budget);
       if (task_.task().pose_error)  // proven where the verdict is, whether this bound comes closer or not
         result.pose_error = std::min(core::to_double(*task_.task().pose_error),
-                                     judge_->greatest_displacement(*designs, error_accuracy, effort).upper());
+                                     judge_->greatest_displacement(*designs, error_accuracy, budget).upper());
       return;
     }
     if (result.verdict == core::Verdict::undecided) {
-      result.open = open_part(proof, list_of(proof.lower), list_of(proof.upper));
+      result.open = open_part(proof);
       return;
     }
     result.witness = witness_of(*proof.failure);

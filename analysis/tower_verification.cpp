@@ -31,7 +31,7 @@ using core::TaskDemand;
 using core::Verdict;
 using numeric::TaskFailure;
 
-constexpr int cells_of_the_task = 400'000, cells_of_a_margin = 40'000;
+constexpr int cells_of_a_margin = 40'000;
 
 int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 : value.value < -value.error ? -1 : 0; }
 
@@ -62,9 +62,9 @@ TracedProblem on_sheet_of(const Task& task, TracedProblem traced) {
   return {std::move(own->problem), std::move(own->map)};
 }
 
-class Verifier {
+class TowerVerifier {
  public:
-  Verifier(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request)
+  TowerVerifier(const mechanism::Mechanism& mechanism, const Task& task, const LociRequest& request)
       : mechanism_(mechanism),
         task_(task),
         request_(request_of(task, request)),
@@ -88,11 +88,10 @@ class Verifier {
     result.task = task;
     result.mode = mode_;
     progress("proof");
-    const loci::TaskProof proof = prove(region, margin, judge, result.witness);
+    const loci::CoverProof proof = prove(region, margin, judge, result.witness);
     result.verdict = proof.verdict;
-    result.cells = proof.cells;
-    if (result.verdict == Verdict::undecided)
-      result.open = open_part(proof, list_of(proof.lower), list_of(proof.upper));
+    result.cells = proof.cost.cells;
+    if (result.verdict == Verdict::undecided) result.open = open_part(proof);
     if (result.verified() && depth != VerifyDepth::verdict) {
       progress("margin");
       prove_margin(region, margin, result);
@@ -202,10 +201,11 @@ class Verifier {
     };
   }
 
-  loci::TaskProof prove(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
-                        std::optional<TaskWitness>& witness) const {
-    return loci::prove_task(conditions_, mode_, region, margin, refuted_at(region, judge, witness),
-                            {.most_cells = cells_of_the_task, .deadline = request_.deadline});
+  loci::CoverProof prove(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
+                         std::optional<TaskWitness>& witness) const {
+    loci::SearchBudget budget = loci::budget_of_task;
+    budget.deadline = request_.deadline;
+    return loci::prove_task(conditions_, mode_, region, margin, refuted_at(region, judge, witness), budget);
   }
 
   bool refuted_by_loci(const loci::TaskRegion& region, double margin, const numeric::TaskWitness& judge,
@@ -334,7 +334,7 @@ bool all_certified(const core::LocusMap& map) {
 }
 
 /// The loci and zones that the picture shows and the answer names. Under a range of loads they are those of the file's.
-void add_zones(const mechanism::Mechanism& mechanism, Verifier& verifier, Verification& result) {
+void add_zones(const mechanism::Mechanism& mechanism, TowerVerifier& verifier, Verification& result) {
   result.notes = verifier.notes();
   std::optional<TracedProblem> traced;
   if (result.task.loads && result.notes.empty())
@@ -374,7 +374,7 @@ Verification placed_in_tower(const mechanism::Mechanism& mechanism, const Task& 
   constexpr double half = 0.5, of_box = 1e-4;  // chords coarser than that would leave no place for a task beside them
   LociRequest fine = request.loci;
   fine.tolerance = std::min(fine.tolerance, of_box * extent(mechanism));
-  Verifier verifier(mechanism, task, fine);
+  TowerVerifier verifier(mechanism, task, fine);
   const auto way = [&](const Point2& by) {
     return core::RationalPose{round_way(by[0], mechanism.units), round_way(by[1], mechanism.units)};
   };
@@ -429,7 +429,7 @@ Verification verify_by_tower(const mechanism::Mechanism& mechanism, const Task& 
   }
   require_regular(mechanism, requested_modes(mechanism, request.loci).front());
   if (request.fit != TaskFit::none) return placed_in_tower(mechanism, task, request);
-  Verifier verifier(mechanism, task, request.loci);
+  TowerVerifier verifier(mechanism, task, request.loci);
   Verification result =
       request.depth == VerifyDepth::everything ? verifier.verify(task) : verifier.decide(task, request.depth);
   if (request.depth == VerifyDepth::everything)

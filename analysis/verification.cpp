@@ -12,7 +12,6 @@
 #include "analysis/preload.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
-#include "analysis/widened_task.hpp"
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
@@ -65,6 +64,21 @@ core::WitnessLoad load_at(const numeric::Posture& posture, std::size_t load, con
   const auto& at = posture.loads[load];
   if (mechanism.space == mechanism::Space::planar) return {load, {at.force[0], at.force[1]}, {at.couple[2]}};
   return {load, {at.force.begin(), at.force.end()}, {at.couple.begin(), at.couple.end()}};
+}
+
+core::OpenTask open_part(const loci::CoverProof& proof) {
+  using Reason = core::OpenTask::Reason;
+  return {proof.open, proof.lower, proof.upper,
+          proof.cost.out_of_time    ? Reason::time
+          : proof.cost.out_of_cells ? Reason::cells
+                                    : Reason::doubles};
+}
+
+core::OpenTask open_part(const loci::CoverProof& proof, const WidenedTask& widened) {
+  core::OpenTask open = open_part(proof);
+  open.lower = widened.pose_of(open.lower);
+  open.upper = widened.pose_of(open.upper);
+  return open;
 }
 
 core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::NumericModel& model, std::vector<double> at,

@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/widened_task.hpp"
 #include "clearloci/verify.hpp"
+#include "loci/tasks/tasks.hpp"
 #include "mechanism/mechanism.hpp"
 #include "numeric/task_witness.hpp"
 
@@ -33,14 +35,9 @@ std::string limit_at(const mechanism::Mechanism& mechanism, const numeric::Numer
                      std::span<const double> at, const DyadSides& sides, double passes = 1e-9);
 
 /// What a proof leaves open.
-template <class Proof>
-core::OpenTask open_part(const Proof& proof, std::vector<double> lower, std::vector<double> upper) {
-  using Reason = core::OpenTask::Reason;
-  return {proof.open, std::move(lower), std::move(upper),
-          proof.out_of_time    ? Reason::time
-          : proof.out_of_cells ? Reason::cells
-                               : Reason::doubles};
-}
+core::OpenTask open_part(const loci::CoverProof& proof);
+/// Of a task over poses, designs and loads.
+core::OpenTask open_part(const loci::CoverProof& proof, const WidenedTask& widened);
 
 inline std::vector<double> list_of(const core::Point2& at) { return {at[0], at[1]}; }
 

@@ -29,7 +29,7 @@ class SampleEfforts {
       : mechanism_(mechanism),
         joint_(mechanism.joints[static_cast<std::size_t>(joint)]),
         request_(request),
-        models_{with_effort(mechanism, joint, 0), with_effort(mechanism, joint, 1)},
+        models_(models_under_efforts(mechanism, {joint})),
         map_(map) {}
 
   void run() {
@@ -48,11 +48,6 @@ class SampleEfforts {
   }
 
  private:
-  static numeric::NumericModel with_effort(Mechanism mechanism, mechanism::JointIndex joint, int effort) {
-    mechanism::give_effort(mechanism, joint, effort);
-    return numeric::compile(mechanism);
-  }
-
   std::optional<core::ZonePreload> at(const std::vector<double>& pose, const std::vector<int>& sides,
                                       const std::vector<core::TaskDemand>& demands) const {
     const numeric::Bounded determinant = numeric::bounded_numerators(models_[0], exactly(pose), sides).determinant;

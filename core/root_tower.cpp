@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/append_roots.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::inline core {
@@ -23,6 +24,17 @@ std::vector<WorkingMode> all_working_modes(const RootTower& tower, const Working
     modes.push_back(std::move(mode));
   }
   return modes;
+}
+
+void append_roots(RootTower& tower, const std::vector<Root>& roots) {
+  tower.roots.insert(tower.roots.end(), roots.begin(), roots.end());
+  const auto wider = [&](const Polynomial& p) { return with_variables(p, tower.variables()); };
+  for (Root& root : tower.roots) rewrite(root, wider);
+  for (Polynomial& denominator : tower.denominators) denominator = wider(denominator);
+  for (DyadBase& base : tower.bases) {
+    base.x = wider(base.x);
+    base.y = wider(base.y);
+  }
 }
 
 std::optional<double> root_value(const Root& root, int sign, std::span<const double> at) {

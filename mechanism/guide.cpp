@@ -1,6 +1,6 @@
 #include "mechanism/guide.hpp"
 
-#include <stdexcept>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "mechanism/evaluate.hpp"
@@ -27,20 +27,6 @@ Rational near_root(const Rational& square) {
   Rational root(sqrt(core::Integer(radicand << (2 * bits))), core::Integer(square.get_den() << bits));
   root.canonicalize();
   return root;
-}
-
-std::optional<Rational> written_length(const Mechanism& mechanism, const VectorExpression& axis) {
-  if (axis.kind != VectorExpression::Kind::components) return std::nullopt;
-  Rational square = 0;
-  try {
-    for (const Expression& number : axis.numbers) {
-      const Rational value = value_of(number, mechanism);
-      square += value * value;
-    }
-  } catch (const std::out_of_range&) {
-    return std::nullopt;  // of the free coordinates
-  }
-  return near_root(square);
 }
 
 }  // namespace clearloci::mechanism

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,8 +23,5 @@ std::vector<core::Quantity> contact_components(const Mechanism& mechanism, const
 /// A rational within 1e-30 of the root of a rational, relative to it; exact where the root is rational. Required: not
 /// negative. What stands for the length of an axis that is constant, as rationals do for irrational numbers.
 Rational near_root(const Rational& square);
-
-/// The length of an axis that is written in numbers, so replaced; nothing for others.
-std::optional<Rational> written_length(const Mechanism& mechanism, const VectorExpression& axis);
 
 }  // namespace clearloci::mechanism

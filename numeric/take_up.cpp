@@ -161,15 +161,6 @@ std::vector<TakeUp> take_up(const std::vector<JointContact>& joints, const std::
   return all;
 }
 
-bool any_lost(const std::vector<JointContact>& joints, const std::vector<TakeUp>& take_up) {
-  for (std::size_t j = 0; j < take_up.size(); ++j) {
-    const TakeUp& t = take_up[j];
-    if (t.guide_vanishes() || (t.force_vanishes && joints[j].presses()) || (t.actuator_vanishes && joints[j].plays()))
-      return true;
-  }
-  return false;
-}
-
 std::vector<core::Vanishing> lost_reactions(const mechanism::Mechanism& mechanism,
                                             const std::vector<JointContact>& joints,
                                             const std::vector<TakeUp>& take_up) {

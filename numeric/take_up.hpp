@@ -116,9 +116,6 @@ std::vector<core::Vanishing> lost_reactions(const mechanism::Mechanism& mechanis
                                             const std::vector<JointContact>& joints,
                                             const std::vector<TakeUp>& take_up);
 
-/// Whether there are any.
-bool any_lost(const std::vector<JointContact>& joints, const std::vector<TakeUp>& take_up);
-
 /// Names of the joints whose take-up is undefined though they have a clearance.
 std::vector<std::string> undefined_take_up(const mechanism::Mechanism& mechanism,
                                            const std::vector<JointContact>& joints, const std::vector<TakeUp>& take_up);

@@ -16,7 +16,7 @@ using core::Rational;
 using core::StudyDesign;
 using Status = StudyDesign::Status;
 
-constexpr loci::DesignEffort of_tolerances = {.most_cells = 40'000, .most_cells_in_vain = 2'000};
+constexpr loci::SearchBudget of_tolerances = {.most_cells = 40'000, .most_cells_in_vain = 2'000};
 
 }  // namespace
 
@@ -60,7 +60,7 @@ StudyDesign CellJudge::judge(std::uint64_t path) {
     cell.reason = "keep";
     return cell;
   }
-  const loci::DesignEffort& effort = tree_.is_finest(path) ? effort_of_finest_cells : effort_of_coarse_cells;
+  const loci::SearchBudget& budget = tree_.is_finest(path) ? budget_of_finest_cells : budget_of_coarse_cells;
   bool all = kept == StudyProblem::Kept::all;
   for (std::size_t t = 0; t < judges_.size(); ++t) {
     const DesignTask& task = *problem_.tasks()[t];
@@ -69,7 +69,7 @@ StudyDesign CellJudge::judge(std::uint64_t path) {
       all = false;  // some lengths, or all, are not above zero
       continue;
     }
-    const loci::DesignProof proof = judges_[t]->judge(*box, task.margin(), loci::Refuting::all, effort);
+    const loci::DesignProof proof = judges_[t]->judge(*box, task.margin(), loci::Refuting::all, budget);
     if (proof.verdict == core::Verdict::refuted) {
       cell.status = Status::infeasible;
       cell.reason = task.reason(*proof.failure);

@@ -27,8 +27,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Figures are proven bounds, this close to the true values, relatively.
 constexpr double figure_accuracy = 1e-3;
 /// Cells a design may take to be judged, and a figure of it.
-constexpr loci::DesignEffort design_effort = {.most_cells = 20'000, .most_cells_in_vain = 4'000};
-constexpr loci::DesignEffort figure_effort = {.most_cells = 20'000};
+constexpr loci::SearchBudget design_budget = {.most_cells = 20'000, .most_cells_in_vain = 4'000};
+constexpr loci::SearchBudget figure_budget = {.most_cells = 20'000};
 
 std::vector<mechanism::ParameterRange> ranges_of(const core::Study& study) {
   std::vector<mechanism::ParameterRange> ranges;
@@ -166,7 +166,7 @@ StudyDesign StudyJudge::judge(std::uint64_t index, const std::vector<Rational>& 
     }
     // Without tolerances the box is but the rounding of one design's numbers: what refutes it refutes all of it.
     const auto refuting = task.task().tolerances.empty() ? loci::Refuting::all : loci::Refuting::one;
-    const loci::DesignProof proof = judges_[t]->judge(*box, task.margin(), refuting, design_effort);
+    const loci::DesignProof proof = judges_[t]->judge(*box, task.margin(), refuting, design_budget);
     if (proof.verdict == core::Verdict::refuted) {
       design.status = StudyDesign::Status::infeasible;
       design.reason = task.reason(*proof.failure);
@@ -210,14 +210,14 @@ std::optional<Interval> StudyJudge::measured(Figure figure, std::size_t t, const
     double limit = task.margin();
     for (std::size_t c = 0; c < 2; ++c)
       limit += core::to_double(own.coordinates[c].upper - own.coordinates[c].lower) + upper[c] - lower[c];
-    return Interval(judges_[t]->clearance(box, task.margin(), limit, figure_accuracy, figure_effort));
+    return Interval(judges_[t]->clearance(box, task.margin(), limit, figure_accuracy, figure_budget));
   }
   if (!measures_[t]) return std::nullopt;
   const core::Task& asked = task.task();
   if (figure == Figure::min_force) {
     const std::vector<int> forces = task.forces();
     if (forces.empty()) return std::nullopt;
-    const Interval size = measures_[t]->least_size(box, forces, figure_accuracy, figure_effort);
+    const Interval size = measures_[t]->least_size(box, forces, figure_accuracy, figure_budget);
     // The verdict has proven as much.
     const double least = asked.min_force ? core::to_double(*asked.min_force) : 0.0;
     return Interval(std::max(size.lower(), least), std::max(size.upper(), least));
@@ -225,10 +225,10 @@ std::optional<Interval> StudyJudge::measured(Figure figure, std::size_t t, const
   if (figure == Figure::effort) {
     const std::vector<int> efforts = task.efforts();
     if (efforts.empty()) return std::nullopt;
-    return measures_[t]->greatest_size(box, efforts, figure_accuracy, figure_effort);
+    return measures_[t]->greatest_size(box, efforts, figure_accuracy, figure_budget);
   }
   if (figure == Figure::pose_error) {
-    const Interval size = measures_[t]->greatest_displacement(box, figure_accuracy, figure_effort);
+    const Interval size = measures_[t]->greatest_displacement(box, figure_accuracy, figure_budget);
     const double most = asked.pose_error ? core::to_double(*asked.pose_error) : size.upper();
     return Interval(std::min(size.lower(), most), std::min(size.upper(), most));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/append_roots.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci::symbolic {
@@ -200,22 +201,15 @@ void FactorEmission::undirected() {
 void FactorEmission::append_roots() {
   if (more_roots_.empty()) return;
   core::LocusProblem& problem = d_.result.problem;
-  core::RootTower& tower = problem.tower;
-  tower.roots.insert(tower.roots.end(), more_roots_.begin(), more_roots_.end());
-  const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
-  for (core::Root& root : tower.roots) core::rewrite(root, [&](core::Polynomial p) { return widen(p), p; });
-  for (core::Polynomial& denominator : tower.denominators) widen(denominator);
-  for (core::DyadBase& base : tower.bases) {
-    widen(base.x);
-    widen(base.y);
-  }
+  core::append_roots(problem.tower, more_roots_);
+  const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, problem.tower.variables()); };
   for (LocusFactor& factor : problem.factors) {
     widen(factor.sheet);
     for (auto& [sheet, times] : factor.cleared) widen(sheet);
     if (factor.nodes)
       for (core::NodeForm::Part& part : factor.nodes->parts) widen(part.sheet);
   }
-  for (core::WorkingMode& mode : problem.modes) mode.resize(tower.roots.size(), 1);
+  for (core::WorkingMode& mode : problem.modes) mode.resize(problem.tower.roots.size(), 1);
 }
 
 }  // namespace clearloci::symbolic

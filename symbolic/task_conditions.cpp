@@ -4,6 +4,7 @@
 #include <list>
 #include <map>
 
+#include "core/append_roots.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "core/powers_of_two.hpp"
@@ -108,7 +109,7 @@ class Conditions {
     root.square = sheet.plain(geometry_.tower_variables());
     root.line = lines_.of(limit.natural);
     root.bounds = limit.bounds;
-    append(std::move(root));
+    core::append_roots(result_.tower, {std::move(root)});
   }
 
   using Parts = std::vector<std::vector<FactoredPoly>>;
@@ -215,22 +216,9 @@ class Conditions {
     root.name = "s" + std::to_string(result_.tower.roots.size() + 1);
     root.role = core::RootRole::length;
     root.square = (length[0] * length[1]).plain(variables);
-    append(std::move(root));
+    core::append_roots(result_.tower, {std::move(root)});
     lines_.let(geometry_.auxiliary(), before, length[1]);
     lengths_.erase(found);
-  }
-
-  /// Its square is written in the coordinates and the roots of the geometry.
-  void append(core::Root root) {
-    core::RootTower& tower = result_.tower;
-    tower.roots.push_back(std::move(root));
-    const auto widen = [&](core::Polynomial& p) { p = core::with_variables(p, tower.variables()); };
-    for (core::Root& own : tower.roots) core::rewrite(own, [&](core::Polynomial p) { return widen(p), p; });
-    for (core::Polynomial& denominator : tower.denominators) widen(denominator);
-    for (core::DyadBase& base : tower.bases) {
-      widen(base.x);
-      widen(base.y);
-    }
   }
 
   const mechanism::Joint& joint_named(const std::string& name) const {

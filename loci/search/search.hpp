@@ -3,10 +3,12 @@
 // it says.
 #pragma once
 
+#include "loci/search/box_search.hpp"
 #include "loci/search/cell_tree.hpp"
 #include "loci/search/critical_point.hpp"
 #include "loci/search/enclosed_stars.hpp"
 #include "loci/search/exact_zero.hpp"
+#include "loci/search/halves.hpp"
 #include "loci/search/isolated_zeros.hpp"
 #include "loci/search/known_searches.hpp"
 #include "loci/search/open_places.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <queue>
 
 #include "core/errors.hpp"
+#include "loci/search/search.hpp"
 #include "loci/tasks/task_cell.hpp"
 
 namespace clearloci::loci {
@@ -167,9 +167,9 @@ std::vector<TaskCell::Loads> TaskCell::halves_of(const Loads& loads) const {
   }
   if (along == -2) return {};
   std::vector<Loads> halves(2, loads);
-  for (const bool low : {true, false}) {
-    Interval& own = along < 0 ? halves[low ? 0 : 1].t : halves[low ? 0 : 1].factors[static_cast<std::size_t>(along)];
-    own = low ? Interval(own.lower(), own.middle()) : Interval(own.middle(), own.upper());
+  for (std::size_t half = 0; half < 2; ++half) {
+    Interval& own = along < 0 ? halves[half].t : halves[half].factors[static_cast<std::size_t>(along)];
+    own = loci::halves_of(own)[half];
   }
   return halves;
 }
@@ -181,12 +181,12 @@ bool TaskCell::displaced_within(double most) {
   // Where one load is too much of it, or leaves little room, the poses are to be cut, or it is too far.
   constexpr double room_of_poses = 0.3;
   const Loads middle = middle_of(all);
-  std::vector<Loads> open = halves_of(all);
+  BoxSearch<Loads> left(SearchOrder::depth_first);
+  for (Loads& half : halves_of(all)) left.push(std::move(half));
   const Interval one = *displacement_under(middle);
-  if (open.empty() || one.width() > room_of_poses * (most - one.lower())) return false;
-  while (!open.empty()) {
-    const Loads own = std::move(open.back());
-    open.pop_back();
+  if (left.empty() || one.width() > room_of_poses * (most - one.lower())) return false;
+  while (!left.empty()) {
+    const Loads own = left.take();
     ++parts_of_loads_;
     const auto size = displacement_under(own);
     if (!size || size->upper() <= most) continue;
@@ -196,7 +196,7 @@ bool TaskCell::displaced_within(double most) {
       (void)displacement_under(middle);  // its slopes say where to cut
       return false;
     }
-    open.insert(open.end(), halves.begin(), halves.end());
+    for (const Loads& half : halves) left.push(half);
   }
   return true;
 }
@@ -209,22 +209,22 @@ Interval TaskCell::displacement() {
     Loads loads;
     Interval size;
   };
-  const auto less = [](const LoadsPart& a, const LoadsPart& b) { return a.size.upper() < b.size.upper(); };
-  std::priority_queue<LoadsPart, std::vector<LoadsPart>, decltype(less)> open(less);
+  BoxSearch<LoadsPart> left(SearchOrder::least_key_first);  // keys: bounds, negated
+  const auto push = [&](const Loads& loads, const Interval& size) { left.push({loads, size}, -size.upper()); };
   const Loads all = all_loads();
-  open.push({all, *displacement_under(all)});
+  push(all, *displacement_under(all));
   double lower = 0;
   for (int parts = 0; parts < most_parts_of_a_bound; ++parts) {
-    const std::vector<Loads> halves = halves_of(open.top().loads);
-    if (halves.empty()) return open.top().size;
-    if (const auto one = displacement_under(middle_of(open.top().loads))) lower = std::max(lower, one->lower());
-    const Interval whole = open.top().size;
-    open.pop();
+    const std::vector<Loads> halves = halves_of(left.next().box.loads);
+    if (halves.empty()) return left.next().box.size;
+    if (const auto one = displacement_under(middle_of(left.next().box.loads))) lower = std::max(lower, one->lower());
+    const Interval whole = left.take().size;
     for (const Loads& half : halves)
-      if (const auto own = displacement_under(half)) open.push({half, meet(*own, Interval(0.0, whole.upper()))});
+      if (const auto own = displacement_under(half)) push(half, meet(*own, Interval(0.0, whole.upper())));
   }
-  (void)displacement_under(middle_of(open.top().loads));
-  return {std::min(lower, open.top().size.upper()), open.top().size.upper()};
+  const auto& [loads, size] = left.next().box;
+  (void)displacement_under(middle_of(loads));
+  return {std::min(lower, size.upper()), size.upper()};
 }
 
 std::optional<TaskCell::Loads> TaskCell::displaced_too_far() {

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <queue>
 
 #include "loci/tasks/task_cover.hpp"
 
@@ -32,10 +30,6 @@ std::vector<double> middle_of(const std::vector<Interval>& box) {
   std::vector<double> middle;
   for (const Interval& range : box) middle.push_back(std::clamp(range.middle(), range.lower(), range.upper()));
   return middle;
-}
-
-Interval half_of(const Interval& range, bool low) {
-  return low ? Interval(range.lower(), range.middle()) : Interval(range.middle(), range.upper());
 }
 
 }  // namespace
@@ -66,32 +60,41 @@ TaskCell::State DesignJudge::enter(const Box& box) {
 }
 
 std::vector<Interval> DesignJudge::clearances_of(const DesignBox& parameters) const {
-  std::vector<Interval> own;
-  for (std::size_t k = 0; k < clearances_.parameters.size(); ++k) own.push_back(clearances_.enclosure(k, parameters));
-  return own;
+  std::vector<Interval> clearances;
+  for (std::size_t k = 0; k < clearances_.parameters.size(); ++k)
+    clearances.push_back(clearances_.enclosure(k, parameters));
+  return clearances;
+}
+
+DesignJudge::Box DesignJudge::over_designs(const DesignBox& designs, double reach) const {
+  Box box = {Interval(region_.lower()[0] - reach, region_.upper()[0] + reach),
+             Interval(region_.lower()[1] - reach, region_.upper()[1] + reach)};
+  box.insert(box.end(), designs.begin(), designs.end());
+  return box;
 }
 
 int DesignJudge::cut(const Box& box) {
   const std::vector<double>& spreads = cell_.spreads();
-  std::vector<double> own(box.size(), 0.0);
-  own[0] = spreads[0];
-  own[1] = spreads[1];
+  std::vector<double> moved(box.size(), 0.0);
+  moved[0] = spreads[0];
+  moved[1] = spreads[1];
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
-    for (const std::size_t p : variables_.parameters[v]) own[2 + p] += spreads[2 + v];
+    for (const std::size_t p : variables_.parameters[v]) moved[2 + p] += spreads[2 + v];
   const std::vector<double>& of_clearances = cell_.clearance_spreads();
   for (std::size_t k = 0; k < of_clearances.size(); ++k)
-    for (const std::size_t p : clearances_.parameters[k]) own[2 + p] += of_clearances[k];
+    for (const std::size_t p : clearances_.parameters[k]) moved[2 + p] += of_clearances[k];
   int best = -1;
   for (std::size_t c = 0; c < box.size(); ++c)
-    if (box[c].width() > 0 && (best < 0 || own[c] > own[static_cast<std::size_t>(best)])) best = static_cast<int>(c);
+    if (box[c].width() > 0 && (best < 0 || moved[c] > moved[static_cast<std::size_t>(best)]))
+      best = static_cast<int>(c);
   return best;
 }
 
 std::vector<Interval> DesignJudge::coordinates(const Point2& pose, const std::vector<double>& parameters) const {
   const DesignBox thin(parameters.begin(), parameters.end());
-  Box own = {Interval(pose[0]), Interval(pose[1])};
-  for (std::size_t v = 0; v < variables_.parameters.size(); ++v) own.push_back(variables_.enclosure(v, thin));
-  return own;
+  Box all = {Interval(pose[0]), Interval(pose[1])};
+  for (std::size_t v = 0; v < variables_.parameters.size(); ++v) all.push_back(variables_.enclosure(v, thin));
+  return all;
 }
 
 int DesignJudge::sign_at(std::size_t watched, const Point2& pose, const std::vector<double>& parameters) {
@@ -115,18 +118,18 @@ DesignBox DesignJudge::corner_of(const Point2& pose, const DesignBox& designs) {
   const TaskCell::State state = enter(box_);
   if (state == TaskCell::State::proven || state == TaskCell::State::outside) return {};
   const std::vector<int> ways = cell_.downhill();
-  std::vector<int> own(designs.size(), 0);
+  std::vector<int> worse(designs.size(), 0);
   for (std::size_t v = 0; v < variables_.parameters.size(); ++v)
     for (const std::size_t p : variables_.parameters[v])
-      if (own[p] == 0) own[p] = ways[2 + v];
+      if (worse[p] == 0) worse[p] = ways[2 + v];
   const std::vector<int> of_clearances = cell_.clearances_downhill();
   for (std::size_t k = 0; k < of_clearances.size(); ++k)
     for (const std::size_t p : clearances_.parameters[k])
-      if (own[p] == 0) own[p] = of_clearances[k];
+      if (worse[p] == 0) worse[p] = of_clearances[k];
   DesignBox corner = one_of(designs);
-  for (std::size_t p = 0; p < own.size(); ++p)
-    if (corner[p].width() == 0 && own[p] != 0)
-      corner[p] = Interval(own[p] < 0 ? designs[p].lower() : designs[p].upper());
+  for (std::size_t p = 0; p < worse.size(); ++p)
+    if (corner[p].width() == 0 && worse[p] != 0)
+      corner[p] = Interval(worse[p] < 0 ? designs[p].lower() : designs[p].upper());
   return corner;
 }
 
@@ -146,82 +149,67 @@ std::optional<DesignFailure> DesignJudge::looked_at(const Point2& pose, const De
     if (const auto loads = cell_.displaced_too_far()) {
       DesignFailure found{Kind::displaced, -1, pose, middle};
       found.load = loads->t.middle();
-      for (const Interval& own : loads->factors) found.load_factors.push_back(own.middle());
+      for (const Interval& factor : loads->factors) found.load_factors.push_back(factor.middle());
       return found;
     }
   for (std::size_t w = 0; w < cell_.watched(); ++w) {
     const int sign = cell_.sign(w);
     if (sign == 0) continue;
-    Seen& own = seen_[static_cast<std::size_t>(cell_.group_of(w))];
-    if (own.sign == 0) own = {pose, middle, sign};
-    if (own.sign == sign) continue;
+    Seen& seen = seen_[static_cast<std::size_t>(cell_.group_of(w))];
+    if (seen.sign == 0) seen = {pose, middle, sign};
+    if (seen.sign == sign) continue;
     const int condition = cell_.condition_of(w);
     return DesignFailure{
-        condition < 0 ? Kind::singular : Kind::vanishing, condition, pose, middle, w, own.at, own.parameters};
+        condition < 0 ? Kind::singular : Kind::vanishing, condition, pose, middle, w, seen.at, seen.parameters};
   }
   return std::nullopt;
 }
 
-DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting refuting, const DesignEffort& effort) {
+DesignProof DesignJudge::judge(const DesignBox& designs, double margin, Refuting refuting, const SearchBudget& budget) {
   DesignProof proof;
+  SearchMeter meter(budget);
   const bool one = refuting == Refuting::one;
   seen_.assign(static_cast<std::size_t>(cell_.groups()), Seen{});
   const auto fails = [&](std::optional<DesignFailure> found) {
     if (!found) return false;
     proof.verdict = core::Verdict::refuted;
     proof.failure = std::move(found);
+    proof.cost = meter.cost();
     return true;
   };
   for (const Point2& pose : samples_)
     if (fails(at(pose, designs, one))) return proof;
   const double reach = margin + hair_of(region_, margin);
-  Box whole = {Interval(region_.lower()[0] - reach, region_.upper()[0] + reach),
-               Interval(region_.lower()[1] - reach, region_.upper()[1] + reach)};
-  whole.insert(whole.end(), designs.begin(), designs.end());
+  const Box whole = over_designs(designs, reach);
   std::vector<double> least;
   for (const Interval& range : whole) least.push_back(std::max(finest * range.width(), 0x1p-50 * range.magnitude()));
-  const auto left_open = [&](const Box& box) { leave_open(proof, box[0], box[1]); };
-  int proven = 0, looks = 0;
-  std::deque<Box> open = {whole};
-  while (!open.empty()) {
-    const Box box = std::move(open.front());
-    open.pop_front();
-    if (region_.distance(box[0], box[1]) > reach) continue;
-    proof.out_of_cells = proof.cells >= (proven == 0 ? effort.most_cells_in_vain : effort.most_cells);
-    proof.out_of_time = out_of_time(effort, looks++);
-    if (proof.out_of_cells || proof.out_of_time) {
-      open.push_front(box);
-      break;
-    }
-    ++proof.cells;
+  BoxSearch<Box> left(SearchOrder::breadth_first);
+  const auto push = [&](Box box) {
+    if (region_.distance(box[0], box[1]) <= reach) left.push(std::move(box));
+  };
+  push(whole);
+  while (!left.empty() && meter.begin()) {
+    const Box box = left.take();
     const TaskCell::State state = enter(box);
-    proof.cells += cell_.parts_of_loads();
+    meter.add(cell_.parts_of_loads());
     if (state == TaskCell::State::proven) {
-      ++proven;
+      meter.prove();
       continue;
     }
     int along = cut(box);
-    if (const auto pose = pose_within(region_, margin, box[0], box[1])) {
-      const DesignBox own(box.begin() + 2, box.end());
-      if (fails(at(*pose, one ? own : designs, one))) return proof;
-    }
+    if (const auto pose = pose_within(region_, margin, box[0], box[1]))
+      if (fails(at(*pose, one ? DesignBox(box.begin() + 2, box.end()) : designs, one))) return proof;
     if (along >= 0 && box[static_cast<std::size_t>(along)].width() <= least[static_cast<std::size_t>(along)])
       along = -1;
     for (std::size_t c = 0; along < 0 && c < box.size(); ++c)
       if (box[c].width() > least[c]) along = static_cast<int>(c);
-    if (along < 0) {
-      left_open(box);
-      continue;
-    }
-    const auto c = static_cast<std::size_t>(along);
-    for (const bool low : {true, false}) {
-      Box part = box;
-      part[c] = half_of(box[c], low);
-      open.push_back(std::move(part));
-    }
+    if (along < 0)
+      leave_open(proof, box[0], box[1]);
+    else
+      for (Box& half : halves_of(box, static_cast<std::size_t>(along))) push(std::move(half));
   }
-  for (const Box& box : open)
-    if (region_.distance(box[0], box[1]) <= reach) left_open(box);
+  for (const auto& [key, box] : left) leave_open(proof, box[0], box[1]);
+  proof.cost = meter.cost();
   if (proof.open == 0) proof.verdict = core::Verdict::verified;
   return proof;
 }
@@ -247,96 +235,72 @@ double DesignJudge::violation(const DesignBox& designs) {
         ++signs[static_cast<std::size_t>(cell_.group_of(w))][sign > 0 ? 1 : 0];
   }
   int minority = 0;
-  for (const auto& own : signs) minority = std::max(minority, std::min(own[0], own[1]));
+  for (const auto& of_group : signs) minority = std::max(minority, std::min(of_group[0], of_group[1]));
   return std::min(1.0, static_cast<double>(failed + minority) / static_cast<double>(poses.size()));
 }
 
 double DesignJudge::clearance(const DesignBox& designs, double from, double limit, double accuracy,
-                              const DesignEffort& effort) {
-  struct BoxByDistance {
-    Box box;
-    double distance = 0;
-  };
+                              const SearchBudget& budget) {
   const double size = size_of(region_, 0);
-  const auto farther = [](const BoxByDistance& a, const BoxByDistance& b) { return a.distance > b.distance; };
-  std::priority_queue<BoxByDistance, std::vector<BoxByDistance>, decltype(farther)> open(farther);
-  BoxByDistance whole{{Interval(region_.lower()[0] - limit, region_.upper()[0] + limit),
-                       Interval(region_.lower()[1] - limit, region_.upper()[1] + limit)}};
-  whole.box.insert(whole.box.end(), designs.begin(), designs.end());
-  open.push(std::move(whole));
+  SearchMeter meter(budget);
+  BoxSearch<Box> left(SearchOrder::least_key_first);  // keys: distances
+  left.push(over_designs(designs, limit));
   double margin = limit;
-  for (int cells = 0; !open.empty(); ++cells) {
-    BoxByDistance cell = open.top();
-    open.pop();
-    if (cell.distance >= limit) break;
-    const double middle = region_.signed_distance({cell.box[0].middle(), cell.box[1].middle()});
-    const double half = 0.5 * std::hypot(cell.box[0].width(), cell.box[1].width());
+  while (!left.empty() && left.next().key < limit) {
+    const bool over = !meter.begin();
+    const double distance = left.next().key;
+    const Box box = left.take();
+    const double middle = region_.signed_distance({box[0].middle(), box[1].middle()});
+    const double half = 0.5 * std::hypot(box[0].width(), box[1].width());
     if (middle + half <= from) continue;  // the task's proof has covered it
-    if (enter(cell.box) == TaskCell::State::proven) continue;
-    const int along = cut(cell.box);
+    if (enter(box) == TaskCell::State::proven) continue;
+    const int along = cut(box);
     // Cells differ in how far they are by their extent along x and y alone.
-    if (cells >= effort.most_cells || out_of_time(effort, cells) || along < 0 ||
-        2 * half <= accuracy * std::max(cell.distance, size)) {
-      margin = cell.distance;
+    if (over || along < 0 || 2 * half <= accuracy * std::max(distance, size)) {
+      margin = distance;
       break;
     }
-    const auto c = static_cast<std::size_t>(along);
-    for (const bool low : {true, false}) {
-      BoxByDistance part = cell;
-      part.box[c] = half_of(cell.box[c], low);
-      part.distance = std::max(cell.distance, region_.distance(part.box[0], part.box[1]));
-      open.push(std::move(part));
+    for (Box& part : halves_of(box, static_cast<std::size_t>(along))) {
+      const double from_task = region_.distance(part[0], part[1]);
+      left.push(std::move(part), std::max(distance, from_task));
     }
   }
   return std::max(from, margin - hair_of(region_, limit));
 }
 
-Interval DesignJudge::least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                                 const DesignEffort& effort) {
+Interval DesignJudge::extreme_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                                   const SearchBudget& budget, bool least) {
   const auto size = [&] {
-    Interval all = cell_.size_of(conditions.front(), true);
+    Interval all = cell_.size_of(conditions.front(), least);
     for (const int condition : conditions) {
-      const Interval own = cell_.size_of(condition, true);
-      all = Interval(std::min(all.lower(), own.lower()), std::min(all.upper(), own.upper()));
+      const Interval one = cell_.size_of(condition, least);
+      all = least ? Interval(std::min(all.lower(), one.lower()), std::min(all.upper(), one.upper()))
+                  : Interval(std::max(all.lower(), one.lower()), std::max(all.upper(), one.upper()));
     }
     return all;
   };
-  return extreme(designs, size, accuracy, effort, true);
+  return extreme(designs, size, accuracy, budget, least);
 }
 
-Interval DesignJudge::greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                                    const DesignEffort& effort) {
+Interval DesignJudge::greatest_displacement(const DesignBox& designs, double accuracy, const SearchBudget& budget) {
   const auto size = [&] {
-    Interval all = 0.0;
-    for (const int condition : conditions) {
-      const Interval own = cell_.size_of(condition, false);
-      all = Interval(std::max(all.lower(), own.lower()), std::max(all.upper(), own.upper()));
-    }
-    return all;
-  };
-  return extreme(designs, size, accuracy, effort, false);
-}
-
-Interval DesignJudge::greatest_displacement(const DesignBox& designs, double accuracy, const DesignEffort& effort) {
-  const auto size = [&] {
-    const Interval own = cell_.displacement();
+    const Interval displaced = cell_.displacement();
     cell_.doubt_displacement();
-    return own;
+    return displaced;
   };
   // Loads that differ are looked at part by part in every cell.
-  DesignEffort own = effort;
-  if (cell_.has_many_loads()) own.most_cells /= 20;
-  return extreme(designs, size, accuracy, own, false);
+  SearchBudget fewer = budget;
+  if (cell_.has_many_loads()) fewer.most_cells /= 20;
+  return extreme(designs, size, accuracy, fewer, false);
 }
 
 /// Best first: the bound of the best cell against the best value at a pose.
 Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Interval()>& size, double accuracy,
-                              const DesignEffort& effort, bool least) {
+                              const SearchBudget& budget, bool least) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  struct BoxByBound {
+  struct BoxToCut {
     Box box;
-    double bound = 0;  ///< of what is to be made least: the size, or what it is short of nothing
-    int along = -1;    ///< the coordinate to cut, where that is known
+    int along = -1;  ///< the coordinate to cut, where that is known
   };
   const double sign = least ? 1.0 : -1.0;
   double known = infinity;  // some pose's
@@ -353,19 +317,16 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
     if (const auto here = over(box)) known = std::min(known, sign * (least ? here->upper() : here->lower()));
   };
   for (const Point2& pose : samples_) look(pose, designs);
-  const auto worse = [](const BoxByBound& a, const BoxByBound& b) { return a.bound > b.bound; };
-  std::priority_queue<BoxByBound, std::vector<BoxByBound>, decltype(worse)> open(worse);
-  BoxByBound whole{{Interval(region_.lower()[0], region_.upper()[0]), Interval(region_.lower()[1], region_.upper()[1])},
-                   -infinity};
-  whole.box.insert(whole.box.end(), designs.begin(), designs.end());
-  open.push(std::move(whole));
+  SearchMeter meter(budget);
+  // Keys: bounds of what is to be made least: the size, or what it is short of nothing.
+  BoxSearch<BoxToCut> left(SearchOrder::least_key_first);
+  left.push({over_designs(designs, 0)}, -infinity);
   double bound = known;
-  for (int cells = 0; !open.empty(); ++cells) {
-    const BoxByBound cell = open.top();
-    bound = std::min(cell.bound, known);
-    if (cells >= effort.most_cells || out_of_time(effort, cells) || known - cell.bound <= accuracy * std::abs(known))
-      break;
-    open.pop();
+  while (!left.empty()) {
+    const double key = left.next().key;
+    bound = std::min(key, known);
+    if (!meter.begin() || known - key <= accuracy * std::abs(known)) break;
+    const BoxToCut cell = left.take();
     bound = known;
     // Where nothing says better, what is widest as a part of the whole.
     const bool along_x = cell.box[0].width() >= cell.box[1].width();
@@ -378,16 +339,15 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
       if (part > widest) widest = part, c = k;
     }
     if (cell.along >= 0) c = static_cast<std::size_t>(cell.along);
-    for (const bool low : {true, false}) {
-      BoxByBound part = cell;
-      part.box[c] = half_of(cell.box[c], low);
-      if (region_.distance(part.box[0], part.box[1]) > 0) continue;
-      const auto own = over(part.box);
-      part.along = own && cell_.doubts_displacement() ? cut(part.box) : -1;
-      part.bound = std::max(cell.bound, own ? sign * (least ? own->lower() : own->upper()) : -infinity);
-      if (const auto pose = pose_within(region_, 0, part.box[0], part.box[1]))
-        look(*pose, DesignBox(part.box.begin() + 2, part.box.end()));
-      if (part.bound < known) open.push(std::move(part));
+    for (Box& half : halves_of(cell.box, c)) {
+      if (region_.distance(half[0], half[1]) > 0) continue;
+      const auto size_of_half = over(half);
+      const int along = size_of_half && cell_.doubts_displacement() ? cut(half) : -1;
+      const double key_of_half =
+          std::max(key, size_of_half ? sign * (least ? size_of_half->lower() : size_of_half->upper()) : -infinity);
+      if (const auto pose = pose_within(region_, 0, half[0], half[1]))
+        look(*pose, DesignBox(half.begin() + 2, half.end()));
+      if (key_of_half < known) left.push({std::move(half), along}, key_of_half);
     }
   }
   return least ? Interval(std::max(0.0, bound), known) : Interval(-known, -bound);

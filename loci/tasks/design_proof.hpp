@@ -7,13 +7,12 @@
 // connected, so that in between it vanishes, or the mechanism cannot follow.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
 
-#include "clearloci/verify.hpp"
+#include "loci/tasks/cover_proof.hpp"
 #include "loci/tasks/task_cell.hpp"
 #include "loci/tasks/task_region.hpp"
 
@@ -35,20 +34,11 @@ struct DesignFailure {
   std::vector<double> load_factors = {};
 };
 
-struct DesignProof {
-  core::Verdict verdict = core::Verdict::undecided;
-  std::optional<DesignFailure> failure;  ///< where refuted
-  int cells = 0;
-  std::size_t open = 0;
-  core::Point2 lower{}, upper{};  ///< the box around poses that stayed open
-  bool out_of_time = false, out_of_cells = false;
+struct DesignProof : CoverProof {
+  std::optional<DesignFailure> failure = {};  ///< where refuted
 };
 
-struct DesignEffort {
-  int most_cells = 20'000;
-  int most_cells_in_vain = 5'000;  ///< while none at all is proven
-  std::optional<std::chrono::steady_clock::time_point> deadline = {};
-};
+inline constexpr SearchBudget budget_of_designs = {.most_cells = 20'000, .most_cells_in_vain = 5'000};
 
 /// Of some designs `verified` speaks of all. `refuted` speaks of all, or of at least one.
 enum class Refuting { all, one };
@@ -75,22 +65,27 @@ class DesignJudge {
   DesignJudge(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
               DesignVariables variables, std::vector<core::LoadBall> balls = {}, DesignClearances clearances = {});
 
-  DesignProof judge(const DesignBox& designs, double margin, Refuting refuting, const DesignEffort& effort = {});
+  DesignProof judge(const DesignBox& designs, double margin, Refuting refuting,
+                    const SearchBudget& budget = budget_of_designs);
 
   /// How far around the task everything holds that holds in it, m, proven: to `accuracy` of itself and of the task's
   /// size. Requires that the designs are verified with the margin `from`.
-  double clearance(const DesignBox& designs, double from, double limit, double accuracy, const DesignEffort& effort);
+  double clearance(const DesignBox& designs, double from, double limit, double accuracy, const SearchBudget& budget);
 
   /// An enclosure of the least size that some conditions' reactions have over the task, N or N m, to `accuracy` of
   /// itself. Requires that the designs are verified.
   core::Interval least_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                            const DesignEffort& effort);
+                            const SearchBudget& budget) {
+    return extreme_size(designs, conditions, accuracy, budget, true);
+  }
   /// Likewise the greatest.
   core::Interval greatest_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
-                               const DesignEffort& effort);
+                               const SearchBudget& budget) {
+    return extreme_size(designs, conditions, accuracy, budget, false);
+  }
 
   /// Likewise how far the end effector is displaced at most, m. Requires clearances.
-  core::Interval greatest_displacement(const DesignBox& designs, double accuracy, const DesignEffort& effort);
+  core::Interval greatest_displacement(const DesignBox& designs, double accuracy, const SearchBudget& budget);
 
   /// The share of some poses of the task at which one of the designs fails, or has another sign than at most others.
   double violation(const DesignBox& designs);
@@ -109,6 +104,8 @@ class DesignJudge {
   };
   TaskCell::State enter(const Box& box);
   std::vector<core::Interval> clearances_of(const DesignBox& parameters) const;
+  /// All poses within `reach` of the task's box, and all designs.
+  Box over_designs(const DesignBox& designs, double reach) const;
   /// The coordinate of the box along which a cut helps most; -1: none is worth it.
   int cut(const Box& box);
   /// Looks at one pose of all the designs, or of one in their middle, then of one that is nearer to failing.
@@ -116,9 +113,11 @@ class DesignJudge {
   std::optional<DesignFailure> looked_at(const core::Point2& pose, const DesignBox& designs,
                                          std::vector<double> parameters);
   DesignBox corner_of(const core::Point2& pose, const DesignBox& designs);
+  core::Interval extreme_size(const DesignBox& designs, const std::vector<int>& conditions, double accuracy,
+                              const SearchBudget& budget, bool least);
   /// `size`: of what was entered last. To `accuracy` of itself.
   core::Interval extreme(const DesignBox& designs, const std::function<core::Interval()>& size, double accuracy,
-                         const DesignEffort& effort, bool least);
+                         const SearchBudget& budget, bool least);
 
   TaskCell cell_;
   const TaskRegion& region_;

@@ -1,7 +1,6 @@
 #include "loci/tasks/effort_proof.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <utility>
 
@@ -30,12 +29,12 @@ template <class Form>
 class EffortSearch {
  public:
   EffortSearch(EffortChooser& chooser, const PoseRegion& region, PoseBox designs, double margin,
-               const PoseEffort& effort)
+               const SearchBudget& budget)
       : chooser_(chooser),
         region_(region),
         designs_(std::move(designs)),
         margin_(margin),
-        effort_(effort),
+        meter_(budget),
         pieces_(region.pieces(margin)) {
     for (const PosePiece& piece : pieces_) wider_.push_back(with_designs(piece));
   }
@@ -44,15 +43,12 @@ class EffortSearch {
     for (const Pose& pose : region_.samples())
       if (refuted(pose)) return finished();
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      stack_.push_back({i, pieces_[i].box, {designs_}});
-      begin_with_one_for_all(i);
+      EffortPart part{i, pieces_[i].box, {designs_}};
+      choose_one_for_all(part);
+      left_.push(std::move(part));
     }
-    while (!stack_.empty()) {
-      while (!stack_.empty() && !is_refuted()) {
-        const EffortPart part = std::move(stack_.back());
-        stack_.pop_back();
-        visit(part);
-      }
+    while (!left_.empty()) {
+      while (!left_.empty() && !is_refuted()) visit(left_.take());
       if (is_refuted() || proof_.open > 0) return finished();
       cut_where_efforts_do_not_join();
     }
@@ -63,8 +59,7 @@ class EffortSearch {
   using Box = std::vector<std::array<double, 2>>;
 
   /// Efforts that seem good at the middle and the corners of a piece: cells that share them need no joining.
-  void begin_with_one_for_all(std::size_t i) {
-    EffortPart& part = stack_.back();
+  void choose_one_for_all(EffortPart& part) {
     const EffortStatics* const statics = chooser_.statics_at(middle(part));
     std::vector<EffortColumns> columns;
     constexpr std::size_t most_corners = 16;
@@ -75,9 +70,9 @@ class EffortSearch {
         const double at = corner == corners ? 0.5 * (part.box[p][0] + part.box[p][1]) : part.box[p][corner >> p & 1];
         point.box[p] = {at, at};
       }
-      if (region_.distance(pieces_[i], point.box) > margin_ + region_.hair()) continue;
+      if (region_.distance(pieces_[part.piece], point.box) > margin_ + region_.hair()) continue;
       if (statics == nullptr || chooser_.statics_at(middle(point)) != statics) return;
-      if (!joint_.enter(*statics, wider_[i].chart, together(point.box, middles(designs_)))) return;
+      if (!joint_.enter(*statics, wider_[part.piece].chart, together(point.box, middles(designs_)))) return;
       columns.push_back(joint_.columns());
     }
     const std::optional<EffortChoice> choice = chooser_.choose(*statics, columns);
@@ -122,7 +117,7 @@ class EffortSearch {
   void visit(const EffortPart& part) {
     const PosePiece& piece = pieces_[part.piece];
     if (region_.distance(piece, part.box) > margin_ + region_.hair()) return;
-    if (out_of_effort()) return leave_open(part);
+    if (!meter_.begin()) return leave_open(part);
     const Pose pose = middle(part);
     const EffortStatics* const statics = chooser_.statics_at(pose);
     if (statics == nullptr) return without_choice(part, pose);
@@ -180,8 +175,8 @@ class EffortSearch {
     const int along = widest(part);
     if (along >= 0 && share(part, static_cast<std::size_t>(along)) > small) return cut(part, along);
     leave_open(part);
-    for (const EffortPart& own : stack_) leave_open(own);
-    stack_.clear();
+    for (const auto& other : left_) leave_open(other.box);
+    left_.clear();
   }
 
   double share(const EffortPart& part, std::size_t p) const {
@@ -212,45 +207,25 @@ class EffortSearch {
     const auto poses = static_cast<int>(part.box.size());
     if (along < poses || part.designs.size() >= most_designs) return cut(part, along < poses ? along : widest(part));
     const auto v = static_cast<std::size_t>(along - poses);
-    PoseBox second = part.designs[design];
-    const double at = 0.5 * (second[v][0] + second[v][1]);
-    part.designs[design][v][1] = at;
-    second[v][0] = at;
-    part.designs.push_back(std::move(second));
-    stack_.push_back(std::move(part));
+    auto [low, high] = halves_of(part.designs[design], v);
+    part.designs[design] = std::move(low);
+    part.designs.push_back(std::move(high));
+    left_.push(std::move(part));
   }
 
   void cut(const EffortPart& part, int along) {
     if (along < 0) return leave_open(part);
-    const auto p = static_cast<std::size_t>(along);
-    const double at = 0.5 * (part.box[p][0] + part.box[p][1]);
     EffortPart first = part, second = part;
-    first.box[p][1] = at;
-    second.box[p][0] = at;
-    stack_.push_back(std::move(second));
-    stack_.push_back(std::move(first));
+    auto [low, high] = halves_of(part.box, static_cast<std::size_t>(along));
+    first.box = std::move(low);
+    second.box = std::move(high);
+    left_.push(std::move(second));
+    left_.push(std::move(first));
   }
 
-  bool out_of_effort() {
-    ++proof_.cells;
-    proof_.out_of_cells = proof_.out_of_cells || proof_.cells > effort_.most_cells;
-    proof_.out_of_time =
-        proof_.out_of_time || (effort_.deadline && std::chrono::steady_clock::now() >= *effort_.deadline);
-    return proof_.out_of_cells || proof_.out_of_time;
-  }
+  void leave_open(const EffortPart& part) { proof_.leave_open(poses_of(part)); }
 
-  void leave_open(const EffortPart& part) {
-    ++proof_.open;
-    widen(PieceBox{&pieces_[part.piece], part.box}, proof_.lower, proof_.upper);
-  }
-
-  PoseBox poses_of(const EffortPart& part) const {
-    Pose lower, upper;
-    widen(PieceBox{&pieces_[part.piece], part.box}, lower, upper);
-    PoseBox box;
-    for (std::size_t c = 0; c < lower.size(); ++c) box.push_back({lower[c], upper[c]});
-    return box;
-  }
+  PoseBox poses_of(const EffortPart& part) const { return pose::poses_of({&pieces_[part.piece], part.box}); }
 
   /// Which other cells each cell touches.
   std::vector<std::vector<std::size_t>> neighbours() const {
@@ -348,12 +323,13 @@ class EffortSearch {
   }
 
   EffortProof finished() {
+    proof_.cost = meter_.cost();
     if (!is_refuted() && proof_.open == 0) proof_.verdict = core::Verdict::verified;
     EffortProof result{std::move(proof_), {}};
     if (result.proof.verdict != core::Verdict::verified) return result;
     for (EffortPart& part : kept_) {
       EffortCell& cell = result.cells.emplace_back();
-      widen(PieceBox{&pieces_[part.piece], part.box}, cell.lower, cell.upper);
+      cell.poses = poses_of(part);
       cell.statics = part.statics;
       cell.choice = std::move(part.choice);
     }
@@ -364,20 +340,21 @@ class EffortSearch {
   const PoseRegion& region_;
   PoseBox designs_;
   double margin_;
-  const PoseEffort& effort_;
+  SearchMeter meter_;
   std::vector<PosePiece> pieces_, wider_;
-  std::vector<EffortPart> stack_, kept_;
+  BoxSearch<EffortPart> left_{SearchOrder::depth_first};
+  std::vector<EffortPart> kept_;
   EffortCellOf<Form> joint_;
-  PoseProof proof_;
+  CoverProof proof_;
 };
 
 }  // namespace
 
 EffortProof prove_with_efforts(EffortChooser& chooser, const PoseRegion& region, const PoseBox& designs, double margin,
-                               const PoseEffort& effort) {
+                               const SearchBudget& budget) {
   const bool products = region.coordinates() + designs.size() <= Affine::curved;
-  return products ? EffortSearch<Affine>(chooser, region, designs, margin, effort).run()
-                  : EffortSearch<FlatAffine>(chooser, region, designs, margin, effort).run();
+  return products ? EffortSearch<Affine>(chooser, region, designs, margin, budget).run()
+                  : EffortSearch<FlatAffine>(chooser, region, designs, margin, budget).run();
 }
 
 }  // namespace clearloci::loci::pose

@@ -50,7 +50,7 @@ struct EffortChoice {
 
 /// A cell that is proven, and what was chosen in it.
 struct EffortCell {
-  Pose lower, upper;
+  PoseBox poses;
   const EffortStatics* statics = nullptr;
   EffortChoice choice;
 };
@@ -75,12 +75,12 @@ class EffortChooser {
 };
 
 struct EffortProof {
-  PoseProof proof;
+  CoverProof proof;
   std::vector<EffortCell> cells;  ///< that cover the task, where it is verified
 };
 
 /// `designs`: coordinates of the statics behind those of the task, over which a choice is the same.
 EffortProof prove_with_efforts(EffortChooser& chooser, const PoseRegion& region, const PoseBox& designs, double margin,
-                               const PoseEffort& effort = {});
+                               const SearchBudget& budget = budget_of_poses);
 
 }  // namespace clearloci::loci::pose

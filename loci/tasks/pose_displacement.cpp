@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <queue>
 
 #include "core/errors.hpp"
 #include "loci/search/search.hpp"
@@ -93,39 +92,35 @@ template <class Cell, class Form>
 class DisplacementSearch {
  public:
   DisplacementSearch(const core::PoseStatics& statics, std::size_t loads, const std::vector<PoseTakeUp>& take_ups,
-                     const PoseRegion& region, double margin, double allowed, double accuracy, const PoseEffort& effort)
+                     const PoseRegion& region, double margin, double allowed, double accuracy,
+                     const SearchBudget& budget)
       : displacement_(statics, loads, take_ups),
         ranged_(loads > 1),
         region_(region),
         reach_(margin + region.hair()),
         allowed_(allowed),
         accuracy_(accuracy),
-        effort_(effort),
+        budget_(budget),
+        meter_(budget),
         cells_([&statics] { return Cell(statics); }),
         pieces_(region.pieces(margin)) {}
 
   PoseDisplacement run() {
-    for (const PosePiece& piece : pieces_) open_.push({infinite, {{&piece, piece.box}, 0, ranged_ ? 1.0 : 0.0}});
-    double left = 0;  // of parts that are as fine as can be
-    while (!open_.empty() && open_.top().most > enough()) {
-      if (found_.cells >= effort_.most_cells) found_.out_of_cells = true;
-      if (effort_.deadline && std::chrono::steady_clock::now() >= *effort_.deadline) found_.out_of_time = true;
-      if (found_.out_of_cells || found_.out_of_time || found_.met > allowed_) break;
+    for (const PosePiece& piece : pieces_) left_.push({{&piece, piece.box}, 0, ranged_ ? 1.0 : 0.0}, -infinite);
+    double most_of_finest = 0;
+    while (!left_.empty() && most_left() > enough() && found_.met <= allowed_) {
       // Where the verdict is known, a closer bound is worth a part of the cells.
-      if (open_.top().most <= allowed_ && found_.cells >= effort_.most_cells / part_of_a_bound) break;
-      left = std::max(left, step());
+      if (most_left() <= allowed_ && meter_.cost().cells >= budget_.most_cells / part_of_a_bound) break;
+      if (!step(most_of_finest)) break;
     }
-    found_.most = std::max(left, open_.empty() ? 0.0 : open_.top().most);
-    for (; !open_.empty() && open_.top().most > allowed_; open_.pop()) leave_open(open_.top().loaded.part);
+    found_.most = std::max(most_of_finest, left_.empty() ? 0.0 : most_left());
+    for (const auto& [key, loaded] : left_)
+      if (-key > allowed_) leave_open(loaded.part);
+    found_.proof.cost = meter_.cost();
     return found_;
   }
 
  private:
-  struct Item {
-    double most = infinite;
-    LoadedPart loaded;
-    bool operator<(const Item& other) const { return most < other.most; }
-  };
   /// What is found of a part.
   struct Seen {
     bool inside = false;  ///< poses of the task, that may be assembled
@@ -135,55 +130,48 @@ class DisplacementSearch {
     bool cut_loads = false;
   };
 
+  double most_left() const { return -left_.next().key; }
+
   double enough() const {
     const double near = found_.met * (1 + accuracy_);
     return found_.met <= allowed_ ? std::min(near, allowed_) : near;
   }
 
-  /// The parts of the largest bounds, looked at side by side; what is merged of them does not depend on threads.
-  double step() {
+  /// The parts of the largest bounds, looked at side by side; what is merged of them does not depend on threads. False
+  /// where the budget is spent.
+  bool step(double& most_of_finest) {
     constexpr std::size_t at_once = 64;
-    std::vector<Item> items;
-    while (!open_.empty() && items.size() < at_once && open_.top().most > enough()) {
-      items.push_back(open_.top());
-      open_.pop();
-    }
-    found_.cells += static_cast<long>(items.size());
-    std::vector<Seen> seen(items.size());
-    run_in_order(items.size(), [&](std::size_t i) { seen[i] = look(cells_.local(), items[i].loaded); });
-    double left = 0;
-    for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!meter_.begin(0)) return false;
+    const auto some = left_.take(at_once, -enough());
+    meter_.add(static_cast<long>(some.size()));
+    std::vector<Seen> seen(some.size());
+    run_in_order(some.size(), [&](std::size_t i) { seen[i] = look(cells_.local(), some[i].box); });
+    for (std::size_t i = 0; i < some.size(); ++i) {
       const Seen& own = seen[i];
       if (!own.inside) continue;
-      const LoadedPart& loaded = items[i].loaded;
+      const LoadedPart& loaded = some[i].box;
       if (own.met && *own.met > found_.met) {
         found_.met = *own.met;
         found_.at = pose_of(loaded.part);
         found_.load = 0.5 * (loaded.from + loaded.to);
       }
-      const double most = std::min(own.most, items[i].most);
+      const double most = std::min(own.most, -some[i].key);
       if (own.cut_loads) {
         const double middle = 0.5 * (loaded.from + loaded.to);
-        open_.push({most, {loaded.part, loaded.from, middle}});
-        open_.push({most, {loaded.part, middle, loaded.to}});
+        left_.push({loaded.part, loaded.from, middle}, -most);
+        left_.push({loaded.part, middle, loaded.to}, -most);
       } else if (own.along >= 0) {
-        const auto along = static_cast<std::size_t>(own.along);
-        const auto& [low, high] = loaded.part.box[along];
-        auto [first, second] = halves(loaded.part, along, 0.5 * (low + high));
-        open_.push({most, {std::move(first), loaded.from, loaded.to}});
-        open_.push({most, {std::move(second), loaded.from, loaded.to}});
+        for (PieceBox& half : halves_of(loaded.part, static_cast<std::size_t>(own.along)))
+          left_.push({std::move(half), loaded.from, loaded.to}, -most);
       } else {
-        left = std::max(left, most);
+        most_of_finest = std::max(most_of_finest, most);
         if (most > allowed_) leave_open(loaded.part);
       }
     }
-    return left;
+    return true;
   }
 
-  void leave_open(const PieceBox& part) {
-    ++found_.open;
-    widen(part, found_.lower, found_.upper);
-  }
+  void leave_open(const PieceBox& part) { found_.proof.leave_open(poses_of(part)); }
 
   Seen look(Cell& cell, const LoadedPart& loaded) const {
     const PieceBox& part = loaded.part;
@@ -239,10 +227,11 @@ class DisplacementSearch {
   bool ranged_;
   const PoseRegion& region_;
   double reach_, allowed_, accuracy_;
-  const PoseEffort& effort_;
+  const SearchBudget& budget_;
+  SearchMeter meter_;
   tbb::enumerable_thread_specific<Cell> cells_;
   std::vector<PosePiece> pieces_;
-  std::priority_queue<Item> open_;
+  BoxSearch<LoadedPart> left_{SearchOrder::least_key_first};  ///< keys: bounds, negated
   PoseDisplacement found_;
 };
 
@@ -250,14 +239,14 @@ class DisplacementSearch {
 
 PoseDisplacement most_displaced(const core::PoseStatics& statics, std::size_t loads,
                                 const std::vector<PoseTakeUp>& take_ups, const PoseRegion& region, double margin,
-                                double allowed, double accuracy, const PoseEffort& effort) {
+                                double allowed, double accuracy, const SearchBudget& budget) {
   core::ensure(statics.demands.empty() && loads >= 1 && loads <= 2 && loads < statics.loads,
                "loads, and unit forces behind them");
   return with_products(region)
-             ? DisplacementSearch<PoseCell, Affine>(statics, loads, take_ups, region, margin, allowed, accuracy, effort)
+             ? DisplacementSearch<PoseCell, Affine>(statics, loads, take_ups, region, margin, allowed, accuracy, budget)
                    .run()
              : DisplacementSearch<PoseCellOf<FlatAffine>, FlatAffine>(statics, loads, take_ups, region, margin, allowed,
-                                                                      accuracy, effort)
+                                                                      accuracy, budget)
                    .run();
 }
 

@@ -24,10 +24,7 @@ struct PoseDisplacement {
   double met = 0;   ///< about as far as the pose `at` is under the load `load`, from the first to the last
   Pose at;
   double load = 0;
-  long cells = 0;
-  std::size_t open = 0;  ///< cells whose bound is above what is allowed
-  Pose lower, upper;     ///< around them
-  bool out_of_time = false, out_of_cells = false;
+  CoverProof proof = {};  ///< that it is not above what is allowed
 };
 
 /// `statics`: without demands, under `loads` loads, one or two, and the unit forces. The bound is cut down until it is
@@ -35,6 +32,6 @@ struct PoseDisplacement {
 /// more was met than is allowed. Poses that cannot be assembled or at which |A| may vanish leave it infinite.
 PoseDisplacement most_displaced(const core::PoseStatics& statics, std::size_t loads,
                                 const std::vector<PoseTakeUp>& take_ups, const PoseRegion& region, double margin,
-                                double allowed, double accuracy, const PoseEffort& effort = {});
+                                double allowed, double accuracy, const SearchBudget& budget = budget_of_poses);
 
 }  // namespace clearloci::loci::pose

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -21,23 +21,20 @@ struct PieceBox {
 
 inline Pose pose_of(const PieceBox& part) { return part.piece->chart.at(middle_of(part.box)); }
 
-/// Makes a box, empty at first, hold a part.
-inline void widen(const PieceBox& part, Pose& lower, Pose& upper) {
+/// The box around the poses of a part.
+inline PoseBox poses_of(const PieceBox& part) {
   const PoseChart& chart = part.piece->chart;
+  PoseBox poses;
   for (std::size_t c = 0; c < chart.base.size(); ++c) {
-    double low = chart.base[c], high = low;
+    auto& [low, high] = poses.emplace_back();
+    low = high = chart.base[c];
     for (std::size_t p = 0; p < part.box.size(); ++p) {
       const double a = chart.ways[p][c] * part.box[p][0], b = chart.ways[p][c] * part.box[p][1];
       low += std::min(a, b);
       high += std::max(a, b);
     }
-    if (c == lower.size()) {
-      lower.push_back(low);
-      upper.push_back(high);
-    }
-    lower[c] = std::min(lower[c], low);
-    upper[c] = std::max(upper[c], high);
   }
+  return poses;
 }
 
 /// The parameter along which a cut helps most; -1: all are too fine. One that is left far behind the others is cut
@@ -62,15 +59,10 @@ int chosen(const Cell& cell, const PieceBox& part) {
   return best;
 }
 
-inline std::pair<PieceBox, PieceBox> halves(const PieceBox& part, std::size_t along, double at) {
-  std::pair<PieceBox, PieceBox> two{part, part};
-  two.first.box[along][1] = at;
-  two.second.box[along][0] = at;
-  return two;
-}
-
-inline bool over(const PoseEffort& effort, long cells) {
-  return cells >= effort.most_cells || (effort.deadline && std::chrono::steady_clock::now() >= *effort.deadline);
+using loci::halves_of;
+inline std::array<PieceBox, 2> halves_of(const PieceBox& part, std::size_t along) {
+  auto [low, high] = halves_of(part.box, along);
+  return {{{part.piece, std::move(low)}, {part.piece, std::move(high)}}};
 }
 
 /// Whether products of coordinates pay: where every coordinate has them. Of six they are but a few, take as many cells

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <deque>
+#include <limits>
 #include <map>
 #include <mutex>
-#include <queue>
 #include <utility>
 
 #include "loci/search/search.hpp"
@@ -82,51 +81,37 @@ template <class Cell>
 class Search {
  public:
   Search(const core::PoseStatics& statics, const PoseRegion& region, double margin, const PoseRefuted& refuted,
-         const PoseEffort& effort)
+         const SearchBudget& budget)
       : statics_(statics),
         region_(region),
         margin_(margin),
         reach_(margin + region.hair()),
         refuted_(refuted),
-        effort_(effort),
+        meter_(budget),
         signs_(statics),
         pieces_(region.pieces(margin)) {}
 
-  PoseProof run() {
+  CoverProof run() {
     Cell cell(statics_);
     for (const Pose& pose : region_.samples())
       if (look(cell, pose)) return finished();
-    std::deque<PieceBox> parts;
-    for (const PosePiece& piece : pieces_) parts.push_back({&piece, piece.box});
-    while (!parts.empty() && parts.size() < enough_parts && !stopped_) {
-      const PieceBox part = std::move(parts.front());
-      parts.pop_front();
-      std::vector<PieceBox> left;
-      visit(cell, part, left);
-      for (PieceBox& own : left) parts.push_back(std::move(own));
-    }
+    BoxSearch<PieceBox> parts(SearchOrder::breadth_first);
+    for (const PosePiece& piece : pieces_) parts.push({&piece, piece.box});
+    while (!parts.empty() && parts.size() < enough_parts && !meter_.is_stopped()) visit(cell, parts.take(), parts);
     tbb::enumerable_thread_specific<Cell> cells([&] { return Cell(statics_); });
-    run_in_order(parts.size(), [&](std::size_t i) {
-      Cell& own = cells.local();
-      own.forget();
-      std::vector<PieceBox> stack = {parts[i]};
-      while (!stack.empty()) {
-        const PieceBox part = std::move(stack.back());
-        stack.pop_back();
-        if (stopped_) {
-          leave_open(part);
-          continue;
-        }
-        visit(own, part, stack);
-      }
+    look_in_parts(parts.size(), 1, cells, [&](Cell& own, std::size_t i) {
+      BoxSearch<PieceBox> left(SearchOrder::depth_first);
+      left.push(std::move(parts[i].box));
+      while (!left.empty() && !meter_.is_stopped()) visit(own, left.take(), left);
+      for (const auto& part : left) leave_open(part.box);
     });
     return finished();
   }
 
  private:
-  void visit(Cell& cell, const PieceBox& part, std::vector<PieceBox>& left) {
+  void visit(Cell& cell, const PieceBox& part, BoxSearch<PieceBox>& left) {
     if (region_.distance(*part.piece, part.box) > reach_) return;
-    if (out_of_effort()) return leave_open(part);
+    if (!meter_.begin()) return leave_open(part);
     const CellAnswers::State state = cell.enter(part.piece->chart, part.box);
     if (state == CellAnswers::State::proven) return;
     const int along = chosen(cell, part);
@@ -137,41 +122,28 @@ class Search {
       if (region_.distance(pose) <= margin_ * (1 - 1e-9) + region_.hair() && look(cell, pose)) return;
     }
     if (fine) return leave_open(part);
-    const double at =
-        0.5 * (part.box[static_cast<std::size_t>(along)][0] + part.box[static_cast<std::size_t>(along)][1]);
-    auto [low, high] = halves(part, static_cast<std::size_t>(along), at);
-    left.push_back(std::move(high));
-    left.push_back(std::move(low));
-  }
-
-  bool out_of_effort() {
-    const long own = ++cells_;
-    if (own > effort_.most_cells) out_of_cells_ = true;
-    constexpr long between_clocks = 64;
-    if (effort_.deadline && own % between_clocks == 0 && std::chrono::steady_clock::now() >= *effort_.deadline)
-      out_of_time_ = true;
-    if (out_of_cells_ || out_of_time_) stopped_ = true;
-    return stopped_;
+    auto [low, high] = halves_of(part, static_cast<std::size_t>(along));
+    left.push(std::move(high));
+    left.push(std::move(low));
   }
 
   void leave_open(const PieceBox& part) {
     const std::lock_guard lock(mutex_);
-    ++open_;
-    widen(part, lower_, upper_);
+    proof_.leave_open(poses_of(part));
     constexpr std::size_t most_open = 1000;  // the search ends where it stays open again and again
-    if (open_ >= most_open) stopped_ = true;
+    if (proof_.open >= most_open) meter_.stop();
   }
 
   /// Whether the task is refuted by what a pose looks like.
   bool look(Cell& cell, const Pose& pose) {
     for (const PoseSuspect& suspect : signs_.seen(cell, pose)) {
       const std::lock_guard lock(mutex_);
-      if (refuted_found_) return true;
+      if (is_refuted()) return true;
       int& vain = in_vain_[{suspect.kind, suspect.demand}];
       if (vain >= most_in_vain) continue;
       if (refuted_(suspect)) {
-        refuted_found_ = true;
-        stopped_ = true;
+        proof_.verdict = core::Verdict::refuted;
+        meter_.stop();
         return true;
       }
       ++vain;
@@ -179,95 +151,33 @@ class Search {
     return false;
   }
 
-  PoseProof finished() {
-    PoseProof proof;
-    proof.cells = cells_;
-    proof.open = open_;
-    proof.lower = lower_;
-    proof.upper = upper_;
-    proof.out_of_time = out_of_time_;
-    proof.out_of_cells = out_of_cells_;
-    proof.verdict = refuted_found_ ? core::Verdict::refuted
-                    : open_ == 0   ? core::Verdict::verified
-                                   : core::Verdict::undecided;
-    return proof;
+  bool is_refuted() const { return proof_.verdict == core::Verdict::refuted; }
+
+  CoverProof finished() {
+    proof_.cost = meter_.cost();
+    if (!is_refuted() && proof_.open == 0) proof_.verdict = core::Verdict::verified;
+    return std::move(proof_);
   }
 
   const core::PoseStatics& statics_;
   const PoseRegion& region_;
   double margin_, reach_;
   const PoseRefuted& refuted_;
-  const PoseEffort& effort_;
+  SearchMeter meter_;
   Signs signs_;
   std::vector<PosePiece> pieces_;
   std::mutex mutex_;
-  std::atomic<long> cells_ = 0;
   std::atomic<int> doubts_ = 0;
-  std::atomic<bool> stopped_ = false, out_of_time_ = false, out_of_cells_ = false;
-  bool refuted_found_ = false;
   std::map<std::pair<Doubt, int>, int> in_vain_;
-  std::size_t open_ = 0;
-  Pose lower_, upper_;
-};
-
-/// Parts by a number, the least first, looked at some at a time on all cores until `done`.
-template <class Cell, class Better>
-class BestFirst {
- public:
-  struct Item {
-    double key = 0;
-    PieceBox part;
-  };
-  explicit BestFirst(const core::PoseStatics& statics) : cells_([&statics] { return Cell(statics); }) {}
-
-  void push(double key, PieceBox part) { queue_.push({key, std::move(part)}); }
-  bool empty() const { return queue_.empty(); }
-  double least() const { return queue_.top().key; }
-  long looked_at() const { return looked_at_; }
-
-  /// `look(cell, item, out)`: what is to be looked at further.
-  template <class Look>
-  void step(const Look& look) {
-    constexpr std::size_t at_once = 64, at_a_time = 8;
-    std::vector<Item> items;
-    while (!queue_.empty() && items.size() < at_once) {
-      items.push_back(queue_.top());
-      queue_.pop();
-    }
-    looked_at_ += static_cast<long>(items.size());
-    std::vector<std::vector<Item>> found(items.size());
-    run_in_order((items.size() + at_a_time - 1) / at_a_time, [&](std::size_t part) {
-      Cell& cell = cells_.local();
-      cell.forget();
-      for (std::size_t i = part * at_a_time; i < std::min(items.size(), (part + 1) * at_a_time); ++i)
-        look(cell, items[i], found[i]);
-    });
-    for (std::vector<Item>& own : found)
-      for (Item& item : own) queue_.push(std::move(item));
-  }
-
- private:
-  std::priority_queue<Item, std::vector<Item>, Better> queue_;
-  tbb::enumerable_thread_specific<Cell> cells_;
-  long looked_at_ = 0;
-};
-
-struct LargerKey {
-  template <class Item>
-  bool operator()(const Item& a, const Item& b) const {
-    return a.key > b.key;
-  }
+  CoverProof proof_;
 };
 
 template <class Cell>
 std::vector<double> least_by(const core::PoseStatics& statics, const PoseRegion& region, const std::vector<double>& met,
-                             double accuracy, const PoseEffort& effort) {
+                             double accuracy, const SearchBudget& budget) {
   const std::vector<PosePiece> pieces = region.pieces(0);
   const std::size_t demands = statics.demands.size();
   std::vector<double> proven = met;
-  // A cell is cut until every reaction in it has nearly the least that was met anywhere.
-  using Queue = BestFirst<Cell, LargerKey>;
-  Queue queue(statics);
   const auto share = [&](const std::vector<double>& least) {
     double worst = 1;
     for (std::size_t d = 0; d < demands; ++d)
@@ -276,27 +186,37 @@ std::vector<double> least_by(const core::PoseStatics& statics, const PoseRegion&
   };
   std::mutex mutex;
   std::vector<double> done = met;  // of the cells that are not looked at further
-  for (const PosePiece& piece : pieces) queue.push(0, {&piece, piece.box});
   const auto keep = [&](const std::vector<double>& least) {
     const std::lock_guard lock(mutex);
     for (std::size_t d = 0; d < demands; ++d) done[d] = std::min(done[d], least[d]);
   };
-  while (!queue.empty()) {
-    const bool last = over(effort, queue.looked_at());
-    queue.step([&](Cell& cell, const typename Queue::Item& item, std::vector<typename Queue::Item>& found) {
-      const PieceBox& part = item.part;
+  // A cell is cut until every reaction in it has nearly the least that was met anywhere.
+  SearchMeter meter(budget);
+  BoxSearch<PieceBox> left(SearchOrder::least_key_first);
+  for (const PosePiece& piece : pieces) left.push({&piece, piece.box});
+  tbb::enumerable_thread_specific<Cell> cells([&] { return Cell(statics); });
+  while (!left.empty()) {
+    constexpr std::size_t at_once = 64, at_a_time = 8;
+    const auto some = left.take(at_once, std::numeric_limits<double>::infinity());
+    const bool last = !meter.begin(static_cast<long>(some.size()));
+    struct Cut {
+      int along = -1;
+      double share = 0;
+    };
+    std::vector<Cut> cuts(some.size());
+    look_in_parts(some.size(), at_a_time, cells, [&](Cell& cell, std::size_t i) {
+      const PieceBox& part = some[i].box;
       if (region.distance(*part.piece, part.box) > region.hair()) return;
       const bool good = cell.enter(part.piece->chart, part.box) == CellAnswers::State::proven;
       const std::vector<double> least = good ? cell.least_sizes() : std::vector<double>(demands, 0.0);
-      const double own = share(least);
-      const int along = last || own >= 1 - accuracy ? -1 : chosen(cell, part);
-      if (along < 0) return keep(least);
-      const auto parameter = static_cast<std::size_t>(along);
-      const double at = 0.5 * (part.box[parameter][0] + part.box[parameter][1]);
-      auto [low, high] = halves(part, parameter, at);
-      found.push_back({own, std::move(low)});
-      found.push_back({own, std::move(high)});
+      cuts[i].share = share(least);
+      if (!last && cuts[i].share < 1 - accuracy) cuts[i].along = chosen(cell, part);
+      if (cuts[i].along < 0) keep(least);
     });
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (cuts[i].along >= 0)
+        for (PieceBox& half : halves_of(some[i].box, static_cast<std::size_t>(cuts[i].along)))
+          left.push(std::move(half), cuts[i].share);
   }
   for (std::size_t d = 0; d < demands; ++d) proven[d] = std::max(0.0, std::min(proven[d], done[d]));
   return proven;
@@ -304,14 +224,14 @@ std::vector<double> least_by(const core::PoseStatics& statics, const PoseRegion&
 
 }  // namespace
 
-PoseProof prove_poses(const core::PoseStatics& statics, const PoseRegion& region, double margin,
-                      const PoseRefuted& refuted, const PoseEffort& effort) {
-  return with_products(region) ? Search<PoseCell>(statics, region, margin, refuted, effort).run()
-                               : Search<PoseCellOf<FlatAffine>>(statics, region, margin, refuted, effort).run();
+CoverProof prove_poses(const core::PoseStatics& statics, const PoseRegion& region, double margin,
+                       const PoseRefuted& refuted, const SearchBudget& budget) {
+  return with_products(region) ? Search<PoseCell>(statics, region, margin, refuted, budget).run()
+                               : Search<PoseCellOf<FlatAffine>>(statics, region, margin, refuted, budget).run();
 }
 
 double pose_clearance(const core::PoseStatics& statics, const PoseRegion& region, double from, double limit,
-                      double accuracy, const PoseEffort& effort) {
+                      double accuracy, const SearchBudget& budget) {
   // What looks like failing is enough here: it ends an attempt.
   const PoseRefuted any = [](const PoseSuspect&) { return true; };
   constexpr int most_attempts = 40;
@@ -319,12 +239,12 @@ double pose_clearance(const core::PoseStatics& statics, const PoseRegion& region
   double proven = from, too_far = limit, part = 1.0 / 16;
   long cells = 0;
   for (int attempt = 0; attempt < most_attempts && proven < (1 - accuracy) * too_far; ++attempt) {
-    PoseEffort left = effort;
+    SearchBudget left = budget;
     left.most_cells -= cells;
-    if (left.most_cells <= 0 || (effort.deadline && std::chrono::steady_clock::now() >= *effort.deadline)) break;
+    if (left.most_cells <= 0 || left.is_out_of_time()) break;
     const double margin = proven + part * (too_far - proven);
-    const PoseProof proof = prove_poses(statics, region, margin, any, left);
-    cells += proof.cells;
+    const CoverProof proof = prove_poses(statics, region, margin, any, left);
+    cells += proof.cost.cells;
     (proof.verdict == core::Verdict::verified ? proven : too_far) = margin;
     part = std::min(0.5, 2 * part);
   }
@@ -332,9 +252,9 @@ double pose_clearance(const core::PoseStatics& statics, const PoseRegion& region
 }
 
 std::vector<double> least_sizes(const core::PoseStatics& statics, const PoseRegion& region,
-                                const std::vector<double>& met, double accuracy, const PoseEffort& effort) {
-  return with_products(region) ? least_by<PoseCell>(statics, region, met, accuracy, effort)
-                               : least_by<PoseCellOf<FlatAffine>>(statics, region, met, accuracy, effort);
+                                const std::vector<double>& met, double accuracy, const SearchBudget& budget) {
+  return with_products(region) ? least_by<PoseCell>(statics, region, met, accuracy, budget)
+                               : least_by<PoseCellOf<FlatAffine>>(statics, region, met, accuracy, budget);
 }
 
 }  // namespace clearloci::loci::pose

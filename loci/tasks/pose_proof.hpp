@@ -2,12 +2,12 @@
 // proven (pose_cell.hpp), on all cores. Poses at which it may fail are handed to a witness.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "loci/sheet/sheet.hpp"
+#include "loci/tasks/cover_proof.hpp"
 #include "loci/tasks/pose_region.hpp"
 
 namespace clearloci::loci::pose {
@@ -23,29 +23,19 @@ struct PoseSuspect {
 /// Whether a suspect fails for certain. Called from one thread at a time.
 using PoseRefuted = std::function<bool(const PoseSuspect&)>;
 
-struct PoseEffort {
-  long most_cells = 1'500'000;
-  std::optional<std::chrono::steady_clock::time_point> deadline = {};
-};
+inline constexpr SearchBudget budget_of_poses = {.most_cells = 1'500'000};
 
-struct PoseProof {
-  core::Verdict verdict = core::Verdict::undecided;
-  long cells = 0;
-  std::size_t open = 0;
-  Pose lower, upper;  ///< around the cells that stayed open
-  bool out_of_time = false, out_of_cells = false;
-};
-
-PoseProof prove_poses(const core::PoseStatics& statics, const PoseRegion& region, double margin,
-                      const PoseRefuted& refuted, const PoseEffort& effort = {});
+CoverProof prove_poses(const core::PoseStatics& statics, const PoseRegion& region, double margin,
+                       const PoseRefuted& refuted, const SearchBudget& budget = budget_of_poses);
 
 /// How far around the task everything holds that holds in it, proven, up to `limit`: to `accuracy` of it where the
 /// cells last. Requires that the task is verified with the margin `from`.
 double pose_clearance(const core::PoseStatics& statics, const PoseRegion& region, double from, double limit,
-                      double accuracy, const PoseEffort& effort = {});
+                      double accuracy, const SearchBudget& budget = budget_of_poses);
 
 /// What every reaction has at least over the task, proven: to `accuracy` where the cells last. One a demand.
 std::vector<double> least_sizes(const core::PoseStatics& statics, const PoseRegion& region,
-                                const std::vector<double>& met, double accuracy, const PoseEffort& effort = {});
+                                const std::vector<double>& met, double accuracy,
+                                const SearchBudget& budget = budget_of_poses);
 
 }  // namespace clearloci::loci::pose

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include "loci/curves/curves.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -173,8 +173,6 @@ class Clearance {
 struct TranslationCell {
   Point2 middle{}, half{};
   double clearance = 0;  // at the middle
-  double key = 0;        // the best that the cell can hold; the least comes first
-  bool operator<(const TranslationCell& other) const { return key > other.key; }
 };
 
 /// The same direction, less far: bisection between the fit and no move at all.
@@ -221,25 +219,25 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
   const auto to_box = [&](const Point2& by) {
     return std::min({all.half[0] - std::abs(by[0] - all.middle[0]), all.half[1] - std::abs(by[1] - all.middle[1])});
   };
-  const auto finish = [&](TranslationCell& cell) {
+  // By the best that a cell can hold.
+  BoxSearch<TranslationCell> left(SearchOrder::least_key_first);
+  const auto push = [&](TranslationCell cell) {
     cell.clearance = clearance_at(cell.middle);
     if (goal == core::TaskFit::best) cell.clearance = std::min(cell.clearance, to_box(cell.middle));
     const double reach = std::hypot(cell.half[0], cell.half[1]);
     const double shortest = std::hypot(std::max(0.0, std::abs(cell.middle[0]) - cell.half[0]),
                                        std::max(0.0, std::abs(cell.middle[1]) - cell.half[1]));
-    cell.key = goal == core::TaskFit::nearest ? shortest : -(cell.clearance + reach);
-    return cell.clearance + reach >= clearance;
+    if (cell.clearance + reach >= clearance)
+      left.push(cell, goal == core::TaskFit::nearest ? shortest : -(cell.clearance + reach));
   };
-  std::priority_queue<TranslationCell> open;
-  if (finish(all)) open.push(all);
+  push(all);
   const double finest = resolution * size;
   // What the search has seen to be good enough, best first; asked when no open cell can hold better.
-  std::priority_queue<TranslationCell> found;
-  while (!open.empty() || !found.empty()) {
+  BoxSearch<TranslationCell> found(SearchOrder::least_key_first);
+  while (!left.empty() || !found.empty()) {
     pulse();
-    if (!found.empty() && (open.empty() || found.top().key <= open.top().key)) {
-      const TranslationCell best = found.top();
-      found.pop();
+    if (!found.empty() && (left.empty() || found.next().key <= left.next().key)) {
+      const TranslationCell best = found.take();
       // The nearest point of a cell that is good enough all over; else the half widths are 0.
       Fit fit = {best.middle, best.clearance};
       for (std::size_t c = 0; c < 2; ++c)
@@ -247,11 +245,11 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
       if (!accept(fit)) continue;
       return goal == core::TaskFit::nearest ? shortened(fit, clearance_at, clearance, accept) : fit;
     }
-    const TranslationCell cell = open.top();
-    open.pop();
+    const double key = left.next().key;
+    const TranslationCell cell = left.take();
     const double reach = std::hypot(cell.half[0], cell.half[1]);
     if (goal == core::TaskFit::nearest && cell.clearance - slack(cell.clearance) - reach > clearance) {
-      found.push(cell);
+      found.push(cell, key);
       continue;
     }
     // The largest clearance is often had along a whole line: it is not worth telling apart its last fifth of a percent.
@@ -259,8 +257,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
       if (cell.clearance - slack(cell.clearance) <= clearance) continue;
       TranslationCell place = cell;
       place.half = {0, 0};
-      place.key = goal == core::TaskFit::nearest ? std::hypot(cell.middle[0], cell.middle[1]) : -cell.clearance;
-      found.push(place);
+      found.push(place, goal == core::TaskFit::nearest ? std::hypot(cell.middle[0], cell.middle[1]) : -cell.clearance);
       continue;
     }
     const std::size_t along = cell.half[0] >= cell.half[1] ? 0 : 1;
@@ -268,7 +265,7 @@ std::optional<Fit> fit_task(const std::vector<const LocusMap*>& maps, const core
       TranslationCell part = cell;
       part.half[along] /= 2;
       part.middle[along] += side * cell.half[along];
-      if (finish(part)) open.push(part);
+      push(part);
     }
   }
   return std::nullopt;

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "core/interval.hpp"
+#include "loci/tasks/cover_proof.hpp"
 #include "loci/tasks/task_region.hpp"
 
 namespace clearloci::loci {
@@ -25,12 +24,6 @@ inline double hair_of(const TaskRegion& region, double margin) {
          (size_of(region, margin) + std::max(std::abs(region.upper()[0]), std::abs(region.upper()[1])));
 }
 
-template <class Effort>
-bool out_of_time(const Effort& effort, int cells) {
-  constexpr int between_looks = 64;
-  return effort.deadline && cells % between_looks == 0 && std::chrono::steady_clock::now() >= *effort.deadline;
-}
-
 /// A pose of the cell that belongs to the task or its margin.
 inline std::optional<core::Point2> pose_within(const TaskRegion& region, double margin, const core::Interval& x,
                                                const core::Interval& y) {
@@ -43,15 +36,8 @@ inline std::optional<core::Point2> pose_within(const TaskRegion& region, double 
   return at;
 }
 
-/// Counts a cell that stays open, and widens the box around these.
-template <class Proof>
-void leave_open(Proof& proof, const core::Interval& x, const core::Interval& y) {
-  const bool first = proof.open++ == 0;
-  const std::array<core::Interval, 2> cell = {x, y};
-  for (std::size_t c = 0; c < 2; ++c) {
-    proof.lower[c] = first ? cell[c].lower() : std::min(proof.lower[c], cell[c].lower());
-    proof.upper[c] = first ? cell[c].upper() : std::max(proof.upper[c], cell[c].upper());
-  }
+inline void leave_open(CoverProof& proof, const core::Interval& x, const core::Interval& y) {
+  proof.leave_open({{x.lower(), x.upper()}, {y.lower(), y.upper()}});
 }
 
 }  // namespace clearloci::loci

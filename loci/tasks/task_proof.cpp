@@ -32,17 +32,12 @@ struct QueuedCell {
 
   Point2 middle() const { return {x.middle(), y.middle()}; }
   double width() const { return std::max(x.width(), y.width()); }
-  /// The half nearer to square.
+  /// Along the longer side.
   std::array<QueuedCell, 2> halves() const {
-    std::array<QueuedCell, 2> parts = {*this, *this};
     const bool along_x = x.width() >= y.width();
-    const double middle = along_x ? x.middle() : y.middle();
-    (along_x ? parts[0].x : parts[0].y) = Interval((along_x ? x : y).lower(), middle);
-    (along_x ? parts[1].x : parts[1].y) = Interval(middle, (along_x ? x : y).upper());
-    for (QueuedCell& part : parts) {
-      part.depth = depth + 1;
-      part.judgement.reset();
-    }
+    std::array<QueuedCell, 2> parts;
+    for (std::size_t half = 0; half < 2; ++half)
+      parts[half] = {along_x ? halves_of(x)[half] : x, along_x ? y : halves_of(y)[half], depth + 1, distance};
     return parts;
   }
 };
@@ -167,9 +162,9 @@ class Refutation {
 
 }  // namespace
 
-TaskProof prove_task(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
-                     double margin, const RefutedAt& refuted_at, const TaskEffort& effort) {
-  TaskProof proof;
+CoverProof prove_task(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                      double margin, const RefutedAt& refuted_at, const SearchBudget& budget) {
+  CoverProof proof;
   Refutation refutation(conditions, mode, region, margin, refuted_at);
   if (refutation.by_samples()) {
     proof.verdict = core::Verdict::refuted;
@@ -179,51 +174,41 @@ TaskProof prove_task(const core::TaskConditions& conditions, const core::Working
   const double size = size_of(region, margin), reach = margin + hair_of(region, margin);
   // The largest first: a part of the task that fails is met on large cells, before doubtful places are looked at
   // closely.
-  std::deque<QueuedCell> open = {{Interval(region.lower()[0] - reach, region.upper()[0] + reach),
-                                  Interval(region.lower()[1] - reach, region.upper()[1] + reach)}};
-  const auto left_open = [&](const QueuedCell& cell) { leave_open(proof, cell.x, cell.y); };
-  // Several at a time, as they stand in the queue.
-  constexpr std::size_t cells_at_a_time = 32;
-  const auto judge_ahead = [&] {
-    std::vector<QueuedCell*> next;
-    std::vector<std::array<Interval, 2>> places;
-    for (std::size_t i = 0; i < open.size() && next.size() < cells_at_a_time; ++i) {
-      if (region.distance(open[i].x, open[i].y) > reach) continue;
-      next.push_back(&open[i]);
-      places.push_back({open[i].x, open[i].y});
-    }
-    const std::vector<TaskCell::Judgement> judgements = judge.judge(places);
-    for (std::size_t i = 0; i < next.size(); ++i) next[i]->judgement = judgements[i];
+  SearchMeter meter(budget);
+  BoxSearch<QueuedCell> left(SearchOrder::breadth_first);
+  const auto push = [&](QueuedCell cell) {
+    if (region.distance(cell.x, cell.y) <= reach) left.push(std::move(cell));
   };
-  int proven = 0;
-  while (!open.empty()) {
-    if (!open.front().judgement && region.distance(open.front().x, open.front().y) <= reach) judge_ahead();
-    const QueuedCell cell = open.front();
-    if (region.distance(cell.x, cell.y) > reach) {
-      open.pop_front();
+  push({Interval(region.lower()[0] - reach, region.upper()[0] + reach),
+        Interval(region.lower()[1] - reach, region.upper()[1] + reach)});
+  // Several at a time, as they stand in the queue.
+  const auto judge_ahead = [&] {
+    constexpr std::size_t cells_at_a_time = 32;
+    std::vector<std::array<Interval, 2>> places;
+    for (std::size_t i = 0; i < std::min(left.size(), cells_at_a_time); ++i)
+      places.push_back({left[i].box.x, left[i].box.y});
+    const std::vector<TaskCell::Judgement> judgements = judge.judge(places);
+    for (std::size_t i = 0; i < judgements.size(); ++i) left[i].box.judgement = judgements[i];
+  };
+  while (!left.empty() && meter.begin()) {
+    if (!left.next().box.judgement) judge_ahead();
+    const QueuedCell cell = left.take();
+    if (cell.judgement->state == TaskCell::State::proven) {
+      meter.prove();
       continue;
     }
-    proof.out_of_cells = proof.cells >= (proven == 0 ? effort.most_cells_in_vain : effort.most_cells);
-    proof.out_of_time = out_of_time(effort, proof.cells);
-    if (proof.out_of_cells || proof.out_of_time) break;
-    open.pop_front();
-    ++proof.cells;
-    const TaskCell::Judgement judgement = *cell.judgement;
-    if (judgement.state == TaskCell::State::proven) {
-      ++proven;
-      continue;
-    }
-    if (refutation.by_cell(cell, judgement.state, judgement.unmet)) {
+    if (refutation.by_cell(cell, cell.judgement->state, cell.judgement->unmet)) {
       proof.verdict = core::Verdict::refuted;
+      proof.cost = meter.cost();
       return proof;
     }
     if (cell.width() < finest * size)
-      left_open(cell);
+      leave_open(proof, cell.x, cell.y);
     else
-      for (const QueuedCell& half : cell.halves()) open.push_back(half);
+      for (const QueuedCell& half : cell.halves()) push(half);
   }
-  for (const QueuedCell& cell : open)
-    if (region.distance(cell.x, cell.y) <= reach) left_open(cell);
+  for (const auto& [key, cell] : left) leave_open(proof, cell.x, cell.y);
+  proof.cost = meter.cost();
   if (proof.open == 0) proof.verdict = core::Verdict::verified;
   return proof;
 }
@@ -313,7 +298,7 @@ class Reaches {
 }  // namespace
 
 TaskClearance proven_clearance(const core::TaskConditions& conditions, const core::WorkingMode& mode,
-                               const TaskRegion& region, double from, double limit, const TaskEffort& effort) {
+                               const TaskRegion& region, double from, double limit, const SearchBudget& budget) {
   // What ends the margin is told apart to this part of it; where bounds tell what does, they tell it to that part.
   constexpr double resolution = 1e-4, known = 1e-5;
   // Cells this wide, as a part of their distance, may tell it so well.
@@ -322,14 +307,10 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
   Reaches reaches(region);
   const double hair = hair_of(region, limit), size = size_of(region, 0);
   const auto at_hand = [&](const QueuedCell& cell) { return std::max(cell.distance, resolution * size); };
-  const auto farther = [](const QueuedCell& a, const QueuedCell& b) { return a.distance > b.distance; };
-  std::vector<QueuedCell> open;  // a heap, the nearest in front
-  const auto push = [&](const QueuedCell& cell) {
-    open.push_back(cell);
-    std::push_heap(open.begin(), open.end(), farther);
-  };
-  push({Interval(region.lower()[0] - limit, region.upper()[0] + limit),
-        Interval(region.lower()[1] - limit, region.upper()[1] + limit)});
+  SearchMeter meter(budget);
+  BoxSearch<QueuedCell> left(SearchOrder::least_key_first);
+  left.push({Interval(region.lower()[0] - limit, region.upper()[0] + limit),
+             Interval(region.lower()[1] - limit, region.upper()[1] + limit)});
   TaskClearance result;
   result.margin = from;
   const auto proven_to = [&](double distance) { result.margin = std::max(result.margin, distance - hair); };
@@ -341,8 +322,8 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
   const auto judge_ahead = [&] {
     std::vector<QueuedCell*> next;
     std::vector<std::array<Interval, 2>> places;
-    for (std::size_t i = 0; i < std::min<std::size_t>(open.size(), 2 * sheet::SheetCells::size); ++i) {
-      QueuedCell& cell = open[i];
+    for (std::size_t i = 0; i < std::min<std::size_t>(left.size(), 2 * sheet::SheetCells::size); ++i) {
+      QueuedCell& cell = left[i].box;
       if (next.size() == sheet::SheetCells::size || cell.judgement || cell.distance >= limit || is_covered(cell))
         continue;
       next.push_back(&cell);
@@ -355,23 +336,18 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
       next[i]->reach = reaches.of(doubts[i], *next[i], next[i]->width() <= close * at_hand(*next[i]));
     }
   };
-  for (int cells = 0; !open.empty(); ++cells) {
-    if (QueuedCell& nearest = open.front(); !nearest.judgement && nearest.distance < limit && !is_covered(nearest))
-      judge_ahead();
-    std::pop_heap(open.begin(), open.end(), farther);
-    const QueuedCell cell = open.back();
-    open.pop_back();
-    if (cell.distance >= limit) break;
-    if (cells >= effort.most_cells || out_of_time(effort, cells)) {
-      proven_to(cell.distance);
+  while (!left.empty() && left.next().key < limit) {
+    if (!meter.begin()) {
+      proven_to(left.next().key);
       return result;
     }
+    if (const QueuedCell& nearest = left.next().box; !nearest.judgement && !is_covered(nearest)) judge_ahead();
+    QueuedCell cell = left.take();
     if (!cell.judgement) continue;  // the task's proof has covered it
     if (cell.judgement->state == TaskCell::State::proven) continue;
     if (cell.reach.least > cell.distance) {  // its turn comes later
-      QueuedCell later = cell;
-      later.distance = cell.reach.least;
-      push(later);
+      cell.distance = cell.reach.least;
+      left.push(cell, cell.distance);
       continue;
     }
     const bool is_known = cell.reach.most <= cell.distance + known * at_hand(cell);
@@ -387,7 +363,7 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
     }
     for (QueuedCell part : cell.halves()) {
       part.distance = std::max(cell.distance, region.distance(part.x, part.y));
-      push(part);
+      left.push(part, part.distance);
     }
   }
   proven_to(limit);

@@ -11,39 +11,25 @@
 // and knows nothing of the enclosures: only what it confirms refutes the task. What is neither is open.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 
-#include "clearloci/verify.hpp"
 #include "core/locus_map.hpp"
 #include "core/task_conditions.hpp"
+#include "loci/tasks/cover_proof.hpp"
 #include "loci/tasks/task_region.hpp"
 
 namespace clearloci::loci {
-
-struct TaskProof {
-  core::Verdict verdict = core::Verdict::undecided;
-  int cells = 0;  ///< that were looked at
-  // Of the cells that stayed open:
-  std::size_t open = 0;
-  core::Point2 lower{}, upper{};  ///< the box around them
-  bool out_of_time = false;
-  bool out_of_cells = false;  ///< else doubles end there
-};
-
-struct TaskEffort {
-  int most_cells = 400'000;
-  int most_cells_in_vain = 20'000;  ///< while none at all is proven: nothing can be, where |A| vanishes in every pose
-  std::optional<std::chrono::steady_clock::time_point> deadline = {};
-};
 
 /// Whether the task fails at a pose of it, for certain. `closely`: the pose was sought out as one where something
 /// vanishes.
 using RefutedAt = std::function<bool(const core::Point2& at, bool closely)>;
 
-TaskProof prove_task(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
-                     double margin, const RefutedAt& refuted_at, const TaskEffort& effort = {});
+/// Nothing can be proven where |A| vanishes in every pose.
+inline constexpr SearchBudget budget_of_task = {.most_cells = 400'000, .most_cells_in_vain = 20'000};
+
+CoverProof prove_task(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
+                      double margin, const RefutedAt& refuted_at, const SearchBudget& budget = budget_of_task);
 
 /// Whether the witness refutes one of some poses that are suspected, or one next to them.
 bool refuted_near(const core::TaskConditions& conditions, const core::WorkingMode& mode, const TaskRegion& region,
@@ -61,6 +47,6 @@ struct TaskClearance {
 
 /// Requires that the task is verified with the margin `from`. Not beyond `limit`.
 TaskClearance proven_clearance(const core::TaskConditions& conditions, const core::WorkingMode& mode,
-                               const TaskRegion& region, double from, double limit, const TaskEffort& effort);
+                               const TaskRegion& region, double from, double limit, const SearchBudget& budget);
 
 }  // namespace clearloci::loci

@@ -2,6 +2,7 @@
 // around the task that holds; what ends it there; and where a task that fails fits.
 #pragma once
 
+#include "loci/tasks/cover_proof.hpp"
 #include "loci/tasks/design_proof.hpp"
 #include "loci/tasks/effort_proof.hpp"
 #include "loci/tasks/pose_displacement.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "loci/search/search.hpp"
-
 namespace clearloci::loci::pose {
 namespace {
 
@@ -87,20 +85,15 @@ ZoneCell ZoneCells::looked(PoseCell& cell, PoseBox box) const {
 
 void ZoneCells::enter(const std::vector<std::size_t>& list) {
   std::vector<ZoneCell> looked_at(list.size());
-  run_in_order((list.size() + at_a_time - 1) / at_a_time, [&](std::size_t part) {
-    PoseCell& cell = workers_.local();
-    cell.forget();
-    for (std::size_t i = part * at_a_time; i < std::min(list.size(), (part + 1) * at_a_time); ++i)
-      looked_at[i] = looked(cell, std::move(cells_[list[i]].box));
-  });
+  look_in_parts(list.size(), at_a_time, workers_,
+                [&](PoseCell& cell, std::size_t i) { looked_at[i] = looked(cell, std::move(cells_[list[i]].box)); });
   looked_at_ += static_cast<long>(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     ZoneCell& own = cells_[list[i]] = std::move(looked_at[i]);
     const double doubt = own.doubt();
     in_doubt_ += doubt;
     if (own.kind != ZoneCell::Kind::in_doubt || own.axis < 0) continue;
-    open_.emplace_back(doubt, list[i]);
-    std::push_heap(open_.begin(), open_.end());
+    open_.push(list[i], {-doubt, -static_cast<long>(list[i])});
   }
 }
 
@@ -137,10 +130,8 @@ void ZoneCells::subdivide() {
     }
     std::vector<std::size_t> fresh;
     for (std::size_t k = 0; k < at_once && !open_.empty(); ++k) {
-      std::pop_heap(open_.begin(), open_.end());
-      const auto [doubt, index] = open_.back();
-      open_.pop_back();
-      if (cut(index, fresh)) in_doubt_ -= doubt;
+      const double doubt = -open_.next().key.first;
+      if (cut(open_.take(), fresh)) in_doubt_ -= doubt;
     }
     enter(fresh);
   }

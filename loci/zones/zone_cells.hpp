@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "loci/search/search.hpp"
 #include "loci/zones/cell_zones.hpp"
 
 namespace clearloci::loci::pose {
@@ -82,7 +83,8 @@ class ZoneCells {
   PoseChart chart_;
   PoseBox box_;
   std::vector<ZoneCell> cells_;
-  std::vector<std::pair<double, std::size_t>> open_;  ///< a heap: doubt and cell
+  /// Cells in doubt, the largest doubt first; of equal ones the last.
+  BoxSearch<std::size_t, std::pair<double, long>> open_{SearchOrder::least_key_first};
   double in_doubt_ = 0;
   long looked_at_ = 0;
   bool out_of_time_ = false;

@@ -50,22 +50,55 @@ double evaluate(const core::StraightLine& line, const std::vector<double>& at) {
   return values.back();
 }
 
-/// What rounding does to the value of a polynomial of many terms.
-double rounding(const core::Polynomial& p, const std::vector<double>& at) {
-  core::Polynomial sizes = p;
-  for (core::Term& term : sizes.terms) term.coefficient = abs(term.coefficient);
-  std::vector<double> size;
-  for (const double value : at) size.push_back(std::abs(value));
-  return 1e-14 * static_cast<double>(p.terms.size()) * core::evaluate(sizes, std::span<const double>(size));
+/// A polynomial whose coefficients are doubles once and for all: they are asked for at thousands of places.
+class InDoubles {
+ public:
+  explicit InDoubles(const core::Polynomial& p) : terms_(p.terms.size()) {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      terms_[i].coefficient = core::to_double(p.terms[i].coefficient);
+      for (std::size_t v = 0; v < p.terms[i].exponents.size(); ++v)
+        terms_[i].variables.insert(terms_[i].variables.end(), static_cast<std::size_t>(p.terms[i].exponents[v]), v);
+    }
+  }
+
+  double value(const std::vector<double>& at) const {
+    double sum = 0;
+    for (const Term& term : terms_) sum += product(term, at);
+    return sum;
+  }
+  /// What rounding does to the value.
+  double rounding(const std::vector<double>& at) const {
+    double sum = 0;
+    for (const Term& term : terms_) sum += std::abs(product(term, at));
+    return 1e-14 * static_cast<double>(terms_.size()) * sum;
+  }
+
+ private:
+  struct Term {
+    double coefficient = 0;
+    std::vector<std::size_t> variables;  ///< as often as their exponents say
+  };
+  static double product(const Term& term, const std::vector<double>& at) {
+    double product = term.coefficient;
+    for (const std::size_t v : term.variables) product *= at[v];
+    return product;
+  }
+  std::vector<Term> terms_;
+};
+
+std::vector<InDoubles> squares_of(const core::RootTower& tower) {
+  std::vector<InDoubles> squares;
+  for (const core::Root& root : tower.roots) squares.emplace_back(root.square);
+  return squares;
 }
 
 /// Coordinates and roots of a mode; nothing where it does not reach.
-std::optional<std::vector<double>> on_sheet(const core::RootTower& tower, const core::WorkingMode& mode,
+std::optional<std::vector<double>> on_sheet(const std::vector<InDoubles>& squares, const core::WorkingMode& mode,
                                             const std::vector<double>& coordinates) {
   std::vector<double> at = coordinates;
-  at.resize(static_cast<std::size_t>(tower.variables()), 0.0);
-  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-    const double square = core::evaluate(tower.roots[j].square, std::span<const double>(at));
+  at.resize(coordinates.size() + squares.size(), 0.0);
+  for (std::size_t j = 0; j < squares.size(); ++j) {
+    const double square = squares[j].value(at);
     if (!(square >= 0)) return std::nullopt;
     at[coordinates.size() + j] = mode[j] * std::sqrt(square);
   }
@@ -125,6 +158,9 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
     const core::LocusProblem& problem = derived.problem;
     const core::RootTower& tower = problem.tower;
     const core::WorkingMode& mode = problem.modes.front();
+    const std::vector<InDoubles> roots = squares_of(tower);
+    std::vector<InDoubles> sheets;
+    for (const core::LocusFactor& factor : problem.factors) sheets.emplace_back(factor.sheet);
     const auto pose = [&] {
       std::vector<double> coordinates;
       for (std::size_t c = 0; c < problem.lower.size(); ++c)
@@ -137,19 +173,20 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
     const int samples = is_long ? 100 : 400;  // of thousands of terms
     for (int sample = 0; sample < samples; ++sample) {
       const std::vector<double> from = pose(), to = pose();
-      const auto start = on_sheet(tower, mode, from);
+      const auto start = on_sheet(roots, mode, from);
       if (!start) continue;
-      for (const core::Root& root : tower.roots) {
+      for (std::size_t j = 0; j < roots.size(); ++j) {
+        const core::Root& root = tower.roots[j];
         if (root.line.empty()) continue;
-        const double square = core::evaluate(root.square, std::span<const double>(*start));
-        EXPECT_NEAR(evaluate(root.line, *start) / square, 1, 1e-6 + rounding(root.square, *start) / square)
-            << root.name;
+        const double square = roots[j].value(*start);
+        EXPECT_NEAR(evaluate(root.line, *start) / square, 1, 1e-6 + roots[j].rounding(*start) / square) << root.name;
         ++squares;
       }
-      for (const core::LocusFactor& factor : problem.factors) {
+      for (std::size_t f = 0; f < sheets.size(); ++f) {
+        const core::LocusFactor& factor = problem.factors[f];
         if (factor.line.empty()) continue;
-        const double here = core::evaluate(factor.sheet, std::span<const double>(*start));
-        if (std::abs(here) > rounding(factor.sheet, *start)) {
+        const double here = sheets[f].value(*start);
+        if (std::abs(here) > sheets[f].rounding(*start)) {
           const int sign = (here > 0) == (evaluate(factor.line, *start) > 0) ? 1 : -1;
           EXPECT_EQ(sign, signs.try_emplace(&factor, sign).first->second) << factor.expression.substr(0, 80);
           ++compared;
@@ -157,9 +194,8 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
         if (factor.sheet.terms.size() > most_terms_with_zeros) continue;
         std::vector<double> low = from, high = to;
         const auto value = [&](const std::vector<double>& at) {
-          const auto full = on_sheet(tower, mode, at);
-          return full ? core::evaluate(factor.sheet, std::span<const double>(*full))
-                      : std::numeric_limits<double>::quiet_NaN();
+          const auto full = on_sheet(roots, mode, at);
+          return full ? sheets[f].value(*full) : std::numeric_limits<double>::quiet_NaN();
         };
         const double at_low = value(low), at_high = value(high);
         if (!(at_low * at_high < 0)) continue;
@@ -171,7 +207,7 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
           inside = !std::isnan(there);
           (there * at_low > 0 ? low : high) = middle;
         }
-        const auto zero = on_sheet(tower, mode, low), end = on_sheet(tower, mode, to);
+        const auto zero = on_sheet(roots, mode, low), end = on_sheet(roots, mode, to);
         if (!inside || !zero || !end) continue;
         const double typical = std::max(std::abs(evaluate(factor.line, *start)), std::abs(evaluate(factor.line, *end)));
         EXPECT_LE(std::abs(evaluate(factor.line, *zero)), 1e-6 * typical) << factor.expression.substr(0, 80);
@@ -223,6 +259,8 @@ TEST(StraightLinesOfTowers, TellTheRimsOfADyadOnDyadsApart) {
              factor.implicit.size() == 1;
     }));
   }
+  const std::vector<InDoubles> squares = squares_of(problem.tower),
+                               rims = {InDoubles(last.rims[0].polynomial), InDoubles(last.rims[1].polynomial)};
   std::mt19937 random(29);
   std::array<int, 2> signs = {0, 0};
   int inside = 0, outside = 0;
@@ -232,7 +270,7 @@ TEST(StraightLinesOfTowers, TellTheRimsOfADyadOnDyadsApart) {
     all.resize(static_cast<std::size_t>(problem.tower.variables()), 0.0);
     bool is_reached = true;
     for (std::size_t r = 0; r + 1 < problem.tower.roots.size() && is_reached; ++r) {
-      const double square = core::evaluate(problem.tower.roots[r].square, std::span<const double>(all));
+      const double square = squares[r].value(all);
       is_reached = square >= 0;
       all[2 + r] = is_reached ? problem.modes.front()[r] * std::sqrt(square) : 0;
     }
@@ -241,14 +279,14 @@ TEST(StraightLinesOfTowers, TellTheRimsOfADyadOnDyadsApart) {
     for (std::size_t k = 0; k < 2; ++k) {
       const double line = evaluate(last.rims[k].line, all);
       product *= line;
-      const double polynomial = core::evaluate(last.rims[k].polynomial, std::span<const double>(all));
-      if (std::abs(polynomial) <= rounding(last.rims[k].polynomial, all)) continue;
+      const double polynomial = rims[k].value(all);
+      if (std::abs(polynomial) <= rims[k].rounding(all)) continue;
       const int sign = (polynomial > 0) == (line > 0) ? 1 : -1;
       if (signs[k] == 0) signs[k] = sign;
       EXPECT_EQ(sign, signs[k]);
     }
-    const double square = core::evaluate(last.square, std::span<const double>(all));
-    if (std::abs(square) <= rounding(last.square, all)) continue;
+    const double square = squares.back().value(all);
+    if (std::abs(square) <= squares.back().rounding(all)) continue;
     EXPECT_EQ(square > 0, product > 0);
     ++(square > 0 ? inside : outside);
   }
