@@ -42,33 +42,22 @@ void require_traceable(const Mechanism& mechanism, const LociRequest& request) {
                                       "ask for f, M and F");
 }
 
-bool is_plain_pin(const mechanism::Joint& joint) {
-  const bool turns = joint.type == mechanism::JointType::revolute || joint.type == mechanism::JointType::spherical;
-  return turns && !joint.actuated && !joint.effort;
-}
-
-bool is_force_at(const mechanism::Load& load, mechanism::PointIndex point) {
-  return load.at == point && load.couple.is_zero_literal() && load.couple_vector.empty();
-}
-
-/// Whether a link has two pins, this joint and another one at which all else acts on it: the force of the joint is
-/// along the line between them.
-bool bears_along_its_pins(const Mechanism& mechanism, mechanism::LinkIndex link, const mechanism::Joint& joint) {
-  std::vector<const mechanism::Joint*> others;
-  for (const mechanism::Joint& own : mechanism.joints) {
-    if (own.from != link && own.to != link) continue;
-    if (!is_plain_pin(own)) return false;
-    if (&own != &joint) others.push_back(&own);
+/// Whether all that acts on a link acts at two pins: its forces are along the line between them.
+bool bears_along_its_pins(const Mechanism& mechanism, mechanism::LinkIndex link) {
+  std::size_t pins = 0;
+  for (const mechanism::Joint& joint : mechanism.joints) {
+    if (joint.from != link && joint.to != link) continue;
+    const bool plain = joint.type == mechanism::JointType::revolute || joint.type == mechanism::JointType::spherical;
+    if (!plain || joint.actuated || joint.effort) return false;
+    ++pins;
   }
-  if (others.size() != 1) return false;
-  const auto acts = [&](const auto& list, const auto& of) { return std::any_of(list.begin(), list.end(), of); };
-  if (acts(mechanism.loads,
-           [&](const mechanism::Load& own) { return own.link == link && !is_force_at(own, others.front()->at); }))
-    return false;
-  if (acts(mechanism.springs, [&](const mechanism::Spring& own) { return own.from == link || own.to == link; }))
+  const auto is_loaded = [&](const auto& list, const auto& of) { return std::any_of(list.begin(), list.end(), of); };
+  if (is_loaded(mechanism.loads, [&](const mechanism::Load& own) { return own.link == link; })) return false;
+  if (is_loaded(mechanism.springs, [&](const mechanism::Spring& own) { return own.from == link || own.to == link; }))
     return false;
   const std::vector<mechanism::Mass> masses = mechanism::masses(mechanism);
-  return mechanism.gravity.empty() || !acts(masses, [&](const mechanism::Mass& own) { return own.link == link; });
+  const bool heavy = is_loaded(masses, [&](const mechanism::Mass& own) { return own.link == link; });
+  return pins == 2 && (mechanism.gravity.empty() || !heavy);
 }
 
 /// Whether a change of sign tells a zero: in the plane, of a force of one component or along a known line.
@@ -78,7 +67,7 @@ bool changes_through_zero(const Mechanism& mechanism, const core::Vanishing& wha
     if (joint.name != what.joint) continue;
     if (mechanism::is_slot(mechanism, joint)) return true;
     for (const mechanism::LinkIndex link : {joint.from, joint.to})
-      if (link != mechanism::ground && mechanism::traits(joint).pinned && bears_along_its_pins(mechanism, link, joint))
+      if (link != mechanism::ground && mechanism::traits(joint).pinned && bears_along_its_pins(mechanism, link))
         return true;
   }
   return false;
@@ -372,11 +361,15 @@ core::LocusMap followed(const Mechanism& mechanism, const LociRequest& request) 
 
 }  // namespace
 
+core::LocusMap ends_of_zones(const Mechanism& mechanism, core::Zones zones) {
+  return Points(mechanism, std::move(zones)).collect();
+}
+
 core::LocusMap loci_by_cells(const Mechanism& mechanism, const LociRequest& request) {
   require_traceable(mechanism, request);
   const auto start = std::chrono::steady_clock::now();
   core::LocusMap map = mechanism.coordinates.size() == 1
-                           ? Points(mechanism, zones_by_cells(mechanism, {.loci = request})).collect()
+                           ? ends_of_zones(mechanism, zones_by_cells(mechanism, {.loci = request}))
                            : followed(mechanism, request);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   map.timing.emplace_back("cells", taken.count());
