@@ -361,11 +361,15 @@ core::LocusMap followed(const Mechanism& mechanism, const LociRequest& request) 
 
 }  // namespace
 
+core::LocusMap ends_of_zones(const Mechanism& mechanism, core::Zones zones) {
+  return Points(mechanism, std::move(zones)).collect();
+}
+
 core::LocusMap loci_by_cells(const Mechanism& mechanism, const LociRequest& request) {
   require_traceable(mechanism, request);
   const auto start = std::chrono::steady_clock::now();
   core::LocusMap map = mechanism.coordinates.size() == 1
-                           ? Points(mechanism, zones_by_cells(mechanism, {.loci = request})).collect()
+                           ? ends_of_zones(mechanism, zones_by_cells(mechanism, {.loci = request}))
                            : followed(mechanism, request);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   map.timing.emplace_back("cells", taken.count());

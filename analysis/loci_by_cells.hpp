@@ -4,6 +4,7 @@
 #pragma once
 
 #include "analysis/loci.hpp"
+#include "clearloci/zones.hpp"
 
 namespace clearloci {
 
@@ -12,5 +13,8 @@ namespace clearloci {
 /// and the map is never `complete`: cells that a locus passes are not searched for others. Throws core::InputError for
 /// components, and for more than three coordinates.
 core::LocusMap loci_by_cells(const mechanism::Mechanism& mechanism, const LociRequest& request);
+
+/// Over one coordinate: where zones by cells end, as loci.
+core::LocusMap ends_of_zones(const mechanism::Mechanism& mechanism, core::Zones zones);
 
 }  // namespace clearloci

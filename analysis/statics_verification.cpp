@@ -311,7 +311,10 @@ class StaticsVerifier {
       if (first.kind != Doubt::demand || other.kind != Doubt::demand) continue;
       if (other.distance > first.distance + together * (1 + first.distance)) continue;
       const TaskDemand& demand = statics_.demands[static_cast<std::size_t>(other.demand)].demand;
-      own.vanishing.push_back({demand.joint, demand.quantity, 1});
+      // A force and a bound of it may be 0 together.
+      const core::Vanishing what{demand.joint, demand.quantity, 1};
+      if (std::find(own.vanishing.begin(), own.vanishing.end(), what) == own.vanishing.end())
+        own.vanishing.push_back(what);
       const core::LocusKind kind = locus_kind_of(demand);
       own.kind = gravest ? std::min(own.kind, kind) : kind;
       gravest = true;

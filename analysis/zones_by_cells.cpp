@@ -249,8 +249,9 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   loci::pose::CellZoneEffort effort;
   effort.most_cells = ground.request.cells;
   effort.deadline = request.deadline;
-  // The ends of intervals are as good as points; of more coordinates, bounds are wanted that are close enough.
-  if (ground.lower.size() == 1) effort.enough_doubt = 0;
+  // The ends of intervals are as good as points, and so are short intervals between two of them; of more coordinates,
+  // bounds are wanted that are close enough.
+  if (ground.lower.size() == 1) effort.enough_doubt = 0, effort.least_part = 1e-7;
   effort.raster = map.grid;
   loci::pose::CellZones found = loci::pose::cell_zones(statics, ground.lower, ground.upper, effort);
   leave_rigid(found, model, sides);

@@ -17,6 +17,7 @@
 #include "check/identity.hpp"
 #include "check/labels.hpp"
 #include "check/points.hpp"
+#include "check/pose_range.hpp"
 #include "check/pose_task.hpp"
 #include "check/task.hpp"
 #include "check/zones.hpp"
@@ -368,13 +369,14 @@ std::string certified_text(const std::string& text, const std::string& file, con
   return own;
 }
 
+/// Of poses over any coordinates. `head`: with the text of the model.
 Examination examination_of_poses(const std::string& model_text, const std::string& model_file,
-                                 const PoseTaskClaim& claim, const Deadline& deadline) {
-  const std::string text = certified_text(model_text, model_file, claim.model);
+                                 const PoseTaskClaim& head, const auto& check) {
+  const std::string text = certified_text(model_text, model_file, head.model);
   const mechanism::Mechanism mechanism =
-      mechanism::without_idle_limits(mechanism::parse_mechanism(text, model_file, claim.overrides));
+      mechanism::without_idle_limits(mechanism::parse_mechanism(text, model_file, head.overrides));
   Examination examination;
-  check_pose_task(mechanism, claim, deadline, examination);
+  check(mechanism, examination);
   return examination;
 }
 
@@ -385,8 +387,19 @@ Examination check_certificate_text(const std::string& model_text, const std::str
                                    const Deadline& deadline) {
   try {
     const nlohmann::json root = parse_certificate(certificate_text, certificate_file);
-    if (root.contains("pose_task"))
-      return examination_of_poses(model_text, model_file, read_pose_task(root, certificate_file), deadline);
+    if (root.contains("pose_task")) {
+      const PoseTaskClaim claim = read_pose_task(root, certificate_file);
+      return examination_of_poses(model_text, model_file, claim, [&](const auto& mechanism, Examination& examination) {
+        check_pose_task(mechanism, claim, deadline, examination);
+      });
+    }
+    if (root.contains("pose_range")) {
+      const PoseRangeClaim claim = read_pose_range(root, certificate_file);
+      return examination_of_poses(model_text, model_file, claim.head,
+                                  [&](const auto& mechanism, Examination& examination) {
+                                    check_pose_range(mechanism, claim, deadline, examination);
+                                  });
+    }
     CertificateFile certificate = read_certificate(root, certificate_file);
     certificate.deadline = deadline;
     const std::string own_text = certified_text(model_text, model_file, certificate.model);

@@ -9,6 +9,7 @@
 //   zones, task, check            what rests on them; what is asked, one after the other
 //   jet, pose_equations           over any coordinates, in the plane and in space: values with slopes; the equations
 //   pose_cell, pose_task          reactions over a cell; that a task keeps clear of every locus
+//   pose_range                    loci and zones over one coordinate
 #pragma once
 
 #include <chrono>

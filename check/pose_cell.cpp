@@ -85,7 +85,7 @@ class Solved {
     for (std::size_t d = 0; d < demands.size(); ++d)
       proof_.demands[d] = keeps(equations_.demands[d], std::nextafter(demands[d].least.get_d(), infinite));
     proof_.positive = true;
-    for (const auto& own : equations_.positive) proof_.positive = is_positive(own) && proof_.positive;
+    for (const auto& own : equations_.positive) look_at(own);
     return proof_;
   }
 
@@ -188,9 +188,14 @@ class Solved {
     // Along its direction at the middle.
     std::vector<PoseForm> components;
     double square = 0;
+    proof_.components.emplace_back();
     for (Sum& sum : sums_of(entries)) {
       components.push_back(sum.done());
-      square += components.back().c * components.back().c;
+      const PoseForm& own = components.back();
+      square += own.c * own.c;
+      const double off = (spread(own) + own.r) * (1 + 0x1p-40);
+      proof_.components.back().push_back(
+          {std::nextafter(own.c - off, -infinite), std::nextafter(own.c + off, infinite)});
     }
     const double length = std::sqrt(square) * (1 + 8 * ulp);
     if (!(length > 0) || !std::isfinite(length)) return false;
@@ -199,12 +204,16 @@ class Solved {
     return is_above(along.done(), 1 / length, least);
   }
 
-  bool is_positive(const PoseEquations::Positive& own) {
+  void look_at(const PoseEquations::Positive& own) {
     std::vector<Sum> sums = sums_of(own.entries);
-    if (sums.size() != 1) return false;
+    if (sums.size() != 1) {
+      proof_.positive = false;
+      return;
+    }
     sums.front().add(1, form_of(own.constant, half_));
     const PoseForm form = sums.front().done();
-    return is_above(form, 1 / (std::abs(form.c) + std::numeric_limits<double>::min()), 0);
+    proof_.positive = is_above(form, 1 / (std::abs(form.c) + std::numeric_limits<double>::min()), 0) && proof_.positive;
+    proof_.broken = form.c + (spread(form) + form.r) * (1 + 0x1p-40) < 0 || proof_.broken;
   }
 
   bool is_above(const PoseForm& form, double per, double least) {

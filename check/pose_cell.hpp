@@ -2,6 +2,7 @@
 // rounding in their radius. Private to check/.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -16,9 +17,12 @@ struct LoadBall {
 
 /// What a cell was found to be.
 struct PoseCellProof {
-  bool regular = false;         ///< A is, all over it
-  std::vector<bool> demands;    ///< the reaction keeps above its least, and points into one half space
-  bool positive = false;        ///< all that the model itself asks to be
+  bool regular = false;       ///< A is, all over it
+  std::vector<bool> demands;  ///< the reaction keeps above its least, and points into one half space
+  bool positive = false;      ///< all that the model itself asks to be
+  bool broken = false;        ///< something that the model itself asks to be positive is negative all over it
+  /// Of every demand what its components are within; empty where A is not known to be regular.
+  std::vector<std::vector<std::array<double, 2>>> components;
   std::vector<double> spreads;  ///< what each coordinate does to it: where to cut
   bool holds() const;
 };

@@ -7,9 +7,11 @@
 #include <tuple>
 
 #include "check/certificate.hpp"
+#include "check/elimination.hpp"
 #include "check/group_sheet.hpp"
 #include "check/law_cells.hpp"
 #include "check/pose_cell.hpp"
+#include "check/pose_signs.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::check {
@@ -24,6 +26,21 @@ const char* const way_of_load = "way of the load";  // no name of a file
 Expression sum(const Expression& a, const Expression& b) { return Expression::apply(Expression::Kind::add, {a, b}); }
 Expression product(const Expression& a, const Expression& b) {
   return Expression::apply(Expression::Kind::multiply, {a, b});
+}
+
+std::vector<std::array<Jet, 3>> places_of(const std::optional<GroupCell>& groups) {
+  return groups ? groups->places : std::vector<std::array<Jet, 3>>();
+}
+
+int determinant_sign(const PoseEquations& equations) {
+  std::vector<std::vector<Interval>> rows(equations.unknowns,
+                                          std::vector<Interval>(equations.unknowns, Interval(cell_bits)));
+  for (const PoseEntry& entry : equations.matrix) {
+    Interval& own = rows[entry.row][entry.unknown];
+    own = own + entry.value.value();
+  }
+  Interval determinant(1.0, cell_bits);
+  return reduce(rows, rows.size(), determinant).size() < rows.size() ? 0 : determinant.sign();
 }
 
 class PoseTaskCheck {
@@ -45,7 +62,8 @@ class PoseTaskCheck {
     give_efforts(efforts);
   }
 
-  std::size_t run() {
+  std::size_t run(Holding holding = Holding::clear) {
+    holding_ = holding;
     close_groups();
     if (!groups_) return covered_within(whole_, nullptr);
     std::size_t cells = 0;
@@ -72,11 +90,50 @@ class PoseTaskCheck {
       std::vector<double> spreads(names_.size());
       std::optional<GroupCell> groups;
       if (part != nullptr && !(groups = groups_->over(*part, variables, offsets, spreads))) continue;
-      const PosePosture posture =
-          posture_over(m_, claim_.sides, variables, groups ? groups->places : std::vector<std::array<Jet, 3>>());
+      const PosePosture posture = posture_over(m_, claim_.sides, variables, places_of(groups));
       if (posture.stopped_by) continue;  // the cells tell
       for (const mechanism::Link& link : m_.links) check_link(link, posture);
     }
+  }
+
+  PoseSigns signs() {
+    close_groups();
+    std::vector<double> spreads(names_.size());
+    Jet::Offsets offsets;
+    const PoseVariables variables = variables_over(names_, whole_, offsets);
+    std::optional<GroupCell> groups;
+    if (groups_ && !(groups = groups_->over(groups_->parts().front(), variables, offsets, spreads)))
+      throw FalseClaim("groups: that they close at a pose is not shown");
+    const PosePosture posture = posture_over(m_, claim_.sides, variables, places_of(groups));
+    if (posture.stopped_by)
+      throw FalseClaim("within reach: it is not shown of the pose " + described(whole_, claim_.coordinates));
+    const PoseEquations equations = equations_over(m_, posture, variables, claim_.demands);
+    const PoseCellProof proof = prove_cell(equations, claim_.demands, offsets);
+    PoseSigns all{determinant_sign(equations), std::vector<int>(claim_.demands.size(), 0)};
+    for (std::size_t d = 0; d < proof.components.size(); ++d)
+      all.demands[d] = sign_of(m_, claim_.demands[d], proof.components[d], posture);
+    return all;
+  }
+
+  double maybe_reached() const {
+    double open = 0;
+    constexpr std::size_t most = 4000;
+    constexpr double finest = 0x1p-26;
+    std::vector<Cell> left = {whole_};
+    for (std::size_t count = 0; !left.empty(); ++count) {
+      const Cell cell = std::move(left.back());
+      left.pop_back();
+      if (is_out_of_reach(cell)) continue;
+      const auto [low, high] = cell.front();
+      if (count >= most || !m_.groups.empty() || high - low <= finest * (whole_[0][1] - whole_[0][0])) {
+        open += high - low;
+        continue;
+      }
+      const double middle = low + 0.5 * (high - low);
+      left.push_back({{middle, high}});
+      left.push_back({{low, middle}});
+    }
+    return open;
   }
 
   /// The poses of the task and its margin.
@@ -126,11 +183,6 @@ class PoseTaskCheck {
         throw FalseClaim("parameters: '" + own.parameter.substr(0, 40) +
                          "' is none of the model's, or not in its range");
     }
-    // Where efforts have bounds, that they keep to these is a claim.
-    const bool bounded = std::any_of(m_.joints.begin(), m_.joints.end(), [](const mechanism::Joint& joint) {
-      return joint.meshing || (joint.actuated && joint.within);
-    });
-    if (claim_.demands.empty() && !bounded) throw FalseClaim("demands: there is none");
     for (const auto& point : claim_.shape.points)
       for (std::size_t c = 0; c < coordinates_; ++c) {
         const Rational above = claim_.shape.above.empty() ? Rational(0) : claim_.shape.above[c];
@@ -272,14 +324,14 @@ class PoseTaskCheck {
     const PoseVariables variables = variables_over(names_, cell, offsets);
     std::optional<GroupCell> groups;
     if (part != nullptr && !(groups = groups_->over(*part, variables, offsets, spreads))) return false;
-    const PosePosture posture =
-        posture_over(m_, claim_.sides, variables, groups ? groups->places : std::vector<std::array<Jet, 3>>());
+    const PosePosture posture = posture_over(m_, claim_.sides, variables, places_of(groups));
     if (posture.stopped_by) {
       const std::vector<Interval>& slopes = posture.stopped_by->slopes();
       for (std::size_t c = 0; c < slopes.size(); ++c)
         if (slopes[c].is_finite()) spreads[c] = std::abs(slopes[c].middle()) * 0.5 * (cell[c][1] - cell[c][0]);
       return false;
     }
+    if (holding_ == Holding::closure) return true;
     const std::vector<LoadBall> balls = balls_in(cell);
     PoseCellProof proof =
         prove_cell(equations_over(m_, posture, variables, claim_.demands), claim_.demands, offsets, balls);
@@ -288,7 +340,18 @@ class PoseTaskCheck {
     constexpr double last = 0.125;
     for (const LoadBall& ball : balls)
       for (std::size_t c = ball.first; c < ball.first + ball.count; ++c) spreads[c] *= last;
-    return proof.holds();
+    return holding_ == Holding::regular ? proof.regular : proof.holds();
+  }
+
+  /// Nothing closes there, or a bound is broken; of mechanisms without groups.
+  bool is_out_of_reach(const Cell& cell) const {
+    if (!m_.groups.empty()) return false;
+    Jet::Offsets offsets;
+    const PoseVariables variables = variables_over(names_, cell, offsets);
+    const PosePosture posture = posture_over(m_, claim_.sides, variables);
+    if (posture.stopped_by) return posture.stopped_by->value().below();
+    const PoseCellProof proof = prove_cell(equations_over(m_, posture, variables, {}), {}, offsets);
+    return proof.regular && proof.broken;
   }
 
   void check_link(const mechanism::Link& link, const PosePosture& posture) const {
@@ -316,6 +379,7 @@ class PoseTaskCheck {
   Cell whole_;
   std::vector<LoadBall> balls_;
   std::optional<GroupSheet> groups_;
+  Holding holding_ = Holding::clear;
   std::size_t first_share_ = static_cast<std::size_t>(-1);  ///< of efforts, behind all others
 };
 
@@ -352,12 +416,31 @@ std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Dead
 
 void check_pose_task(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
                      Examination& examination) {
+  // Where efforts have bounds, that they keep to these is a claim.
+  const bool bounded = std::any_of(m.joints.begin(), m.joints.end(), [](const mechanism::Joint& joint) {
+    return joint.meshing || (joint.actuated && joint.within);
+  });
+  if (claim.demands.empty() && !bounded) throw FalseClaim("demands: there is none");
   PoseTaskCheck check(m, claim, deadline);
   check.check_links();
   examination.task_cells = claim.law ? check_law(m, claim, deadline, check) : check.run();
   examination.unchecked = claim.unchecked;
   for (std::string& own : examination.unchecked) own = "task: " + own.substr(0, 200);
   examination.accepted = true;
+}
+
+std::size_t check_poses(const Mechanism& m, const PoseTaskClaim& claim, Holding holding, const Deadline& deadline) {
+  PoseTaskCheck check(m, claim, deadline);
+  if (holding == Holding::clear) check.check_links();
+  return check.run(holding);
+}
+
+PoseSigns signs_at(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline) {
+  return PoseTaskCheck(m, claim, deadline).signs();
+}
+
+double maybe_reached(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline) {
+  return PoseTaskCheck(m, claim, deadline).maybe_reached();
 }
 
 }  // namespace clearloci::check

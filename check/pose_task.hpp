@@ -68,4 +68,24 @@ PoseTaskClaim read_pose_task(const nlohmann::json& root, const std::string& file
 void check_pose_task(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
                      Examination& examination);
 
+/// What has to hold all over a task: that the mechanism closes; that A is regular, too; that it is clear of every locus
+/// and keeps to all bounds.
+enum class Holding { closure, regular, clear };
+
+/// That it does, over cells; returns how many. Throws as check_pose_task.
+std::size_t check_poses(const mechanism::Mechanism& m, const PoseTaskClaim& claim, Holding holding,
+                        const Deadline& deadline);
+
+/// At a pose that is all of a claim's task. Throws as check_pose_task where the mechanism does not close.
+struct PoseSigns {
+  int determinant = 0;  ///< of |A|; 0: not known
+  /// Of the reactions of one component, and of forces along the link that bears them; 0: not known, or of several.
+  std::vector<int> demands;
+};
+PoseSigns signs_at(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline);
+
+/// The sizes together of cells of a task over one coordinate in which it is not shown that no pose is within reach: of
+/// a mechanism with groups all of it.
+double maybe_reached(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline);
+
 }  // namespace clearloci::check

@@ -37,17 +37,21 @@ bool has_certified_loci(const mechanism::Mechanism& mechanism) {
          mechanism.groups.empty() && !meshes(mechanism);
 }
 
+bool has_certified_range(const mechanism::Mechanism& mechanism) { return mechanism.coordinates.size() == 1; }
+
 void require_certifiable(const mechanism::Mechanism& mechanism) {
   mechanism::require_preload(mechanism);
-  if (has_certified_loci(mechanism)) return;
+  if (has_certified_loci(mechanism) || has_certified_range(mechanism)) return;
   if (mechanism::has_effort_bounds(mechanism))
     throw core::InputError({.file = "--certificate"},
-                           "there is no certificate of the loci and zones of mechanisms whose efforts have bounds",
+                           "over two coordinates and more there is no certificate of the loci and zones of mechanisms "
+                           "whose efforts have bounds",
                            "leave it out for this mechanism; verify has one of a task");
-  throw core::InputError({.file = "--certificate"},
-                         "loci and zones have certificates only for planar mechanisms over two lengths, without points "
-                         "that close together, gears and belts",
-                         "leave it out; verify writes certificates of tasks over any coordinates");
+  throw core::InputError(
+      {.file = "--certificate"},
+      "loci and zones have certificates only over one coordinate, and for planar mechanisms over two "
+      "lengths without points that close together, gears and belts",
+      "leave it out; verify writes certificates of tasks over any coordinates");
 }
 
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
@@ -59,6 +63,11 @@ void stage_certificate(report::StagedFiles& staged, const std::string& file, con
                        const CommonArguments& arguments, const core::TaskCertificate& certificate,
                        const std::vector<core::PreloadLawCell>& law) {
   staged.add(file, report::certificate_text(source_of(command, arguments), certificate, law));
+}
+
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::RangeCertificate& certificate) {
+  staged.add(file, report::certificate_text(source_of(command, arguments), certificate));
 }
 
 }  // namespace clearloci::cli

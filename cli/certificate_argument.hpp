@@ -14,9 +14,14 @@ namespace clearloci::cli {
 /// `of`: what has one.
 void add_certificate_argument(CLI::App& command, std::string& file, const std::string& of);
 
-/// Planar, over two lengths: loci and zones have certificates.
+/// Of loci and zones.
+inline constexpr const char* certified_mechanisms = "mechanisms over one coordinate, and planar ones over two lengths";
+
+/// Planar, over two lengths: loci and zones have certificates of curves.
 bool has_certified_loci(const mechanism::Mechanism& mechanism);
-/// Throws core::InputError where they have none.
+/// Over one coordinate: of intervals, of any mechanism.
+bool has_certified_range(const mechanism::Mechanism& mechanism);
+/// Throws core::InputError where loci and zones have none.
 void require_certifiable(const mechanism::Mechanism& mechanism);
 
 /// Adds `file`, which appears with the files of the answer that it certifies.
@@ -26,5 +31,7 @@ void stage_certificate(report::StagedFiles& staged, const std::string& file, con
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::TaskCertificate& certificate,
                        const std::vector<core::PreloadLawCell>& law = {});
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::RangeCertificate& certificate);
 
 }  // namespace clearloci::cli

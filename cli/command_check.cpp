@@ -43,7 +43,11 @@ int run(const CheckCommand& arguments, TimeLimit& limit) {
   } else if (!examination.accepted) {
     fmt::print("rejected: {}\n", why);
   } else if (examination.cells == 0 && examination.task_cells > 0) {
-    fmt::print("accepted: the task, over {} cells\n", examination.task_cells);
+    if (examination.zones == 0)
+      fmt::print("accepted: the task, over {} cells\n", examination.task_cells);
+    else
+      fmt::print("accepted: {} intervals without loci, {} points, over {} cells\n", examination.zones,
+                 examination.points, examination.task_cells);
     for (const std::string& what : examination.unchecked) fmt::print("unchecked: {}\n", report::printable(what));
   } else {
     fmt::print("accepted: {} cells, {} graphs, {} crossings, {} arcs, {} points", examination.cells, examination.graphs,

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "analysis/range_certificate.hpp"
 #include "analysis/zones.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
@@ -66,9 +67,9 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   Progress progress(arguments.common.quiet);
   const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   core::Certificate certificate;
-  const bool certify = !arguments.certificate.empty();
-  const auto traced =
-      std::make_shared<const core::LocusMap>(trace_loci(mechanism, request, certify ? &certificate : nullptr));
+  const bool certify = !arguments.certificate.empty(), on_range = certify && has_certified_range(mechanism);
+  const auto traced = std::make_shared<const core::LocusMap>(
+      trace_loci(mechanism, request, certify && !on_range ? &certificate : nullptr));
   const core::LocusMap& map = *traced;
   limit.known(
       [common = arguments.common, traced] { write_incomplete(common, "loci.json", report::loci_object(*traced)); });
@@ -78,7 +79,11 @@ int run(const LociCommand& arguments, TimeLimit& limit) {
   std::optional<core::Zones> zones;
   if (formats.contains("html")) zones = zones_of_page(mechanism, request);
   report::StagedFiles staged;
-  if (certify) stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate);
+  if (on_range)
+    stage_certificate(staged, arguments.certificate, "loci", arguments.common,
+                      range_certificate(mechanism, request, map));
+  else if (certify)
+    stage_certificate(staged, arguments.certificate, "loci", arguments.common, certificate);
   const std::vector<std::filesystem::path> files =
       report::stage_loci(staged, {map, sample_sketches(mechanism, map), zones ? &*zones : nullptr}, folder, formats);
   limit.commit(staged);
@@ -108,7 +113,7 @@ Command add_loci_command(CLI::App& program) {
                                   fmt::join(report::format_names<report::LociSheet>(), ", ")));
   app->add_flag("--exact", arguments->exact,
                 "Print irrational numbers of closed forms in the table as roots, not as decimals");
-  add_certificate_argument(*app, arguments->certificate, "planar mechanisms over two lengths");
+  add_certificate_argument(*app, arguments->certificate, certified_mechanisms);
   app->footer(
       "Example: clearloci loci examples/five_bar.yaml --export svg,pdf,dxf --working-mode all\n"
       "With three free coordinates the loci are surfaces:\n"

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "analysis/range_certificate.hpp"
 #include "analysis/zones.hpp"
 #include "cli/certificate_argument.hpp"
 #include "cli/commands.hpp"
@@ -43,14 +44,19 @@ int run(const ZonesCommand& arguments, TimeLimit& limit) {
   });
   Progress progress(arguments.common.quiet);
   core::Certificate certificate;
+  const bool on_range = certify && has_certified_range(mechanism);
+  const LociRequest request = loci_request(arguments.loci, mechanism, progress, limit);
   const core::Zones map =
-      find_zones(mechanism, {loci_request(arguments.loci, mechanism, progress, limit), arguments.cells},
-                 certify ? &certificate : nullptr);
+      find_zones(mechanism, {request, arguments.cells}, certify && !on_range ? &certificate : nullptr);
   progress.clear();
 
   const std::filesystem::path folder = output_folder(arguments.common);
   report::StagedFiles staged;
-  if (certify) stage_certificate(staged, arguments.certificate, "zones", arguments.common, certificate);
+  if (on_range)
+    stage_certificate(staged, arguments.certificate, "zones", arguments.common,
+                      range_certificate(mechanism, request, map));
+  else if (certify)
+    stage_certificate(staged, arguments.certificate, "zones", arguments.common, certificate);
   const std::vector<std::filesystem::path> files = report::stage_answer(staged, map, folder, formats);
   limit.commit(staged);
   if (arguments.common.json)
@@ -78,7 +84,7 @@ Command add_zones_command(CLI::App& program) {
                   "cells leave less in doubt")
       ->check(CLI::Range(1L, 100'000'000L))
       ->capture_default_str();
-  add_certificate_argument(*app, arguments->certificate, "planar mechanisms over two lengths");
+  add_certificate_argument(*app, arguments->certificate, certified_mechanisms);
   app->footer("Example: clearloci zones examples/five_bar.yaml --working-mode all");
   return within_limit(app, arguments, run);
 }

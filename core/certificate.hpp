@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "clearloci/zones.hpp"
@@ -69,6 +70,26 @@ struct TaskCertificate {
   };
   std::vector<Range> parameters;  ///< that vary: SI
   std::vector<TaskDemand> demands;
+};
+
+/// Loci or zones over one coordinate: what is claimed of them, for someone else to prove anew. SI.
+struct RangeCertificate {
+  std::string coordinate;
+  /// An interval without loci.
+  struct Free {
+    std::string zone;  ///< of which it is; empty of loci
+    Rational from, to;
+    int assembly_mode = 0;                         ///< of zones
+    std::vector<std::pair<Vanishing, int>> signs;  ///< of zones
+  };
+  struct Mode {
+    std::vector<int> sides;           ///< one a dyad or slider
+    std::vector<TaskDemand> demands;  ///< what does not vanish in the intervals
+    std::vector<Free> free;
+    std::vector<IsolatedPoint> points;
+    std::vector<std::array<Rational, 2>> open;
+  };
+  std::vector<Mode> modes;
 };
 
 }  // namespace clearloci::inline core

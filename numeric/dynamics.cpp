@@ -261,6 +261,17 @@ std::string place_words(const Motion& motion, const Instant& at) {
   return text;
 }
 
+/// Of points that are no numbers, the group that the first of them is in.
+const mechanism::Group* lost_group(const Motion& motion, const Instant& at) {
+  const auto is_lost = [](const PointSeries& point) {
+    return std::any_of(point.begin(), point.end(), [](const Series& s) { return !std::isfinite(s.value()); });
+  };
+  const auto first = std::find_if(at.points.begin(), at.points.end(), is_lost) - at.points.begin();
+  for (const mechanism::Group& group : motion.model.mechanism.groups)
+    if (first >= group.first && first <= group.last) return &group;
+  return nullptr;
+}
+
 void check_instants(const Motion& motion, const std::vector<std::vector<Instant>>& all) {
   const std::string& file = motion.timeline.trajectory.file;
   const Instant* before = nullptr;
@@ -274,6 +285,12 @@ void check_instants(const Motion& motion, const std::vector<std::vector<Instant>
                                    place_words(motion, at),
                                "move the waypoints, or choose another working mode");
       }
+      const mechanism::Group* const group = at.reachable ? nullptr : lost_group(motion, at);
+      if (group != nullptr)
+        throw core::InputError({file, 0, 0},
+                               "group " + group->name + " does not close at " + place_words(motion, at) +
+                                   ": between its posture and there it comes to a dead centre",
+                               "move the waypoints, or give another posture ('near')");
       if (!at.reachable)
         throw core::InputError({file, 0, 0},
                                "the path leaves the workspace, or touches its boundary, at " + place_words(motion, at),
@@ -392,7 +409,7 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
     for (const Series& s : result.points.back())
       for (const double c : s.c) result.reachable = result.reachable && std::isfinite(c);
   }
-  for (std::size_t i = 0; i < model.slack.size(); ++i)
+  for (std::size_t i = 0; i < model.slack.size() && result.reachable; ++i)
     for (const bool upper : {false, true})
       if (const auto& end = model.slack[i][upper ? 1 : 0];
           end && !(registers[static_cast<std::size_t>(*end)].value() >= 0) && !result.broken)

@@ -117,6 +117,13 @@ Json vanishing_list(const std::vector<core::Vanishing>& vanishing) {
   return list;
 }
 
+Json demands_list(const std::vector<core::TaskDemand>& demands) {
+  Json list = Json::array();
+  for (const core::TaskDemand& own : demands)
+    list.push_back({own.joint, core::to_string(own.quantity), core::to_string(own.least)});
+  return list;
+}
+
 Json points_list(const core::Polyline& line) {
   Json list = Json::array();
   for (const core::Point2& p : line) list.push_back({p[0], p[1]});
@@ -305,11 +312,9 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
     for (const core::RationalPose& pose : std::get<core::TaskPath>(task.shape).points)
       points.push_back(pose_list(pose));
   }
-  Json parameters = Json::array(), demands = Json::array();
+  Json parameters = Json::array();
   for (const core::TaskCertificate::Range& own : certificate.parameters)
     parameters.push_back({own.parameter, core::to_string(own.lower), core::to_string(own.upper)});
-  for (const core::TaskDemand& own : certificate.demands)
-    demands.push_back({own.joint, core::to_string(own.quantity), core::to_string(own.least)});
   std::string shape = core::kind_of(task.shape);
   if (shape == "circle") shape = "ball";
   root["pose_task"] = {{"shape", shape},
@@ -319,7 +324,7 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
                        {"angle_length", task.angle_length ? Json(core::to_string(*task.angle_length)) : Json()},
                        {"sides", certificate.sides},
                        {"parameters", std::move(parameters)},
-                       {"demands", std::move(demands)},
+                       {"demands", demands_list(certificate.demands)},
                        {"unchecked", Json::array()}};
   if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape)) {
     root["pose_task"]["across"] = polygon->across;
@@ -330,6 +335,37 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
   for (const core::LoadWithin& own : task.loads_within)
     root["pose_task"]["loads_within"].push_back({own.load, core::to_string(own.force), core::to_string(own.couple)});
   if (!law.empty()) root["pose_task"]["law"] = law_of(law);
+  return text_of(root);
+}
+
+std::string certificate_text(const CertificateSource& source, const core::RangeCertificate& certificate) {
+  Json root = begun(source);
+  root["coordinates"] = Json::array({certificate.coordinate});
+  Json modes = Json::array();
+  for (const core::RangeCertificate::Mode& mode : certificate.modes) {
+    Json free = Json::array(), points = Json::array(), open = Json::array();
+    for (const core::RangeCertificate::Free& own : mode.free) {
+      Json signs = Json::array();
+      for (const auto& [what, sign] : own.signs) signs.push_back({what.joint, core::to_string(what.quantity), sign});
+      free.push_back({{"zone", own.zone},
+                      {"from", core::to_string(own.from)},
+                      {"to", core::to_string(own.to)},
+                      {"assembly_mode", own.assembly_mode},
+                      {"signs", std::move(signs)}});
+    }
+    for (const core::IsolatedPoint& own : mode.points)
+      points.push_back({{"at", core::to_string(core::Rational(own.at.front()))},
+                        {"kind", core::to_string(own.kind)},
+                        {"vanishing", vanishing_list(own.vanishing)},
+                        {"certified", own.certified}});
+    for (const auto& [from, to] : mode.open) open.push_back({core::to_string(from), core::to_string(to)});
+    modes.push_back({{"sides", mode.sides},
+                     {"demands", demands_list(mode.demands)},
+                     {"free", std::move(free)},
+                     {"points", std::move(points)},
+                     {"open", std::move(open)}});
+  }
+  root["pose_range"] = {{"modes", std::move(modes)}};
   return text_of(root);
 }
 

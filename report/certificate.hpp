@@ -26,4 +26,7 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
 std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
                              const std::vector<core::PreloadLawCell>& law = {});
 
+/// Of loci or zones over one coordinate.
+std::string certificate_text(const CertificateSource& source, const core::RangeCertificate& certificate);
+
 }  // namespace clearloci::report

@@ -182,9 +182,10 @@ class SheetWriter {
     const PreloadColumns columns = preload_columns(geometry_, elimination_, determinants_);
     core::LocusProblem demanded;
     state_demands(mechanism_, {}, demanded);
-    const PreloadDeterminants all =
-        preload_determinants(geometry_.ring(), determinants_.determinant, columns.joints.size(),
-                             preload_constraints(geometry_, columns, determinants_.determinant, demanded, {}));
+    std::vector<std::string> notes;
+    const PreloadDeterminants all = preload_determinants(
+        geometry_.ring(), determinants_.determinant, columns.joints.size(),
+        preload_constraints(geometry_, elimination_, columns, determinants_.determinant, demanded, {}, notes));
     for (const PreloadDeterminant& own : all.all) {
       PreloadEquation& equation = sheet.preload.emplace_back();
       std::string name;

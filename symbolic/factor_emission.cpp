@@ -111,16 +111,18 @@ void FactorEmission::preload() {
   if (!d_.preload.joints.empty() &&
       (d_.selection.min_force || (d_.selection.min_couple && d_.mechanism.space == mechanism::Space::spatial)))
     notes.emplace_back(
-        "with free efforts no curves are traced on which a force, or in space a couple, has its least size: "
+        "with free efforts no curves are traced on which the force of a pin or at an end of a guide, or in space a "
+        "couple, has its least size: "
         "the efforts of a zone are those at its sample");
   if (!d_.preload.joints.empty() && std::any_of(d_.mechanism.joints.begin(), d_.mechanism.joints.end(),
                                                 [](const mechanism::Joint& own) { return own.meshing.has_value(); }))
     notes.emplace_back("flanks of gears and spans of belts bound no preload here");
   const std::size_t efforts = d_.preload.joints.size();
   const std::string motors = d_.preload.motors(d_.mechanism);
-  const PreloadDeterminants all = preload_determinants(
-      d_.geometry.ring(), d_.determinants.determinant, efforts,
-      preload_constraints(d_.geometry, d_.preload, d_.determinants.determinant, d_.result.problem, d_.selection));
+  const PreloadDeterminants all =
+      preload_determinants(d_.geometry.ring(), d_.determinants.determinant, efforts,
+                           preload_constraints(d_.geometry, d_.elimination, d_.preload, d_.determinants.determinant,
+                                               d_.result.problem, d_.selection, notes));
   for (const std::string& names : all.left_out)
     notes.push_back("where " + names + " vanish together is too long a determinant to be derived");
   for (const PreloadFactor& own : all.factors) {

@@ -4,6 +4,7 @@
 
 #include "core/shown_units.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "symbolic/guide_ends.hpp"
 
@@ -35,14 +36,17 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
 
 class Demands {
  public:
-  Demands(const Geometry& geometry, const PreloadColumns& columns, const FactoredPoly& determinant,
-          const core::LocusProblem& demanded, const Selection& selection)
+  Demands(const Geometry& geometry, const Elimination& elimination, const PreloadColumns& columns,
+          const FactoredPoly& determinant, const core::LocusProblem& demanded, const Selection& selection,
+          std::vector<std::string>& notes)
       : geometry_(geometry),
+        elimination_(elimination),
         mechanism_(geometry.mechanism()),
         columns_(columns),
         determinant_(determinant),
         demanded_(demanded),
-        selection_(selection) {}
+        selection_(selection),
+        notes_(notes) {}
 
   std::vector<PreloadConstraint> run() {
     if (efforts() > 0)
@@ -87,7 +91,7 @@ class Demands {
     for (const Quantity part : parts) {
       const std::optional<std::size_t> at = place_of(joint, part);
       if (!at) return;
-      if (quantity == Quantity::M && selection_.min_couple && is_planar()) return add_least(joint, *at);
+      if (const auto least = least_of(joint, quantity)) return add_at(*at, *least, {joint, quantity, 1});
       constraint.rows.push_back(preload_row(numerators(*at)));
       chosen = chosen || changes(constraint.rows.back());
     }
@@ -98,20 +102,61 @@ class Demands {
     return std::any_of(row.efforts.begin(), row.efforts.end(), [](const FactoredPoly& p) { return !p.is_zero(); });
   }
 
-  /// A couple at its least size, to either side: N -+ least |A|.
-  void add_least(const std::string& joint, std::size_t reaction) {
+  const mechanism::Joint& joint_of(const std::string& name) const {
+    return *std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
+                         [&](const mechanism::Joint& own) { return own.name == name; });
+  }
+
+  /// The least size of what has one component.
+  std::optional<Rational> least_of(const std::string& joint, Quantity quantity) const {
+    if (quantity == Quantity::M) return is_planar() ? selection_.min_couple : std::nullopt;
+    const bool one =
+        quantity == Quantity::F || (quantity == Quantity::f && mechanism::is_slot(mechanism_, joint_of(joint)));
+    return one ? selection_.min_force : std::nullopt;
+  }
+
+  /// At its least size, to either side: N -+ least |A|, of a force along an axis u over |u|.
+  void add_at(std::size_t reaction, const Rational& least, const core::Vanishing& what) {
+    for (const Rational& size : {least, Rational(-least)}) {
+      const std::optional<PreloadRow> row = row_at(reaction, size);
+      if (!row) return leave_out(what);
+      const Rational shown = size * (what.quantity == Quantity::M ? scale_of(Quantity::M) : Rational(1));
+      if (changes(*row)) result_.push_back({{*row}, {}, words_at(what, shown), false, what});
+    }
+  }
+
+  void leave_out(const core::Vanishing& what) const {
+    notes_.push_back("where " + core::to_string(what.quantity) + "_" + what.joint +
+                     " has its least size is left out: its axis changes its length");
+  }
+
+  /// 1 / |u| of the axis that a force is in units of; none where it is not among the lengths of the equations.
+  std::optional<Poly> inverse_axis(const mechanism::Joint& joint) const {
+    if (geometry_.has_inverse_length(joint.name + ".axis"))
+      return geometry_.poly(geometry_.inverse_length(joint.name + ".axis").natural);
+    const std::optional<Rational> square = elimination_.constant_over_tower(squared_axis(geometry_, joint));
+    if (!square) return std::nullopt;
+    return Poly(geometry_.ring(), 1 / mechanism::near_root(*square));
+  }
+
+  std::optional<PreloadRow> row_at(std::size_t reaction, const Rational& size) const {
     const std::vector<const FactoredPoly*> own = numerators(reaction);
     const Ring& ring = geometry_.ring();
+    const Reaction& what = columns_.reactions.front()[reaction];
     const Poly load = own.front()->is_zero() ? Poly(ring) : expanded(*own.front(), ring);
-    for (const Rational& least : {*selection_.min_couple, Rational(-*selection_.min_couple)}) {
-      const FactoredPoly beyond = factored(load - expanded(determinant_, ring).scaled(least), determinant_.factors);
-      std::vector<const FactoredPoly*> columns = own;
-      columns.front() = &beyond;
-      PreloadConstraint constraint;
-      constraint.rows = {preload_row(columns)};
-      constraint.vanishing = {{joint, Quantity::M, 1}};
-      if (changes(constraint.rows.front())) result_.push_back(std::move(constraint));
+    Poly unit = expanded(determinant_, ring);
+    if (what.quantity != Quantity::M) {
+      const mechanism::Joint& joint = joint_of(what.joint);
+      const std::optional<Poly> inverse = inverse_axis(joint);
+      if (!inverse) return std::nullopt;
+      unit = unit * *inverse;
+      if (what.quantity == Quantity::F && !is_force_over_axis(mechanism_, joint))
+        unit = unit * squared_axis(geometry_, joint);
     }
+    const FactoredPoly beyond = factored(load - unit.scaled(size), determinant_.factors);
+    std::vector<const FactoredPoly*> columns = own;
+    columns.front() = &beyond;
+    return preload_row(columns);
   }
 
   /// Of the scale of lengths that couples are written in.
@@ -125,24 +170,22 @@ class Demands {
            core::told(core::to_double(bound), force ? "N" : "N m", {});
   }
 
-  /// An effort that follows from the free ones at its bounds: N - bound |A|, of a force along an axis u over |u|.
+  static std::string words_at(const core::Vanishing& what, const Rational& size) {
+    return core::to_string(what.quantity) + "_" + what.joint + " at " +
+           core::told(core::to_double(size), what.quantity == Quantity::M ? "N m" : "N", {});
+  }
+
+  /// An effort that follows from the free ones at its bounds.
   void add_bounds(const mechanism::Joint& joint) {
     const Quantity quantity = mechanism::actuator_quantity(joint);
     const std::optional<std::size_t> at = place_of(joint.name, quantity);
     if (!at) return;
-    const std::vector<const FactoredPoly*> own = numerators(*at);
-    const Ring& ring = geometry_.ring();
-    const Poly load = own.front()->is_zero() ? Poly(ring) : expanded(*own.front(), ring);
-    Poly unit = expanded(determinant_, ring);
-    if (quantity == Quantity::F) unit = unit * geometry_.poly(geometry_.inverse_length(joint.name + ".axis").natural);
-    if (quantity == Quantity::F && !is_force_over_axis(mechanism_, joint)) unit = unit * squared_axis(geometry_, joint);
-    for (const Rational& bound : {joint.within->first, joint.within->second}) {
-      const FactoredPoly beyond = factored(load - unit.scaled(bound / scale_of(quantity)), determinant_.factors);
-      std::vector<const FactoredPoly*> columns = own;
-      columns.front() = &beyond;
-      result_.push_back(
-          {{preload_row(columns)}, {}, words_at(joint, bound), false, core::Vanishing{joint.name, quantity, 1}});
-    }
+    for (const Rational& bound : {joint.within->first, joint.within->second})
+      result_.push_back({{row_at(*at, bound / scale_of(quantity)).value()},
+                         {},
+                         words_at(joint, bound),
+                         false,
+                         core::Vanishing{joint.name, quantity, 1}});
   }
 
   /// The bounds of an effort, and its own backlash.
@@ -160,19 +203,25 @@ class Demands {
     }
     if (!joint.clearance || !contains(demanded_.joints, joint.name) || !wanted(quantity)) return;
     if (mechanism::value_of(force ? joint.clearance->axial : joint.clearance->angular, mechanism_) == 0) return;
-    const Rational least = force         ? selection_.min_force.value_or(0)
-                           : is_planar() ? Rational(selection_.min_couple.value_or(0) * scale)
-                                         : Rational(0);
-    result_.push_back({{at(least)}, {{joint.name, quantity, 1}}});
-    if (least != 0) result_.push_back({{at(-least)}, {{joint.name, quantity, 1}}});
+    const core::Vanishing own{joint.name, quantity, 1};
+    const std::optional<Rational> least = least_of(joint.name, quantity);
+    if (!least || *least == 0) {
+      result_.push_back({{at(0)}, {own}});
+      return;
+    }
+    const Rational size = *least * (force ? Rational(1) : scale);
+    for (const Rational& end : {size, Rational(-size)})
+      result_.push_back({{at(end)}, {}, words_at(own, end), false, own});
   }
 
   const Geometry& geometry_;
+  const Elimination& elimination_;
   const Mechanism& mechanism_;
   const PreloadColumns& columns_;
   const FactoredPoly& determinant_;
   const core::LocusProblem& demanded_;
   const Selection& selection_;
+  std::vector<std::string>& notes_;
   std::vector<PreloadConstraint> result_;
 };
 
@@ -214,10 +263,11 @@ bool is_singular_by_choice(const PreloadColumns& columns, const Mechanism& mecha
   return false;
 }
 
-std::vector<PreloadConstraint> preload_constraints(const Geometry& geometry, const PreloadColumns& columns,
-                                                   const FactoredPoly& determinant, const core::LocusProblem& demanded,
-                                                   const Selection& selection) {
-  return Demands(geometry, columns, determinant, demanded, selection).run();
+std::vector<PreloadConstraint> preload_constraints(const Geometry& geometry, const Elimination& elimination,
+                                                   const PreloadColumns& columns, const FactoredPoly& determinant,
+                                                   const core::LocusProblem& demanded, const Selection& selection,
+                                                   std::vector<std::string>& notes) {
+  return Demands(geometry, elimination, columns, determinant, demanded, selection, notes).run();
 }
 
 }  // namespace clearloci::symbolic

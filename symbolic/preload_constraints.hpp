@@ -36,11 +36,12 @@ std::vector<Reaction> at_every_effort(const PreloadColumns& columns);
 bool is_singular_by_choice(const PreloadColumns& columns, const mechanism::Mechanism& mechanism, const Poly& factor,
                            bool controlled);
 
-/// The demanded reactions of `demanded` (symbolic/demands.hpp), or in the plane the couples at the least size that
-/// `selection` asks for; backlash of the free motors, or their least size; the bounds of all efforts, or that the free
-/// ones have none. Without free efforts the bounds alone.
-std::vector<PreloadConstraint> preload_constraints(const Geometry& geometry, const PreloadColumns& columns,
-                                                   const FactoredPoly& determinant, const core::LocusProblem& demanded,
-                                                   const Selection& selection);
+/// The demanded reactions of `demanded` (symbolic/demands.hpp); those of one component at the least sizes that
+/// `selection` gives, in space the forces alone; own backlash of the free motors; the bounds of all efforts, or that
+/// the free ones have none. Without free efforts the bounds alone. `notes`: what is left out.
+std::vector<PreloadConstraint> preload_constraints(const Geometry& geometry, const Elimination& elimination,
+                                                   const PreloadColumns& columns, const FactoredPoly& determinant,
+                                                   const core::LocusProblem& demanded, const Selection& selection,
+                                                   std::vector<std::string>& notes);
 
 }  // namespace clearloci::symbolic

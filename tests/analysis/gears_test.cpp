@@ -192,6 +192,10 @@ TEST(GearedFiveBar, TasksAreMovedAsideOfAChangeOfFlanks) {
     ASSERT_TRUE(moved.moved_by);
     const double by = to_double(moved.moved_by->front()) / degree;
     EXPECT_NEAR(by, off, 0.05);
+    // The teeth's force and its bound vanish as one.
+    if (moved.nearest) {
+      EXPECT_EQ(moved.nearest->vanishing.size(), 1u);
+    }
     // The teeth push all over it on the flank that is told.
     for (const double share : {0.0, 0.5, 1.0}) {
       const double theta = (change + off + by + (4 * share - 2) * (1 - 1e-6)) * degree;

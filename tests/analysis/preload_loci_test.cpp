@@ -297,6 +297,93 @@ TEST(TensionZones, AreTheWrenchFeasibleWorkspace) {
           }
 }
 
+/// Three sliders on one point, the third one of free effort.
+const char* const three_sliders = R"(format: 1
+space: planar
+workspace: {x: [0.1, 0.5], y: [-0.3, 0.3]}
+points:
+  R1: [0, 0]
+  R2: [0.6, 0]
+  R3: [0, 0.5]
+  P: [x, y]
+  S1: {slider: [R1, [0, 1]], from: P, length: 0.52, side: ahead}
+  S2: {slider: [R2, [0, 1]], from: P, length: 0.54, side: ahead}
+  S3: {slider: [R3, [1, 0]], from: P, length: 0.9, side: ahead}
+links:
+  K1: {points: [S1]}
+  L1: {points: [S1, P]}
+  K2: {points: [S2]}
+  L2: {points: [S2, P]}
+  K3: {points: [S3]}
+  L3: {points: [S3, P]}
+joints:
+  G1: {prismatic: [ground, K1], at: S1, axis: [0, 2], actuated: true, clearance: {axial: 5e-6}}
+  S1: {revolute: [K1, L1], at: S1}
+  P:  {revolute: [L1, L2], at: P}
+  S2: {revolute: [K2, L2], at: S2}
+  G2: {prismatic: [ground, K2], at: S2, axis: [0, 1], actuated: true, clearance: {axial: 5e-6}}
+  Q:  {revolute: [L3, L2], at: P}
+  S3: {revolute: [K3, L3], at: S3}
+  G3: {prismatic: [ground, K3], at: S3, axis: [1, 0], actuated: {effort: free, within: [-200, 200]}, clearance: {axial: 5e-6}}
+end_effector: {link: L2, at: P}
+loads:
+  - {link: L2, at: P, force: [30, -100]}
+)";
+
+/// Of the motors at a place, where the third one exerts `effort`, N: by the balance of P between three rods.
+std::array<double, 3> motors_of_sliders(const Point2& p, double effort) {
+  const std::array<Point2, 3> ends = {Point2{0, p[1] + std::sqrt(0.52 * 0.52 - p[0] * p[0])},
+                                      Point2{0.6, p[1] + std::sqrt(0.54 * 0.54 - std::pow(p[0] - 0.6, 2))},
+                                      Point2{p[0] + std::sqrt(0.81 - std::pow(p[1] - 0.5, 2)), 0.5}};
+  const std::array<double, 3> lengths = {0.52, 0.54, 0.9};
+  std::array<Point2, 3> e{};  // along which the rods push P
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t c = 0; c < 2; ++c) e[i][c] = (p[c] - ends[i][c]) / lengths[i];
+  const double third = effort / e[2][0];
+  const Point2 rest = {-30 - third * e[2][0], 100 - third * e[2][1]};
+  const double turn = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+  const double first = (rest[0] * e[1][1] - rest[1] * e[1][0]) / turn,
+               second = (e[0][0] * rest[1] - e[0][1] * rest[0]) / turn;
+  return {first * e[0][1], second * e[1][1], effort};
+}
+
+/// "F_G1 at 20 N and G3 at -200 N at once".
+std::map<int, double> motors_told(const std::string& words) {
+  std::map<int, double> told;
+  for (std::size_t at = words.find('G'); at != std::string::npos; at = words.find('G', at + 1))
+    if (words.compare(at + 2, 4, " at ") == 0) told[words[at + 1] - '1'] = std::stod(words.substr(at + 6));
+  return told;
+}
+
+TEST(PreloadLoci, AreWhereTwoMotorsHaveTheirLeastForcesTogether) {
+  const LocusMap map = trace_loci(Model::parse(three_sliders, "sliders.yaml"), {.min_force = Rational(20)});
+  EXPECT_TRUE(map.complete);
+  int curves = 0, held = 0;
+  for (const LocusCurve& curve : map.curves) {
+    const std::map<int, double> told = motors_told(curve.cause);
+    if (told.size() != 2) continue;
+    ++curves;
+    for (const Arc& arc : curve.arcs)
+      for (const Point2& p : arc.points) {
+        double effort = 0;
+        if (told.count(2) > 0) {
+          effort = told.at(2);
+        } else {
+          const double at_0 = motors_of_sliders(p, 0)[0], at_1 = motors_of_sliders(p, 1)[0];
+          effort = (told.at(0) - at_0) / (at_1 - at_0);
+        }
+        const std::array<double, 3> motors = motors_of_sliders(p, effort);
+        for (const auto& [motor, force] : told) {
+          ++held;
+          EXPECT_NEAR(motors[static_cast<std::size_t>(motor)], force, 2e-3)
+              << curve.cause << " at " << p[0] << ", " << p[1];
+        }
+      }
+  }
+  EXPECT_GT(curves, 8);
+  EXPECT_GT(held, 400);
+}
+
 TEST(TensionLoci, HoldOnAGrid) {
   const Validation own = validate_loci(Model::parse(three_cables), {.nodes = {60, 60}});
   EXPECT_TRUE(own.validated()) << own.report.disputed << " edges disputed";

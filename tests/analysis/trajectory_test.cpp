@@ -23,6 +23,23 @@ const std::string folder = source_dir() + "/examples/pick_and_place/";
 
 Model manipulator() { return Model::read(folder + "manipulator.yaml"); }
 
+TEST(FollowTrajectory, NamesTheGroupThatDoesNotClose) {
+  const Model model = Model::read(source_dir() + "/examples/stephenson_outside.yaml");
+  // Its dead centre is at 116.7 deg.
+  const auto follow = [&](const char* last) {
+    return follow_trajectory_text(model, "format: 1\npath: {waypoints: [[180 deg], [" + std::string(last) +
+                                             "]]}\nmotion: {law: constant, speed: 20 rpm}\n");
+  };
+  EXPECT_NO_THROW(follow("118 deg"));
+  try {
+    follow("100 deg");
+    FAIL() << "beyond the dead centre";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("group coupler does not close at phi = 116."), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(FollowTrajectory, TellsOfOneCycle) {
   const TrajectoryResult motion = follow_trajectory(manipulator(), folder + "path.yaml", {.samples = 200});
   EXPECT_EQ(motion.trajectory, "Pick and place");

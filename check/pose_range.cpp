@@ -1,0 +1,181 @@
+#include "check/pose_range.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/certificate.hpp"
+#include "core/errors.hpp"
+
+namespace clearloci::check {
+namespace {
+
+using core::Rational;
+using mechanism::Mechanism;
+
+class PoseRangeCheck {
+ public:
+  PoseRangeCheck(const Mechanism& m, const PoseRangeClaim& claim, const Deadline& deadline, Examination& examination)
+      : m_(m), claim_(claim), deadline_(deadline), examination_(examination) {
+    if (m.coordinates.size() != 1 || m.coordinates[0].name != claim.head.coordinates[0])
+      throw FalseClaim("coordinates: they are not the model's");
+    lower_ = m.coordinates[0].lower;
+    upper_ = m.coordinates[0].upper;
+  }
+
+  void run() {
+    if (claim_.modes.empty()) throw FalseClaim("modes: there is none");
+    for (const PoseRangeClaim::Mode& mode : claim_.modes) check_mode(mode);
+  }
+
+ private:
+  /// A part of the range as a task.
+  PoseTaskClaim task(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) const {
+    PoseTaskClaim own = claim_.head;
+    own.shape.name = "box";
+    own.shape.points = {{from}, {to}};
+    own.sides = mode.sides;
+    own.demands = mode.demands;
+    return own;
+  }
+  PoseTaskClaim without_demands(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) const {
+    PoseTaskClaim own = task(mode, from, to);
+    own.demands.clear();
+    return own;
+  }
+
+  std::string place(const Rational& from, const Rational& to) const {
+    if (to - from <= narrow()) return fmt::format("{} = {:.9g}", claim_.head.coordinates[0], from.get_d());
+    return fmt::format("{} from {:.9g} to {:.9g}", claim_.head.coordinates[0], from.get_d(), to.get_d());
+  }
+  void leave(const std::string& what) { examination_.unchecked.push_back(what); }
+
+  /// Where loci alone are, and not what is out of reach.
+  Rational narrow() const { return (upper_ - lower_) / 1'000'000; }
+
+  void check_mode(const PoseRangeClaim::Mode& mode) {
+    if (mode.demands.empty()) throw FalseClaim("demands: there is none");
+    std::vector<PoseRangeClaim::Free> free = mode.free;
+    std::sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+    Rational reached = lower_;
+    for (const PoseRangeClaim::Free& own : free) {
+      if (own.from < reached || own.to > upper_) throw FalseClaim("free: intervals overlap, or leave the range");
+      check_free(mode, own);
+      if (own.from > reached) check_between(mode, reached, own.from);
+      reached = own.to;
+    }
+    if (reached < upper_) check_between(mode, reached, upper_);
+    for (const PoseRangeClaim::Point& point : mode.points)
+      if (std::any_of(free.begin(), free.end(),
+                      [&](const auto& own) { return own.from < point.at && point.at < own.to; }))
+        throw FalseClaim("points: one is where no locus is, at " + place(point.at, point.at));
+  }
+
+  void check_free(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Free& own) {
+    try {
+      examination_.task_cells += check_poses(m_, task(mode, own.from, own.to), Holding::clear, deadline_);
+    } catch (const FalseClaim& claim) {
+      throw FalseClaim(fmt::format("{} ({}): {}", own.name.substr(0, 40), place(own.from, own.to), claim.what()));
+    }
+    ++examination_.zones;
+    if (own.assembly_mode == 0 && own.signs.empty()) return;
+    const Rational middle = (own.from + own.to) / 2;
+    const PoseSigns signs = signs_at(m_, task(mode, middle, middle), deadline_);
+    if (own.assembly_mode * signs.determinant != 0) {
+      const int sense = own.assembly_mode * signs.determinant;
+      if (sense_ != 0 && sense_ != sense) throw FalseClaim("signs: of |A|, at " + place(own.from, own.to));
+      sense_ = sense;
+    }
+    for (const auto& [joint, quantity, sign] : own.signs) {
+      const std::optional<std::size_t> demand = demand_of(mode, joint, quantity);
+      if (!demand || sign == 0 || signs.demands[*demand] == 0) continue;
+      if (signs.demands[*demand] != sign)
+        throw FalseClaim(fmt::format("signs: of {}_{}, at {}", core::to_string(quantity), joint.substr(0, 40),
+                                     place(own.from, own.to)));
+    }
+  }
+
+  static std::optional<std::size_t> demand_of(const PoseRangeClaim::Mode& mode, const std::string& joint,
+                                              core::Quantity quantity) {
+    for (std::size_t d = 0; d < mode.demands.size(); ++d)
+      if (mode.demands[d].joint == joint && mode.demands[d].quantity == quantity) return d;
+    return std::nullopt;
+  }
+
+  void check_between(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) {
+    std::vector<const PoseRangeClaim::Point*> points;
+    for (const PoseRangeClaim::Point& own : mode.points)
+      if (own.at >= from && own.at <= to) points.push_back(&own);
+    const bool open = std::any_of(mode.open.begin(), mode.open.end(),
+                                  [&](const auto& own) { return own.first <= to && own.second >= from; });
+    if (open) return leave("the open place " + place(from, to));
+    if (to - from > narrow()) return check_out_of_reach(mode, from, to);
+    if (points.empty()) throw FalseClaim("points: there is none at " + place(from, to));
+    for (const PoseRangeClaim::Point* own : points) check_point(mode, *own, from, to);
+  }
+
+  /// But for a hair at either end, where a boundary is.
+  void check_out_of_reach(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) {
+    const double left = maybe_reached(m_, without_demands(mode, from, to), deadline_);
+    if (left > 10 * narrow().get_d()) leave("that " + place(from, to) + " is out of reach");
+    for (const PoseRangeClaim::Point& own : mode.points) {
+      if (own.at < from || own.at > to || own.kind == core::LocusKind::workspace_boundary) continue;
+      check_at_boundary(mode, own, from, to);
+    }
+  }
+
+  /// Where teeth change flanks the mechanism still closes beyond the boundary.
+  void check_at_boundary(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Point& point, const Rational& from,
+                         const Rational& to) {
+    try {
+      if (point.at > from && point.at - from <= narrow()) return check_point(mode, point, from, 2 * point.at - from);
+      if (point.at < to && to - point.at <= narrow()) return check_point(mode, point, 2 * point.at - to, to);
+    } catch (const FalseClaim&) {
+      // Nothing closes beyond: a change of sign is not seen.
+    }
+    leave(fmt::format("the {} at {}, on the boundary", core::to_string(point.kind), place(point.at, point.at)));
+  }
+
+  void check_point(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Point& point, const Rational& from,
+                   const Rational& to) {
+    using enum core::LocusKind;
+    const std::string what = fmt::format("the {} at {}", core::to_string(point.kind), place(point.at, point.at));
+    const bool zero = point.kind == contact_loss || point.kind == backlash || point.kind == direct_singularity;
+    if (!zero) return leave(what);
+    try {
+      const bool singular = point.kind == direct_singularity;
+      examination_.task_cells +=
+          check_poses(m_, without_demands(mode, from, to), singular ? Holding::closure : Holding::regular, deadline_);
+      const PoseSigns before = signs_at(m_, task(mode, from, from), deadline_),
+                      behind = signs_at(m_, task(mode, to, to), deadline_);
+      if (singular && before.determinant * behind.determinant >= 0) return leave(what);
+      for (const auto& [joint, quantity] : point.vanishing) {
+        if (singular) continue;
+        const std::optional<std::size_t> d = demand_of(mode, joint, quantity);
+        if (!d || before.demands[*d] * behind.demands[*d] >= 0 || mode.demands[*d].least != 0)
+          return leave(fmt::format("{}: that {}_{} vanishes", what, core::to_string(quantity), joint.substr(0, 40)));
+      }
+      ++examination_.points;
+    } catch (const FalseClaim& claim) {
+      if (!point.certified) return leave(what);
+      throw FalseClaim(what + ": " + claim.what());
+    }
+  }
+
+  const Mechanism& m_;
+  const PoseRangeClaim& claim_;
+  const Deadline& deadline_;
+  Examination& examination_;
+  Rational lower_, upper_;
+  int sense_ = 0;  ///< of the certificate's |A| and that of here
+};
+
+}  // namespace
+
+void check_pose_range(const Mechanism& m, const PoseRangeClaim& claim, const Deadline& deadline,
+                      Examination& examination) {
+  PoseRangeCheck(m, claim, deadline, examination).run();
+  examination.accepted = true;
+}
+
+}  // namespace clearloci::check

@@ -1,0 +1,98 @@
+// Certificates of loci and zones over one coordinate: what was found is proven anew, and what is made false is
+// rejected.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "analysis/range_certificate.hpp"
+#include "tests/check/certified.hpp"
+#include "tests/texts.hpp"
+
+namespace clearloci::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string range_certified(const std::string& model, bool zones, const LociRequest& request = {}) {
+  const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml");
+  const core::RangeCertificate certificate =
+      zones ? range_certificate(mechanism, request, find_zones(mechanism, {request}))
+            : range_certificate(mechanism, request, trace_loci(mechanism, request));
+  return report::certificate_text({zones ? "zones" : "loci", model, {}}, certificate);
+}
+
+struct Expected {
+  const char* name;
+  const char* model;
+  std::size_t points;     ///< that are proven, at least
+  std::size_t unchecked;  ///< at most
+};
+
+class RangesOfExamples : public testing::TestWithParam<Expected> {};
+
+TEST_P(RangesOfExamples, AreProvenAnew) {
+  const std::string model = example(GetParam().model);
+  for (const bool zones : {false, true}) {
+    const check::Examination own = examination_of(model, range_certified(model, zones));
+    EXPECT_TRUE(own.accepted) << own.why;
+    EXPECT_GE(own.points, GetParam().points) << zones;
+    EXPECT_GT(own.zones, 1u);
+    EXPECT_LE(own.unchecked.size(), GetParam().unchecked) << testing::PrintToString(own.unchecked);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, RangesOfExamples,
+                         testing::Values(Expected{"OfDyads", "four_bar.yaml", 2, 0},
+                                         Expected{"OfGears", "geared_five_bar.yaml", 5, 2},
+                                         Expected{"OfAGroup", "stephenson_outside.yaml", 1, 3}),
+                         [](const auto& own) { return std::string(own.param.name); });
+
+TEST(PoseRangeCertificate, IsRejectedWhereAClaimIsMadeFalse) {
+  const std::string model = example("four_bar.yaml"), certificate = range_certified(model, true);
+  ASSERT_TRUE(examination_of(model, certificate).accepted);
+  const auto mode = [](Json& c) -> Json& { return c["pose_range"]["modes"][0]; };
+  const std::vector<std::pair<const char*, std::function<void(Json&)>>> changes = {
+      {"a zone across a point",
+       [&](Json& c) {
+         mode(c)["free"][0]["to"] = mode(c)["free"][1]["to"];
+         mode(c)["free"].erase(1);
+       }},
+      {"a point that is left out", [&](Json& c) { mode(c)["points"].erase(0); }},
+      {"a point where no locus is", [&](Json& c) { mode(c)["points"][0]["at"] = mode(c)["free"][0]["from"]; }},
+      {"a sign of |A|",
+       [&](Json& c) { mode(c)["free"][0]["assembly_mode"] = -mode(c)["free"][0]["assembly_mode"].get<int>(); }},
+      {"a sign of a reaction",
+       [&](Json& c) { mode(c)["free"][0]["signs"][0][2] = -mode(c)["free"][0]["signs"][0][2].get<int>(); }},
+      {"intervals that overlap", [&](Json& c) { mode(c)["free"].push_back(mode(c)["free"][0]); }},
+      {"an interval that leaves the range", [&](Json& c) { mode(c)["free"][0]["to"] = "100"; }},
+      {"a side too many", [&](Json& c) { mode(c)["sides"].push_back(1); }},
+      {"no demands", [&](Json& c) { mode(c)["demands"] = Json::array(); }},
+      {"no modes", [&](Json& c) { c["pose_range"]["modes"] = Json::array(); }},
+      {"another coordinate", [&](Json& c) { c["coordinates"][0] = "x"; }},
+  };
+  for (const auto& [what, change] : changes) {
+    Json changed = Json::parse(certificate);
+    change(changed);
+    try {
+      EXPECT_FALSE(examination_of(model, changed.dump()).accepted) << what;
+    } catch (const core::InputError&) {
+      SUCCEED() << "it is no certificate any more";
+    }
+  }
+}
+
+/// A reaction that keeps its sign is not said to vanish.
+TEST(PoseRangeCertificate, LeavesWhatDoesNotChangeItsSignUnchecked) {
+  const std::string model = example("four_bar.yaml"), certificate = range_certified(model, false);
+  Json changed = Json::parse(certificate);
+  Json& points = changed["pose_range"]["modes"][0]["points"];
+  const std::size_t before = examination_of(model, certificate).points;
+  for (Json& point : points)
+    if (point["kind"] == "backlash") point["vanishing"].push_back({"B", "f"});
+  const check::Examination own = examination_of(model, changed.dump());
+  EXPECT_LT(own.points, before);
+  EXPECT_FALSE(own.unchecked.empty());
+}
+
+}  // namespace
+}  // namespace clearloci::test
