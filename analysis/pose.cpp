@@ -189,6 +189,16 @@ ActualPose actual_of(const numeric::NumericModel& model, const std::vector<numer
   return actual;
 }
 
+/// Cables whose tension follows a law have no unknown.
+void add_tensions_by_law(const mechanism::Mechanism& mechanism, Pose& pose) {
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    const mechanism::Joint& joint = mechanism.joints[j];
+    if (mechanism::is_cable(joint) && joint.effort && !joint.free_effort)
+      pose.reactions[j].components.push_back(
+          {core::Quantity::F, mechanism::sample_number(mechanism, *joint.effort, pose.at)});
+  }
+}
+
 /// Reactions and what follows from them, with the links' inertia.
 void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides, const PoseRequest& request,
                    Pose& pose) {
@@ -203,6 +213,7 @@ void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides
   constexpr double second = 1;  // the period of a single instant
   const Eigen::VectorXd values = instant.reactions(second);
   pose.reactions = reactions_of(motion.model, values, numeric::joint_reactions(motion, instant, values));
+  add_tensions_by_law(mechanism, pose);
   const numeric::InstantError accuracy = numeric::instant_error(motion, instant, second);
   pose.take_up = take_up_of(mechanism, accuracy.contacts, accuracy.take_up);
   pose.undefined = numeric::undefined_take_up(mechanism, accuracy.contacts, accuracy.take_up);
@@ -256,6 +267,7 @@ void solve_at(const numeric::NumericModel& model, const std::vector<numeric::Bou
   for (const Eigen::Vector3d& point : posture.points) places.push_back(components(m.space, point));
   pose.points = named_points(m, places);
   pose.reactions = reactions_of(model, accuracy.reactions.values, accuracy.of_joints);
+  add_tensions_by_law(m, pose);
   pose.determinant = accuracy.reactions.determinant;
   pose.condition = accuracy.reactions.condition;
   pose.singular = !(std::abs(determinant.value) > determinant.error);
