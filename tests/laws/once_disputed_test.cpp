@@ -71,6 +71,7 @@ TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
   EXPECT_FALSE(map.zones.empty());
   for (const core::Zone& zone : map.zones) EXPECT_FALSE(zone.certified) << zone.id;
   EXPECT_GE(map.modes.front().in_doubt, map.modes.front().workspace);
+  EXPECT_FALSE(map.loci.complete);
 }
 
 // The load is along the folded lower leg where the couple in A1 vanishes on the boundary: beside it the slopes of that
