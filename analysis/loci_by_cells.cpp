@@ -16,7 +16,7 @@
 #include "loci/curves/curves.hpp"
 #include "loci/surfaces/surfaces.hpp"
 #include "mechanism/group_closing.hpp"
-#include "mechanism/joint_traits.hpp"
+#include "mechanism/known_lines.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "numeric/model.hpp"
@@ -42,35 +42,12 @@ void require_traceable(const Mechanism& mechanism, const LociRequest& request) {
                                       "ask for f, M and F");
 }
 
-/// Whether all that acts on a link acts at two pins: its forces are along the line between them.
-bool bears_along_its_pins(const Mechanism& mechanism, mechanism::LinkIndex link) {
-  std::size_t pins = 0;
-  for (const mechanism::Joint& joint : mechanism.joints) {
-    if (joint.from != link && joint.to != link) continue;
-    const bool plain = joint.type == mechanism::JointType::revolute || joint.type == mechanism::JointType::spherical;
-    if (!plain || joint.actuated || joint.effort) return false;
-    ++pins;
-  }
-  const auto is_loaded = [&](const auto& list, const auto& of) { return std::any_of(list.begin(), list.end(), of); };
-  if (is_loaded(mechanism.loads, [&](const mechanism::Load& own) { return own.link == link; })) return false;
-  if (is_loaded(mechanism.springs, [&](const mechanism::Spring& own) { return own.from == link || own.to == link; }))
-    return false;
-  const std::vector<mechanism::Mass> masses = mechanism::masses(mechanism);
-  const bool heavy = is_loaded(masses, [&](const mechanism::Mass& own) { return own.link == link; });
-  return pins == 2 && (mechanism.gravity.empty() || !heavy);
-}
-
 /// Whether a change of sign tells a zero: in the plane, of a force of one component or along a known line.
 bool changes_through_zero(const Mechanism& mechanism, const core::Vanishing& what) {
-  if (what.quantity != core::Quantity::f) return true;
-  for (const mechanism::Joint& joint : mechanism.joints) {
-    if (joint.name != what.joint) continue;
-    if (mechanism::is_slot(mechanism, joint)) return true;
-    for (const mechanism::LinkIndex link : {joint.from, joint.to})
-      if (link != mechanism::ground && mechanism::traits(joint).pinned && bears_along_its_pins(mechanism, link))
-        return true;
-  }
-  return false;
+  return what.quantity != core::Quantity::f ||
+         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& own) {
+           return own.name == what.joint && mechanism::keeps_to_known_line(mechanism, own);
+         });
 }
 
 class Points {
@@ -80,7 +57,10 @@ class Points {
   core::LocusMap collect() {
     core::LocusMap& map = found_.loci;
     range_ = {core::to_double(map.lower.front()), core::to_double(map.upper.front())};
-    for (const core::ZonedMode& mode : found_.modes) add_mode(mode.mode);
+    for (const core::ZonedMode& mode : found_.modes) {
+      in_doubt_ = mode.in_doubt;
+      add_mode(mode.mode);
+    }
     return std::move(map);
   }
 
@@ -97,10 +77,9 @@ class Points {
     add_side(nullptr, zones.front());
     for (std::size_t i = 0; i + 1 < zones.size(); ++i) {
       const Zone &before = *zones[i], &behind = *zones[i + 1];
-      if (behind.lower[0] - before.upper[0] <= one_point * width()) {
-        add_between(before, behind);
-        continue;
-      }
+      const bool one = behind.lower[0] - before.upper[0] <= one_point * width();
+      if (one || is_proven(end_of(before, true))) add_between(before, behind);
+      if (one) continue;
       found_.loci.reachable.push_back({mode, from, before.upper[0]});
       from = behind.lower[0];
       add_side(&before, &behind);
@@ -123,9 +102,14 @@ class Points {
     const ZoneEnd* const last = behind != nullptr ? end_of(*behind, false) : nullptr;
     for (const ZoneEnd* const own : {first, last}) {
       if (own == nullptr) continue;
+      const core::WorkingMode& mode = (own == first ? before : behind)->mode;
       if (own->kind == LocusKind::workspace_boundary) {
-        add_point(*own, own->at, (own == first ? before : behind)->mode, own->certified);
+        add_point(*own, own->at, mode, own->certified);
         continue;
+      }
+      if (!own->limit.empty()) {
+        add_flank(*own, mode);
+        if (in_doubt_ <= one_point * width()) continue;
       }
       const double low = before != nullptr ? before->upper[0] : range_[0],
                    high = behind != nullptr ? behind->lower[0] : range_[1];
@@ -145,14 +129,28 @@ class Points {
     const ZoneEnd *own = end_of(before, true), *other = end_of(behind, false);
     if (own == nullptr) own = other;
     if (own == nullptr) return;
-    const double at = 0.5 * (before.upper[0] + behind.lower[0]);
+    const double at = own->zero.value_or(0.5 * (before.upper[0] + behind.lower[0]));
     if (own->kind == LocusKind::direct_singularity)
       return add_point(*own, at, before.mode, before.assembly_mode * behind.assembly_mode < 0);
     if (own->kind == LocusKind::workspace_boundary) return add_point(*own, at, before.mode, false);
-    bool all = !own->vanishing.empty();
-    for (const core::Vanishing& what : own->vanishing)
-      all = all && own->turns && changes_through_zero(mechanism_, what);
-    add_point(*own, at, before.mode, all);
+    add_point(*own, at, before.mode, is_proven(own));
+  }
+
+  /// Whether all that vanishes at an end does so for certain.
+  bool is_proven(const ZoneEnd* end) const {
+    return end != nullptr && end->turns && !end->vanishing.empty() &&
+           std::all_of(end->vanishing.begin(), end->vanishing.end(),
+                       [&](const core::Vanishing& what) { return changes_through_zero(mechanism_, what); });
+  }
+
+  /// Beyond which teeth would have to pull: what vanishes there, and the boundary.
+  void add_flank(const ZoneEnd& end, const core::WorkingMode& mode) {
+    const double at = end.zero.value_or(end.at);
+    add_point(end, at, mode, is_proven(&end));
+    ZoneEnd boundary;
+    boundary.kind = LocusKind::workspace_boundary;
+    boundary.cause = "limit: " + end.limit;
+    add_point(boundary, at, mode, end.turns);
   }
 
   void add_point(const ZoneEnd& end, double at, const core::WorkingMode& mode, bool certified) {
@@ -169,6 +167,7 @@ class Points {
   const Mechanism& mechanism_;
   core::Zones found_;
   std::array<double, 2> range_{};
+  double in_doubt_ = 0;  ///< of the mode
 };
 
 /// Curves and surfaces of every mode.

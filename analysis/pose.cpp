@@ -19,6 +19,7 @@
 #include "mechanism/free_cables.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
+#include "mechanism/posture_sample.hpp"
 #include "mechanism/written_unit.hpp"
 #include "numeric/dynamics.hpp"
 #include "numeric/pose_error.hpp"
@@ -46,6 +47,16 @@ std::string words_beyond(const numeric::NumericModel& model, const DyadSides& si
   return mechanism::words_of_end(m, end.limit, end.upper);
 }
 
+/// Cables whose tension follows a law have no unknown.
+void add_tensions_by_law(const mechanism::Mechanism& mechanism, Pose& pose) {
+  for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {
+    const mechanism::Joint& joint = mechanism.joints[j];
+    if (mechanism::is_cable(joint) && joint.effort && !joint.free_effort)
+      pose.reactions[j].components.push_back(
+          {core::Quantity::F, mechanism::sample_number(mechanism, *joint.effort, pose.at)});
+  }
+}
+
 /// Reactions and what follows from them, with the links' inertia.
 void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides, const PoseRequest& request,
                    Pose& pose) {
@@ -60,6 +71,7 @@ void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides
   constexpr double second = 1;  // the period of a single instant
   const Eigen::VectorXd values = instant.reactions(second);
   pose.reactions = reactions_of(motion.model, values, numeric::joint_reactions(motion, instant, values));
+  add_tensions_by_law(mechanism, pose);
   const numeric::InstantError accuracy = numeric::instant_error(motion, instant, second);
   pose.take_up = take_up_of(mechanism, accuracy.contacts, accuracy.take_up);
   pose.undefined = numeric::undefined_take_up(mechanism, accuracy.contacts, accuracy.take_up);
@@ -84,6 +96,7 @@ void solve_at(const numeric::NumericModel& model, const std::vector<numeric::Bou
   const numeric::Bounded determinant = numeric::bounded_numerators(model, at, sides).determinant;
   pose.points = named_points(m, posture.points);
   pose.reactions = reactions_of(model, accuracy.reactions.values, accuracy.of_joints);
+  add_tensions_by_law(m, pose);
   pose.determinant = accuracy.reactions.determinant;
   pose.condition = accuracy.reactions.condition;
   pose.singular = !(std::abs(determinant.value) > determinant.error);

@@ -187,6 +187,16 @@ core::Zones cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& 
 
 }  // namespace
 
+namespace {
+
+/// Where the loci are complete, zones may still be in doubt: by how their curves meet, or by their areas.
+bool all_is_certain(const core::Zones& map) {
+  return std::all_of(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) { return zone.certified; }) &&
+         std::all_of(map.modes.begin(), map.modes.end(), [](const core::ZonedMode& own) { return own.in_doubt == 0; });
+}
+
+}  // namespace
+
 core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest& request,
                        core::Certificate* certificate, const symbolic::LocusFamily* family) {
   const bool chosen = !mechanism::joints_without_preload(mechanism).empty();
@@ -197,6 +207,7 @@ core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest&
   const PreloadLabel label = label_of_preload(mechanism, own ? own->frame : mechanism::Frame{});
   core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, family, label)
                         : cut_zones(mechanism, request.loci, certificate, family, label);
+  map.loci.complete = map.loci.complete && all_is_certain(map);
   if (certificate != nullptr) {
     certify(map.loci, own, *certificate);
     certificate->zones = map.zones;

@@ -66,6 +66,11 @@ bool turns(PoseCell& cell, const std::vector<double>& before, const std::vector<
   return together < 0;
 }
 
+/// Teeth that would have to pull. Zones are cut where their force vanishes.
+bool teeth_pull(const numeric::NumericModel& model, const std::vector<double>& pose, const DyadSides& sides) {
+  return meshes(model.mechanism) && !numeric::reachable(model, pose, sides);
+}
+
 /// What ends the zones over one coordinate, and the end effector's jumps there: errors a hair behind less those a hair
 /// before. No loci are traced for it: what is in doubt beside a zone is at its end, to the finest cells.
 class Ends {
@@ -78,30 +83,48 @@ class Ends {
     jumps_ = clearances && all_loaded;
   }
 
-  void add(const loci::pose::CellZone& cells, const std::array<double, 2>& range, Zone& zone) {
+  /// `all`: of the mode, those out of reach included.
+  void add(const loci::pose::CellZone& cells, const std::vector<loci::pose::CellZone>& all,
+           const std::array<double, 2>& range, Zone& zone) {
     const double width = range[1] - range[0];
     for (std::size_t end = 0; end < 2; ++end) {
       if (cells.at_ends[end].empty()) continue;
       const double at = end == 0 ? zone.lower[0] : zone.upper[0];
       if (at <= range[0] || at >= range[1]) continue;
-      zone.ends.push_back(end_at(at, beside * width, cells.at_ends[end]));
+      const double beyond = start_beyond(all, end == 1, at, widest_doubt * width);
+      zone.ends.push_back(end_at(at, beyond, beside * width, cells.at_ends[end]));
     }
   }
 
  private:
-  static constexpr double beside = 1e-8;  ///< of the range: more than the finest cells
+  /// Of the range: more than the finest cells; more than what rounding leaves in doubt between two zones.
+  static constexpr double beside = 1e-8, widest_doubt = 1e-3;
 
-  core::ZoneEnd end_at(double at, double apart, const std::set<std::pair<Doubt, int>>& open) {
+  /// Where the zone beyond an end begins; the end itself where there is none so near.
+  static double start_beyond(const std::vector<loci::pose::CellZone>& all, bool upper, double at, double reach) {
+    double best = at, nearest = reach;
+    for (const loci::pose::CellZone& own : all) {
+      const double start = upper ? own.lower[0] : own.upper[0], apart = upper ? start - at : at - start;
+      if (apart < 0 || apart > nearest) continue;
+      nearest = apart;
+      best = start;
+    }
+    return best;
+  }
+
+  /// `beyond`: where the next zone begins.
+  core::ZoneEnd end_at(double at, double beyond, double apart, const std::set<std::pair<Doubt, int>>& open) {
     core::ZoneEnd own;
     own.at = at;
-    const std::vector<double> before = {at - apart}, behind = {at + apart};
+    const std::vector<double> before = {std::min(at, beyond) - apart}, behind = {std::max(at, beyond) + apart};
     const auto holds = [&](Doubt doubt) {
       return std::any_of(open.begin(), open.end(), [&](const auto& one) { return one.first == doubt; });
     };
     if (holds(Doubt::workspace)) {
       own.kind = core::LocusKind::workspace_boundary;
-      for (const std::vector<double>& beside_it : {before, behind})  // the one beyond the end breaks the limit
-        if (own.limit.empty()) own.limit = limit_at(model_.mechanism, model_, beside_it, sides_, 0);
+      for (const double beside_it : {at - apart, at + apart})  // the one beyond the end breaks the limit
+        if (own.limit.empty())
+          own.limit = limit_at(model_.mechanism, model_, std::vector<double>{beside_it}, sides_, 0);
       for (const loci::pose::SheetEnd& sheet : dead_centres_)
         if (sheet.lower <= at + 0.1 * apart && sheet.upper >= at - 0.1 * apart) {
           own.cause = "dead centre of group " + statics_.program.blocks[sheet.block].name;
@@ -113,21 +136,59 @@ class Ends {
       own.kind = core::LocusKind::direct_singularity;
       return own;
     }
-    bool first = true;
-    for (const bool turning : {true, false}) {
-      if (!own.vanishing.empty()) break;
-      // Of those that only may vanish none is told where others do.
-      for (const auto& [doubt, demand] : open) {
-        if (turning && !turns(cell_, before, behind, demand)) continue;
-        own.turns = turning;
-        const core::ZoneBorder border = border_of(statics_, doubt, demand);
-        own.vanishing.push_back(border.vanishing.front());
-        own.kind = first ? *border.kind : std::min(own.kind, *border.kind);
-        first = false;
-      }
-    }
-    add_jump(own, before.front(), behind.front());
+    add_vanishing(own, before, behind, apart, open);
+    own.limit = flank_of(own, before, behind);
+    if (own.zero)
+      add_jump(own, *own.zero - apart, *own.zero + apart);
+    else if (std::abs(beyond - at) <= apart)
+      add_jump(own, before.front(), behind.front());
     return own;
+  }
+
+  /// Of what may vanish at an end that which turns; where nothing does, all of it.
+  void add_vanishing(core::ZoneEnd& own, const std::vector<double>& before, const std::vector<double>& behind,
+                     double apart, const std::set<std::pair<Doubt, int>>& open) {
+    bool elsewhere = false;
+    const auto add = [&](Doubt doubt, int demand) {
+      const core::ZoneBorder border = border_of(statics_, doubt, demand);
+      own.kind = own.vanishing.empty() ? *border.kind : std::min(own.kind, *border.kind);
+      own.vanishing.push_back(border.vanishing.front());
+    };
+    for (const auto& [doubt, demand] : open) {
+      if (!turns(cell_, before, behind, demand)) continue;
+      own.turns = true;
+      const double zero = zero_between(before, behind, demand);
+      if (!own.zero) own.zero = zero;
+      elsewhere = elsewhere || std::abs(zero - *own.zero) > 4 * apart;
+      add(doubt, demand);
+    }
+    if (own.vanishing.empty())
+      for (const auto& [doubt, demand] : open) add(doubt, demand);
+    if (!elsewhere) return;
+    own.turns = false;  // where each of them vanishes is not told
+    own.zero.reset();
+  }
+
+  /// Where what turns between two poses does so.
+  double zero_between(const std::vector<double>& before, const std::vector<double>& behind, int demand) {
+    double low = before.front(), high = behind.front();
+    constexpr int halvings = 60;
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = low + 0.5 * (high - low);
+      (turns(cell_, before, {middle}, demand) ? high : low) = middle;
+    }
+    return high;
+  }
+
+  /// A zone ends for good where the teeth of a gear that bear nothing would have to pull beyond.
+  std::string flank_of(const core::ZoneEnd& end, const std::vector<double>& before,
+                       const std::vector<double>& behind) const {
+    if (!teeth_pull(model_, before, sides_) && !teeth_pull(model_, behind, sides_)) return {};
+    for (const core::Vanishing& what : end.vanishing)
+      for (const mechanism::Joint& joint : model_.mechanism.joints)
+        if (joint.name == what.joint && what.quantity == core::Quantity::F && has_teeth(joint))
+          return "flank of gear " + joint.name;
+    return {};
   }
 
   void add_jump(core::ZoneEnd& own, double before, double behind) const {
@@ -162,11 +223,6 @@ class Ends {
   PoseCell cell_;
   bool jumps_ = false;
 };
-
-/// Teeth that would have to pull. Zones are cut where their force vanishes.
-bool teeth_pull(const numeric::NumericModel& model, const std::vector<double>& pose, const DyadSides& sides) {
-  return meshes(model.mechanism) && !numeric::reachable(model, pose, sides);
-}
 
 /// Zones on a side of a fold on which a link bends are out of reach, as are those in which teeth would have to pull: in
 /// all of a zone or nowhere, so that one pose tells.
@@ -254,6 +310,7 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   if (ground.lower.size() == 1) effort.enough_doubt = 0, effort.least_part = 1e-7;
   effort.raster = map.grid;
   loci::pose::CellZones found = loci::pose::cell_zones(statics, ground.lower, ground.upper, effort);
+  const std::vector<loci::pose::CellZone> all = found.zones;
   leave_rigid(found, model, sides);
   core::ZonedMode own;
   own.mode = mode_of(sides, map.loci.tower);
@@ -275,7 +332,7 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
             loci::pose::largest_ball(found.zones[z], z, found.raster, map.grid, ground.lower, ground.upper))
       zone.ball = *ball;
     add_signs(statics, model, sides, cell, zone);
-    if (ground.lower.size() == 1) ends.add(found.zones[z], {ground.lower[0], ground.upper[0]}, zone);
+    if (ground.lower.size() == 1) ends.add(found.zones[z], all, {ground.lower[0], ground.upper[0]}, zone);
     map.zones.push_back(std::move(zone));
   }
   own.labels = std::move(found.raster);

@@ -103,6 +103,12 @@ std::optional<PosturePoints> complete(const MaybePoints& points) {
 
 }  // namespace
 
+double sample_number(const Mechanism& mechanism, const Expression& number, const std::vector<double>& pose) {
+  const Values values = values_of(mechanism, pose);
+  const std::vector<double> none;
+  return core::interpret(number, Doubles{values, none});
+}
+
 std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, const VectorExpression& vector,
                                                    const std::vector<double>& pose) {
   const Values values = values_of(mechanism, pose);

@@ -22,6 +22,9 @@ std::vector<std::optional<std::array<double, 3>>> sample_points(const Mechanism&
 std::vector<std::optional<std::array<double, 3>>> sample_points(const Mechanism& mechanism,
                                                                 const std::vector<double>& pose);
 
+/// An expression in the coordinates and parameters at a pose, in its unit.
+double sample_number(const Mechanism& mechanism, const Expression& number, const std::vector<double>& pose);
+
 /// A vector at a pose; nothing where a point of it cannot be built.
 std::optional<std::array<double, 3>> sample_vector(const Mechanism& mechanism, const VectorExpression& vector,
                                                    const std::vector<double>& pose);

@@ -278,6 +278,17 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
   return result;
 }
 
+std::array<Bounded, 3> bounded_way(const NumericModel& model, const std::array<mechanism::PointIndex, 2>& points,
+                                   std::span<const double> pose, std::span<const int> mode) {
+  Evaluator<Bounded, 1> evaluator(model, mode, model.posture_size);
+  for (std::size_t c = 0; c < pose.size(); ++c) evaluator.input(c, 0) = Bounded(pose[c]);
+  evaluator.run_tape();
+  const auto place = [&](std::size_t which, std::size_t c) {
+    return evaluator.value(model.points[static_cast<std::size_t>(points[which])][c], 0);
+  };
+  return {place(1, 0) - place(0, 0), place(1, 1) - place(0, 1), place(1, 2) - place(0, 2)};
+}
+
 bool reachable(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
   core::ensure(pose.size() == model.box.size(), "a pose has one value for each free coordinate");
   if (!teeth_of(model).empty()) return bounded_numerators(model, pose, mode).reachable;

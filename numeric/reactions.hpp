@@ -101,6 +101,10 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
 BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const Bounded> pose,
                                      std::span<const int> mode);
 
+/// From the first to the second of two points, m. Requires a reachable pose.
+std::array<Bounded, 3> bounded_way(const NumericModel& model, const std::array<mechanism::PointIndex, 2>& points,
+                                   std::span<const double> pose, std::span<const int> mode);
+
 /// Whether every point can be placed.
 bool reachable(const NumericModel& model, std::span<const double> pose, std::span<const int> mode);
 

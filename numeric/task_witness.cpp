@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/known_lines.hpp"
 #include "numeric/geometry.hpp"
 #include "numeric/least_load.hpp"
 #include "numeric/take_up.hpp"
@@ -27,6 +28,13 @@ double largest_determinant(const NumericModel& model, std::span<const int> mode,
     if (n.reachable && std::isfinite(n.determinant.value)) largest = std::max(largest, std::abs(n.determinant.value));
   }
   return largest;
+}
+
+/// The sum of products of a force's components, which may be of the plane, with those of a vector.
+Bounded along(std::span<const Bounded> force, const std::array<Bounded, 3>& way) {
+  Bounded sum;
+  for (std::size_t c = 0; c < force.size() && c < 3; ++c) sum = sum + force[c] * way[c];
+  return sum;
 }
 
 /// Under the first or the last load, for certain: it is affine between them.
@@ -207,6 +215,19 @@ std::optional<TaskFailure> TaskWitness::failure_of(std::span<const double> at, i
   return solved && demand >= 0 ? judged(demand, *solved) : std::nullopt;
 }
 
+std::optional<std::array<std::array<Bounded, 3>, 2>> TaskWitness::lines_of_force(const core::TaskDemand& demand,
+                                                                                 std::span<const double> a,
+                                                                                 std::span<const double> b) const {
+  if (demand.quantity != core::Quantity::f || demand.bound) return std::nullopt;
+  const NumericModel& model = *loads_.ends.front();
+  for (const mechanism::Joint& joint : model.mechanism.joints) {
+    if (joint.name != demand.joint) continue;
+    if (const auto pins = mechanism::pins_along_force(model.mechanism, joint))
+      return std::array{bounded_way(model, *pins, a, mode_), bounded_way(model, *pins, b, mode_)};
+  }
+  return std::nullopt;
+}
+
 bool TaskWitness::differs(std::span<const double> a, std::span<const double> b, int demand) const {
   const std::vector<BoundedNumerators> one = numerators(loads_.ends, exactly(a), 0),
                                        two = numerators(loads_.ends, exactly(b), 0);
@@ -216,10 +237,12 @@ bool TaskWitness::differs(std::span<const double> a, std::span<const double> b, 
   };
   if (demand < 0) return opposite(one.front().determinant, two.front().determinant);
   const core::TaskDemand& own = demands_[static_cast<std::size_t>(demand)];
+  const auto line = lines_of_force(own, a, b);
   for (std::size_t load = 0; load < one.size(); ++load) {
     const std::vector<Bounded> x = demanded_parts(*loads_.ends.front(), own, one[load]),
                                y = demanded_parts(*loads_.ends.front(), own, two[load]);
     if (x.size() == 1 && opposite(x[0], y[0])) return true;
+    if (line && opposite(along(x, (*line)[0]), along(y, (*line)[1]))) return true;
   }
   return false;
 }

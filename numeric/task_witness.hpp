@@ -6,6 +6,7 @@
 // either is certain at both ends of a way and differs, then on that way it vanishes or the mechanism does not follow.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -74,8 +75,8 @@ class TaskWitness {
   /// The same of one demand; of -1, of |A| and the workspace alone.
   std::optional<TaskFailure> failure_of(std::span<const double> at, int demand) const;
 
-  /// Whether a sign differs, for certain, at two poses: of |A| with demand -1, else of the one component of a reaction
-  /// or of |A|.
+  /// Whether a sign differs, for certain, at two poses: of |A| with demand -1, else of the one component of a reaction,
+  /// of its part along the pins of a two-force link, or of |A|.
   bool differs(std::span<const double> a, std::span<const double> b, int demand) const;
 
   /// Whether a reaction is zero, to rounding, at every pose.
@@ -89,6 +90,10 @@ class TaskWitness {
     std::vector<BoundedNumerators> ends, directions;
   };
 
+  /// Where all of a demanded force is along the pins of a two-force link: the way between them at two poses.
+  std::optional<std::array<std::array<Bounded, 3>, 2>> lines_of_force(const core::TaskDemand& demand,
+                                                                      std::span<const double> a,
+                                                                      std::span<const double> b) const;
   double rounding_at(std::span<const Bounded> at, std::size_t c) const;
   std::size_t coordinates(std::span<const Bounded> at) const;
   /// How many of the poses that cannot be told from one are within reach, and of how many.

@@ -1,6 +1,8 @@
 #include "report/picture.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "core/errors.hpp"
 #include "report/cell_zone_picture.hpp"
@@ -76,6 +78,25 @@ std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& 
   return drawn({&map, mode, groups_of_mode(group_loci(map), mode), nullptr, &layer, nullptr, nullptr}, format);
 }
 
+namespace {
+
+/// Of the mode, without preload loci that no zone has for a border: most places in which bounds of efforts meet part
+/// nothing.
+Groups groups_beside_zones(const core::Zones& map, const core::WorkingMode& mode) {
+  std::set<std::string> borders;
+  for (const core::Zone& zone : map.zones)
+    if (zone.mode == mode)
+      for (const core::ZoneBorder& own : zone.borders) borders.insert(own.curve);
+  Groups groups = groups_of_mode(group_loci(map.loci), mode);
+  for (CurveGroup& group : groups.curves)
+    if (group.kind == core::LocusKind::preload)
+      std::erase_if(group.curves, [&](const core::LocusCurve* curve) { return !borders.contains(curve->id); });
+  std::erase_if(groups.curves, [](const CurveGroup& group) { return group.curves.empty(); });
+  return groups;
+}
+
+}  // namespace
+
 std::string zone_picture(const core::Zones& in_si, const core::WorkingMode& mode, PictureFormat format) {
   if (in_si.by_cells) {
     const auto own =
@@ -85,13 +106,12 @@ std::string zone_picture(const core::Zones& in_si, const core::WorkingMode& mode
     return cell_zone_picture(in_si, *own, format);
   }
   const core::Zones map = in_file_units(in_si);
-  return drawn({&map.loci, mode, groups_of_mode(group_loci(map.loci), mode), nullptr, nullptr, &map, nullptr}, format);
+  return drawn({&map.loci, mode, groups_beside_zones(map, mode), nullptr, nullptr, &map, nullptr}, format);
 }
 
 std::string task_picture(const core::Zones& map, const core::WorkingMode& mode, const TaskMark& task,
                          PictureFormat format) {
-  const Groups groups = groups_of_mode(group_loci(map.loci), mode);
-  return drawn({&map.loci, mode, groups, nullptr, nullptr, &map, &task}, format);
+  return drawn({&map.loci, mode, groups_beside_zones(map, mode), nullptr, nullptr, &map, &task}, format);
 }
 
 std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode) {

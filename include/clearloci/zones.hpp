@@ -34,11 +34,14 @@ struct ZoneEnd {
   double at = 0;
   LocusKind kind = LocusKind::contact_loss;
   std::vector<Vanishing> vanishing = {};
-  std::string limit = {};              ///< of a boundary the limit that makes it: "spring S, whose ends G1 and G2 meet"
+  /// The limit beyond which no pose is reached: "spring S, whose ends G1 and G2 meet", "flank of gear W".
+  std::string limit = {};
   std::optional<PoseError> jump = {};  ///< behind minus before, where joints have clearances and both sides have errors
   bool turns = false;                  ///< what vanishes has another sign, or turns round, from one side to the other
   bool certified = false;              ///< of a dead centre: it is proven to be one
   std::string cause = {};              ///< "dead centre of group hip"
+  /// Where what turns vanishes, computed in floating point: between this end and that of the zone beyond it.
+  std::optional<double> zero = {};
 };
 
 /// Distances are of the coordinates as they stand, m and rad alike.

@@ -244,7 +244,8 @@ std::optional<Orientation> PlanarTurning::by_way(LinkIndex link, JointIndex inde
   return beside_way(own, joint, *axis);
 }
 
-/// The guide passes beside the pins: its foot F below the first one has a right angle in it.
+/// The guide passes beside the pins: its foot F below the first one has a right angle in it. The link turns with the
+/// way to the foot, or, where that is short, with the way from there along the guide.
 Orientation PlanarTurning::beside_way(const Orientation& along, const Joint& joint, const Amounts& axis) {
   Orientation own = along;
   const Amount part = mechanism::cross(axis, along.reference)[2] / dot(axis, axis);
@@ -259,6 +260,16 @@ Orientation PlanarTurning::beside_way(const Orientation& along, const Joint& joi
            {"length", text(length(foot).text())},
            {"side", text(turn > 0 ? "left" : "right")}}),
       place, "the guide of " + joint.name + " passes " + length(foot).text() + " beside " + known(own.from).name);
+  // A direction read off two points loses as many digits as they are nearer to each other than the mechanism is large.
+  constexpr double near = 0.01;
+  const Amounts rest = along.reference - foot;
+  if (length(foot).value() < near * length(rest).value()) {
+    own.from = own.to;
+    own.to = along.to;
+    own.means = Means::way;
+    own.reference = own.drawn = rest;
+    return own;
+  }
   own.means = Means::points;
   own.reference = own.drawn = foot;
   return own;

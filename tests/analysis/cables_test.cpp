@@ -241,6 +241,23 @@ TEST(Cables, GivenTensionsAreHeldAgainstTheBoundsOfTheOthers) {
   EXPECT_LT(*slack.witness->size, 5);
 }
 
+TEST(Cables, TensionsThatFollowALawAreTold) {
+  const Model law = Model::parse(example_text("cables/point"), "m.yaml")
+                        .with({{"preload_K3", "30"}, {"preload_K4", "20 N + 40 N/m*x"}});
+  const std::array<Eigen::Vector2d, 4> ends = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (const Eigen::Vector2d& at : {Eigen::Vector2d(0.2, -0.1), Eigen::Vector2d(-0.3, 0.4)}) {
+    const Pose pose = solve_pose(law, {at(0), at(1)});
+    ASSERT_EQ(pose.reactions.size(), 4U);
+    Eigen::Vector2d sum(0, -2 * 9.81);
+    for (std::size_t k = 0; k < 4; ++k) {
+      ASSERT_EQ(pose.reactions[k].components.size(), 1U) << pose.reactions[k].joint;
+      sum += pose.reactions[k].components[0].value * (ends[k] - at).normalized();
+    }
+    EXPECT_NEAR(pose.reactions[3].components[0].value, 20 + 40 * at(0), 1e-12);
+    EXPECT_LT(sum.norm(), 1e-9);
+  }
+}
+
 TEST(Cables, LawsKeepTheBoundsOfTheirTensions) {
   const Model model = Model::parse(example_text("cables/point"), "m.yaml");
   // A cable never pushes: K3 would be at -2 N.

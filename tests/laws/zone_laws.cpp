@@ -184,6 +184,9 @@ void judge_zones(Subject& s) {
   const bool certified =
       std::all_of(zones.zones.begin(), zones.zones.end(), [](const core::Zone& zone) { return zone.certified; });
   if (!certified) s.report.uncertified("zones");
+  double in_doubt = 0;
+  for (const core::ZonedMode& own : zones.modes) in_doubt += own.in_doubt;
+  if (zones.loci.complete && (!certified || in_doubt > 0)) s.report.fault("zones in doubt are told as complete");
   const std::string what = std::to_string(zones.zones.size()) + " zones" + (certified ? "" : ", not certified");
   for (const core::WorkspaceRegion& region : zones.loci.workspace) {
     const std::vector<int> sides = s.sides_of(zones.loci, region.mode);

@@ -32,6 +32,33 @@ std::string five_bar_picture(const core::LocusMap& map, PictureFormat format) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+/// Preload loci that part no zones would cover those that do.
+TEST(Picture, OfZonesHasPreloadLociThatBorderThem) {
+  core::Zones map;
+  map.loci = fixture::five_bar_map();
+  const auto locus = [&](const std::string& id, const std::string& joint) {
+    core::LocusCurve own;
+    own.id = id;
+    own.kind = core::LocusKind::preload;
+    own.mode = fixture::elbows_out();
+    own.vanishing = {{joint, core::Quantity::F, 1}};
+    own.arcs.emplace_back().points = {{0, -0.5}, {0.1, -0.6}};
+    map.loci.curves.push_back(own);
+  };
+  locus("c91", "K1");
+  locus("c92", "K2");
+  core::Zone& zone = map.zones.emplace_back();
+  zone.id = "z1";
+  zone.mode = fixture::elbows_out();
+  zone.outer = {{0, -0.5}, {0.1, -0.6}, {0.2, -0.5}, {0, -0.5}};
+  zone.ball = {{0.1, -0.52}, 0.01};
+  zone.borders = {{"c91", 0.1, core::LocusKind::preload, {{"K1", core::Quantity::F, 1}}, {}}};
+  const std::string svg = zone_picture(map, fixture::elbows_out(), PictureFormat::svg);
+  EXPECT_TRUE(has(svg, "F_K1"));
+  EXPECT_FALSE(has(svg, "F_K2"));
+  EXPECT_TRUE(has(svg, "backlash: A1")) << "others stay";
+}
+
 TEST(Picture, LegendNamesJointsAndReasons) {
   const std::string svg = five_bar_picture(fixture::five_bar_map(), PictureFormat::svg);
   EXPECT_TRUE(has(svg, "contact lost: A1, B1, P; backlash: A1 — link PB2 parallel to the load\n"));

@@ -1,0 +1,57 @@
+#include "mechanism/known_lines.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "mechanism/actions.hpp"
+#include "mechanism/joint_traits.hpp"
+
+namespace clearloci::mechanism {
+namespace {
+
+/// Whether a force or couple acts on a link besides those of its joints.
+bool is_loaded(const Mechanism& mechanism, LinkIndex link) {
+  const auto any = [](const auto& list, const auto& of) { return std::any_of(list.begin(), list.end(), of); };
+  if (any(mechanism.loads, [&](const Load& own) { return own.link == link; })) return true;
+  if (any(mechanism.springs, [&](const Spring& own) { return own.from == link || own.to == link; })) return true;
+  return !mechanism.gravity.empty() && any(masses(mechanism), [&](const Mass& own) { return own.link == link; });
+}
+
+std::vector<const Joint*> joints_of(const Mechanism& mechanism, LinkIndex link) {
+  std::vector<const Joint*> own;
+  for (const Joint& joint : mechanism.joints)
+    if (joint.from == link || joint.to == link) own.push_back(&joint);
+  return own;
+}
+
+}  // namespace
+
+std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism& mechanism, LinkIndex link) {
+  const std::vector<const Joint*> joints = joints_of(mechanism, link);
+  // What bears no couple: a pin in the plane, a ball in space.
+  const JointType type = mechanism.space == Space::planar ? JointType::revolute : JointType::spherical;
+  const bool plain = std::all_of(joints.begin(), joints.end(),
+                                 [&](const Joint* own) { return own->type == type && !own->actuated && !own->effort; });
+  if (link == ground || joints.size() != 2 || !plain || is_loaded(mechanism, link)) return std::nullopt;
+  return std::array{joints[0]->at, joints[1]->at};
+}
+
+std::optional<std::array<PointIndex, 2>> pins_along_force(const Mechanism& mechanism, const Joint& joint) {
+  if (!traits(joint).pinned) return std::nullopt;
+  for (const LinkIndex link : {joint.from, joint.to})
+    if (const auto pins = pins_of_two_force_link(mechanism, link)) return pins;
+  return std::nullopt;
+}
+
+bool keeps_to_known_line(const Mechanism& mechanism, const Joint& joint) {
+  if (is_slot(mechanism, joint) || pins_along_force(mechanism, joint)) return true;
+  for (const LinkIndex link : {joint.from, joint.to}) {
+    const std::vector<const Joint*> joints = joints_of(mechanism, link);
+    if (link == ground || joints.size() != 2 || is_loaded(mechanism, link)) continue;
+    const Joint& other = *joints[joints[0] == &joint ? 1 : 0];
+    if (other.type == JointType::gear || is_slot(mechanism, other)) return true;
+  }
+  return false;
+}
+
+}  // namespace clearloci::mechanism

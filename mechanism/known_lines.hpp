@@ -1,0 +1,23 @@
+// Contact forces along a line that the posture alone tells: such a force is one number along the line, and where it
+// has opposite signs in two poses it vanishes on every way between them.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "mechanism/mechanism.hpp"
+
+namespace clearloci::mechanism {
+
+/// The two pins of a two-force link: no actuator, load, spring or weight acts on it, so that the forces in them are
+/// along the line between them. Nothing of other links.
+std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism& mechanism, LinkIndex link);
+
+/// The pins whose line the force of a joint keeps to: those of a two-force link that it is a pin of.
+std::optional<std::array<PointIndex, 2>> pins_along_force(const Mechanism& mechanism, const Joint& joint);
+
+/// Whether the force of a joint keeps to a line that the posture tells: in a slot, of a two-force link, or where the
+/// line of action of teeth or a slot passes on all that acts on one of its links.
+bool keeps_to_known_line(const Mechanism& mechanism, const Joint& joint);
+
+}  // namespace clearloci::mechanism
