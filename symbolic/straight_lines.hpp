@@ -4,7 +4,8 @@
 //       Q = ((a + b)^2 - D) (D - (a - b)^2) = s^2,   lambda = 1/2 + (a^2 - b^2) / (2 D),   mu = s / (2 D),
 //       B = A + lambda (u, v) + mu (-v, u)
 //   in space, turning about n: w = P - A, N = n . n, h = n . w, D = N w . w - h^2, k = a^2 - b^2 + w . w,
-//       s^2 = 4 a^2 D - N k^2,   B = A + k / (2 D) (N w - h n) + s / (2 D) (n x w)
+//       s^2 = 4 a^2 D - N k^2,   E = (N (a^2 - b^2) + h^2) / D,   v = h / N n,
+//       B = A + (E + 1) / 2 (w - v) + s / (2 D) (n x w) = P + (E - 1) / 2 (w - v) - v + s / (2 D) (n x w)
 #pragma once
 
 #include <map>
@@ -64,12 +65,12 @@ class StraightLines {
 
   /// A constructed point as seen from one of the dyad's ends: what stands for its ring variables then.
   struct Arm {
-    Poly x, y;   ///< of the end, in natural coordinates
-    Place step;  ///< from there to the point
+    std::array<Poly, 3> end;  ///< in natural coordinates
+    Place step;               ///< from there to the point
   };
   struct ArmedPoint {
-    int x, y;                 ///< ring variables
-    std::array<Arm, 2> arms;  ///< from either end
+    std::array<int, 3> variables;  ///< of the ring; -1: none
+    std::array<Arm, 2> arms;       ///< from either end
   };
 
   int value(const core::Polynomial& p);
@@ -83,7 +84,9 @@ class StraightLines {
   Place way_between(mechanism::PointIndex from, mechanism::PointIndex to);
   std::optional<Dyad> dyad(mechanism::PointIndex point);
   Place constructed_place(const ConstructedPoint& point);
-  Place elbow(const Dyad& dyad, int s);
+  /// From either end to the point.
+  std::array<Place, 2> steps_to(const Dyad& dyad, const TowerRoot& root);
+  std::array<Place, 2> steps_in_space(const Dyad& dyad, int s);
   Place over_tower(const TowerPoint& place);
   Place vector(const mechanism::VectorExpression& vector);
   void know(const std::array<int, 3>& ring_variables, const Place& place);
@@ -101,7 +104,8 @@ class StraightLines {
   int excess(const Dyad& dyad);
 
   const Geometry* geometry_;
-  bool is_nested_ = false;  ///< a root stands on another
+  bool is_nested_ = false;   ///< a root stands on another
+  bool takes_ways_ = false;  ///< so it is, or the mechanism is in space: ways may take fewer terms than coordinates
   core::StraightLineBuilder builder_;
   std::map<int, int> known_;  ///< ring variable to step
   std::vector<DeterminantForm> forms_;

@@ -133,7 +133,8 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
       return coordinates;
     };
     std::map<const core::LocusFactor*, int> signs;  // of line and polynomial together
-    const bool is_long = GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_three_dyads_stacked";
+    const bool is_long =
+        GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_three_dyads_stacked" || GetParam() == "delta";
     const int samples = is_long ? 100 : 400;  // of thousands of terms
     for (int sample = 0; sample < samples; ++sample) {
       const std::vector<double> from = pose(), to = pose();
@@ -195,6 +196,12 @@ TEST(StraightLinesOfTowers, AreShort) {
     longest = std::max(longest, factor.line.steps.size());
   EXPECT_GT(longest, 100u);
   EXPECT_LT(longest, 500u);  // 1100 by coordinates
+  // In space: 1368 by coordinates of the elbows.
+  longest = 0;
+  const auto delta = locus_problem(mechanism::read_mechanism(source_dir() + "/examples/delta.yaml"), {});
+  for (const core::LocusFactor& factor : delta.problem.factors) longest = std::max(longest, factor.line.steps.size());
+  EXPECT_GT(longest, 100u);
+  EXPECT_LT(longest, 700u);
   const DerivedProblem stacked = derived("five_bar_two_dyads_stacked");
   ASSERT_EQ(stacked.problem.tower.roots.size(), 4u);
   EXPECT_LT(stacked.problem.tower.roots[3].square.terms.size(), 300u);  // 583 with D as a sum of squares
@@ -259,7 +266,7 @@ TEST(StraightLinesOfTowers, TellTheRimsOfADyadOnDyadsApart) {
 INSTANTIATE_TEST_SUITE_P(Mechanisms, StraightLineForms,
                          testing::Values("five_bar_weights", "five_bar_coupler", "three_rrr", "seven_bar",
                                          "seven_bar_on_both_legs", "five_bar_two_dyads_stacked",
-                                         "five_bar_three_dyads_stacked", "stephenson_six_bar"),
+                                         "five_bar_three_dyads_stacked", "stephenson_six_bar", "delta", "three_ruu"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
