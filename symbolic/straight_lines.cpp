@@ -17,8 +17,6 @@ StraightLines::StraightLines(const Geometry& geometry) : geometry_(&geometry) {
   const std::vector<int> own = geometry.tower_variables();
   for (const TowerRoot& root : geometry.roots())
     for (const TowerRoot& below : geometry.roots()) is_nested_ = is_nested_ || root.square.depends_on(below.variable);
-  takes_ways_ = is_nested_ || std::any_of(geometry.constructed().begin(), geometry.constructed().end(),
-                                          [](const ConstructedPoint& point) { return point.z >= 0; });
   for (std::size_t i = 0; i < own.size(); ++i) known_[own[i]] = builder_.variable(static_cast<int>(i));
 }
 
@@ -35,9 +33,8 @@ int StraightLines::scaled_value(const Poly& natural, long exponent) {
   for (core::Term& term : scaled.terms) term.coefficient = core::times_power_of_two(term.coefficient, exponent);
   const auto form =
       std::find_if(forms_.begin(), forms_.end(), [&](const DeterminantForm& f) { return f.value == natural; });
-  const auto gained = [&] { return Rational(scaled.terms.front().coefficient / plain.terms.front().coefficient); };
-  if (form == forms_.end()) return takes_ways_ ? value_by_ways(natural, gained()) : value(scaled);
-  return determinant(*form, gained());
+  if (form == forms_.end()) return scaled_value_by_ways(natural, scaled);
+  return determinant(*form, scaled.terms.front().coefficient / plain.terms.front().coefficient);
 }
 
 namespace {
@@ -54,6 +51,11 @@ Poly moved(const Poly& p, int v, const Poly& by) {
 }
 
 }  // namespace
+
+int StraightLines::scaled_value_by_ways(const Poly& natural, const Polynomial& scaled) {
+  if (scaled.terms.empty()) return builder_.constant(0);
+  return value_by_ways(natural, scaled.terms.front().coefficient / natural.plain().terms.front().coefficient);
+}
 
 int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
   const std::vector<ArmedPoint>& points = armed_points();
@@ -182,7 +184,7 @@ int StraightLines::determinant(const DeterminantForm& form, const Rational& scal
     }
   std::vector<std::vector<int>> rows(size);
   for (std::size_t i = 0; i < size; ++i)
-    for (const Polynomial& entry : entries[i]) rows[i].push_back(value(entry));
+    for (std::size_t j = 0; j < size; ++j) rows[i].push_back(scaled_value_by_ways(form.rows[i][j], entries[i][j]));
   const Rational constant = core::times_power_of_two(form.constant * scale, taken);
   return builder_.multiply(builder_.constant(constant), Minors(builder_, rows).of((1U << size) - 1));
 }

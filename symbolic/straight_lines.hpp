@@ -76,6 +76,8 @@ class StraightLines {
   int value(const core::Polynomial& p);
   /// The same, by the ways from point to point where that takes fewer terms.
   int value_by_ways(const Poly& natural, const core::Rational& scale);
+  /// `scaled`: its multiple that is asked for.
+  int scaled_value_by_ways(const Poly& natural, const core::Polynomial& scaled);
   const std::vector<ArmedPoint>& armed_points();
   int scaled_value(const Poly& natural, long exponent);
   int determinant(const DeterminantForm& form, const core::Rational& scale);
@@ -104,8 +106,7 @@ class StraightLines {
   int excess(const Dyad& dyad);
 
   const Geometry* geometry_;
-  bool is_nested_ = false;   ///< a root stands on another
-  bool takes_ways_ = false;  ///< so it is, or the mechanism is in space: ways may take fewer terms than coordinates
+  bool is_nested_ = false;  ///< a root stands on another
   core::StraightLineBuilder builder_;
   std::map<int, int> known_;  ///< ring variable to step
   std::vector<DeterminantForm> forms_;
