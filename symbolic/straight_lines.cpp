@@ -33,15 +33,15 @@ int StraightLines::scaled_value(const Poly& natural, long exponent) {
   for (core::Term& term : scaled.terms) term.coefficient = core::times_power_of_two(term.coefficient, exponent);
   const auto form =
       std::find_if(forms_.begin(), forms_.end(), [&](const DeterminantForm& f) { return f.value == natural; });
-  const auto gained = [&] { return Rational(scaled.terms.front().coefficient / plain.terms.front().coefficient); };
-  if (form == forms_.end()) return is_nested_ ? value_by_ways(natural, gained()) : value(scaled);
-  return determinant(*form, gained());
+  if (form == forms_.end()) return scaled_value_by_ways(natural, scaled);
+  return determinant(*form, scaled.terms.front().coefficient / plain.terms.front().coefficient);
 }
 
 namespace {
 
-/// p with v + by in the place of v.
+/// p with v + by in the place of v, of which there may be none.
 Poly moved(const Poly& p, int v, const Poly& by) {
+  if (v < 0) return p;
   const std::vector<Poly> powers = p.coefficients(v);
   if (powers.size() <= 1) return p;
   const Poly place = Poly::variable(p.ring(), v) + by;
@@ -52,13 +52,18 @@ Poly moved(const Poly& p, int v, const Poly& by) {
 
 }  // namespace
 
+int StraightLines::scaled_value_by_ways(const Poly& natural, const Polynomial& scaled) {
+  if (scaled.terms.empty()) return builder_.constant(0);
+  return value_by_ways(natural, scaled.terms.front().coefficient / natural.plain().terms.front().coefficient);
+}
+
 int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
   const std::vector<ArmedPoint>& points = armed_points();
   const auto written = [&](const std::vector<std::size_t>& arms) {
     Poly result = natural;
     for (std::size_t i = points.size(); i-- > 0;) {
       const Arm& arm = points[i].arms[arms[i]];
-      result = moved(moved(result, points[i].x, arm.x), points[i].y, arm.y);
+      for (std::size_t k = 0; k < 3; ++k) result = moved(result, points[i].variables[k], arm.end[k]);
     }
     return result;
   };
@@ -89,8 +94,8 @@ int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
     bool is_arm = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Place& step = points[i].arms[arms[i]].step;
-      if (v == points[i].x) own = step[0], is_arm = true;
-      if (v == points[i].y) own = step[1], is_arm = true;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (v == points[i].variables[k]) own = step[k], is_arm = true;
     }
     if (!is_arm) own = variable(v);
   }
@@ -102,27 +107,17 @@ const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
   armed_points_.emplace();
   for (const ConstructedPoint& point : geometry_->constructed()) {
     const std::optional<Dyad> known = dyad(point.point);
-    if (!known || known->axis || point.z >= 0) continue;
+    if (!known || known->axis.has_value() != (point.z >= 0)) continue;
     const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                    [&](const TowerRoot& r) { return r.point == point.point; });
     const auto& form =
         std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
-    const int own = root->value ? value(root->value->plain()) : known_.at(root->variable);
-    const int s = builder_.multiply(own, builder_.inverse(known->scale));
-    const int half = builder_.constant(Rational(1, 2)), inverse = builder_.inverse(known->distance2);
-    const int shift =
-        builder_.multiply(builder_.multiply(half, builder_.multiply(known->sum, known->difference)), inverse);
-    const int mu = builder_.multiply(builder_.multiply(half, s), inverse);
-    const int u = known->way[0], v = known->way[1];
-    const auto arm = [&](mechanism::PointIndex end, int lambda) {
+    const std::array<Place, 2> steps = steps_to(*known, *root);
+    const auto arm = [&](mechanism::PointIndex end, const Place& step) {
       const auto& natural = geometry_->natural(end);
-      return Arm{geometry_->poly(natural[0]),
-                 geometry_->poly(natural[1]),
-                 {builder_.subtract(builder_.multiply(lambda, u), builder_.multiply(mu, v)),
-                  builder_.add(builder_.multiply(lambda, v), builder_.multiply(mu, u)), builder_.constant(0)}};
+      return Arm{{geometry_->poly(natural[0]), geometry_->poly(natural[1]), geometry_->poly(natural[2])}, step};
     };
-    armed_points_->push_back(
-        {point.x, point.y, {arm(form.from, builder_.add(half, shift)), arm(form.to, builder_.subtract(shift, half))}});
+    armed_points_->push_back({{point.x, point.y, point.z}, {arm(form.from, steps[0]), arm(form.to, steps[1])}});
   }
   return *armed_points_;
 }
@@ -189,7 +184,7 @@ int StraightLines::determinant(const DeterminantForm& form, const Rational& scal
     }
   std::vector<std::vector<int>> rows(size);
   for (std::size_t i = 0; i < size; ++i)
-    for (const Polynomial& entry : entries[i]) rows[i].push_back(value(entry));
+    for (std::size_t j = 0; j < size; ++j) rows[i].push_back(scaled_value_by_ways(form.rows[i][j], entries[i][j]));
   const Rational constant = core::times_power_of_two(form.constant * scale, taken);
   return builder_.multiply(builder_.constant(constant), Minors(builder_, rows).of((1U << size) - 1));
 }
@@ -435,20 +430,40 @@ void StraightLines::know_divisors(const Geometry::Way& way, int distance2) {
   add(way.twice_dw, builder_.multiply(builder_.multiply(builder_.constant(2), d), *w));
 }
 
-/// B - A in space.
-StraightLines::Place StraightLines::elbow(const Dyad& dyad, int s) {
+std::array<StraightLines::Place, 2> StraightLines::steps_in_space(const Dyad& dyad, int s) {
   const auto& [n, n2, h, d] = *dyad.axis;
   const Place& w = dyad.way;
-  const int half_inverse = builder_.multiply(builder_.constant(Rational(1, 2)), builder_.inverse(d));
-  const int along = builder_.multiply(excess(dyad), half_inverse), across = builder_.multiply(s, half_inverse);
-  Place step{};
+  const int half = builder_.constant(Rational(1, 2)), inverse = builder_.inverse(d);
+  const int bend = builder_.multiply(n2, builder_.multiply(dyad.sum, dyad.difference));
+  const int shift = builder_.multiply(builder_.multiply(half, builder_.add(bend, builder_.power(h, 2))), inverse);
+  const int from = builder_.add(half, shift), to = builder_.subtract(shift, half);
+  const int mu = builder_.multiply(builder_.multiply(half, s), inverse);
+  const int rise = builder_.multiply(h, builder_.inverse(n2));
+  std::array<Place, 2> steps{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const int in_plane = builder_.subtract(builder_.multiply(n2, w[i]), builder_.multiply(h, n[i]));
+    const int v = builder_.multiply(rise, n[i]), in_plane = builder_.subtract(w[i], v);
     const int left = builder_.subtract(builder_.multiply(n[j], w[k]), builder_.multiply(n[k], w[j]));
-    step[i] = builder_.add(builder_.multiply(along, in_plane), builder_.multiply(across, left));
+    const int across = builder_.multiply(mu, left);
+    steps[0][i] = builder_.add(builder_.multiply(from, in_plane), across);
+    steps[1][i] = builder_.subtract(builder_.add(builder_.multiply(to, in_plane), across), v);
   }
-  return step;
+  return steps;
+}
+
+std::array<StraightLines::Place, 2> StraightLines::steps_to(const Dyad& dyad, const TowerRoot& root) {
+  const int own = root.value ? value(root.value->plain()) : known_.at(root.variable);
+  const int s = builder_.multiply(own, builder_.inverse(dyad.scale));
+  if (dyad.axis) return steps_in_space(dyad, s);
+  const int half = builder_.constant(Rational(1, 2)), inverse = builder_.inverse(dyad.distance2);
+  const int shift = builder_.multiply(builder_.multiply(half, builder_.multiply(dyad.sum, dyad.difference)), inverse);
+  const int mu = builder_.multiply(builder_.multiply(half, s), inverse);
+  const auto& [u, v, flat] = dyad.way;
+  const auto step = [&](int lambda) {
+    return Place{builder_.subtract(builder_.multiply(lambda, u), builder_.multiply(mu, v)),
+                 builder_.add(builder_.multiply(lambda, v), builder_.multiply(mu, u)), builder_.constant(0)};
+  };
+  return {step(builder_.add(half, shift)), step(builder_.subtract(shift, half))};
 }
 
 StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& point) {
@@ -458,22 +473,8 @@ StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& po
   if (!known || root == geometry_->roots().end()) return over_tower(geometry_->tower(point.point));
   const auto& form =
       std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
-  const Place a = natural_place(form.from);
-  const int own = root->value ? value(root->value->plain()) : known_.at(root->variable);
-  const int s = builder_.multiply(own, builder_.inverse(known->scale));
-  if (known->axis) {
-    const Place step = elbow(*known, s);
-    return {builder_.add(a[0], step[0]), builder_.add(a[1], step[1]), builder_.add(a[2], step[2])};
-  }
-  const Rational half(1, 2);
-  const int inverse = builder_.inverse(known->distance2);
-  const int half_excess = builder_.multiply(builder_.constant(half), builder_.multiply(known->sum, known->difference));
-  const int lambda = builder_.add(builder_.constant(half), builder_.multiply(half_excess, inverse));
-  const int mu = builder_.multiply(builder_.multiply(builder_.constant(half), s), inverse);
-  const auto& [u, v, flat] = known->way;
-  const int x = builder_.subtract(builder_.multiply(lambda, u), builder_.multiply(mu, v));
-  const int y = builder_.add(builder_.multiply(lambda, v), builder_.multiply(mu, u));
-  return {builder_.add(a[0], x), builder_.add(a[1], y), a[2]};
+  const Place a = natural_place(form.from), step = steps_to(*known, *root)[0];
+  return {builder_.add(a[0], step[0]), builder_.add(a[1], step[1]), builder_.add(a[2], step[2])};
 }
 
 }  // namespace clearloci::symbolic

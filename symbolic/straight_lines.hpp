@@ -4,7 +4,8 @@
 //       Q = ((a + b)^2 - D) (D - (a - b)^2) = s^2,   lambda = 1/2 + (a^2 - b^2) / (2 D),   mu = s / (2 D),
 //       B = A + lambda (u, v) + mu (-v, u)
 //   in space, turning about n: w = P - A, N = n . n, h = n . w, D = N w . w - h^2, k = a^2 - b^2 + w . w,
-//       s^2 = 4 a^2 D - N k^2,   B = A + k / (2 D) (N w - h n) + s / (2 D) (n x w)
+//       s^2 = 4 a^2 D - N k^2,   E = (N (a^2 - b^2) + h^2) / D,   v = h / N n,
+//       B = A + (E + 1) / 2 (w - v) + s / (2 D) (n x w) = P + (E - 1) / 2 (w - v) - v + s / (2 D) (n x w)
 #pragma once
 
 #include <map>
@@ -64,17 +65,19 @@ class StraightLines {
 
   /// A constructed point as seen from one of the dyad's ends: what stands for its ring variables then.
   struct Arm {
-    Poly x, y;   ///< of the end, in natural coordinates
-    Place step;  ///< from there to the point
+    std::array<Poly, 3> end;  ///< in natural coordinates
+    Place step;               ///< from there to the point
   };
   struct ArmedPoint {
-    int x, y;                 ///< ring variables
-    std::array<Arm, 2> arms;  ///< from either end
+    std::array<int, 3> variables;  ///< of the ring; -1: none
+    std::array<Arm, 2> arms;       ///< from either end
   };
 
   int value(const core::Polynomial& p);
   /// The same, by the ways from point to point where that takes fewer terms.
   int value_by_ways(const Poly& natural, const core::Rational& scale);
+  /// `scaled`: its multiple that is asked for.
+  int scaled_value_by_ways(const Poly& natural, const core::Polynomial& scaled);
   const std::vector<ArmedPoint>& armed_points();
   int scaled_value(const Poly& natural, long exponent);
   int determinant(const DeterminantForm& form, const core::Rational& scale);
@@ -83,7 +86,9 @@ class StraightLines {
   Place way_between(mechanism::PointIndex from, mechanism::PointIndex to);
   std::optional<Dyad> dyad(mechanism::PointIndex point);
   Place constructed_place(const ConstructedPoint& point);
-  Place elbow(const Dyad& dyad, int s);
+  /// From either end to the point.
+  std::array<Place, 2> steps_to(const Dyad& dyad, const TowerRoot& root);
+  std::array<Place, 2> steps_in_space(const Dyad& dyad, int s);
   Place over_tower(const TowerPoint& place);
   Place vector(const mechanism::VectorExpression& vector);
   void know(const std::array<int, 3>& ring_variables, const Place& place);

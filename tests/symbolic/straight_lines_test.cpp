@@ -169,7 +169,8 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
       return coordinates;
     };
     std::map<const core::LocusFactor*, int> signs;  // of line and polynomial together
-    const bool is_long = GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_three_dyads_stacked";
+    const bool is_long =
+        GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_three_dyads_stacked" || GetParam() == "delta";
     const int samples = is_long ? 100 : 400;  // of thousands of terms
     for (int sample = 0; sample < samples; ++sample) {
       const std::vector<double> from = pose(), to = pose();
@@ -223,15 +224,21 @@ TEST_P(StraightLineForms, SayWhatThePolynomialsSay) {
 // The numerator of M_A1 has 274 terms in coordinates of the points and 86 in the ways between them; the roots of dyads
 // on dyads are computed by the lengths that they divide by, where their polynomials have hundreds of terms.
 TEST(StraightLinesOfTowers, AreShort) {
-  const auto derived = [](const std::string& name) {
-    return locus_problem(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml"), {});
+  const auto derived = [](const std::string& path) {
+    return locus_problem(mechanism::read_mechanism(source_dir() + path), {});
   };
-  std::size_t longest = 0;
-  for (const core::LocusFactor& factor : derived("seven_bar_on_both_legs").problem.factors)
-    longest = std::max(longest, factor.line.steps.size());
-  EXPECT_GT(longest, 100u);
-  EXPECT_LT(longest, 500u);  // 1100 by coordinates
-  const DerivedProblem stacked = derived("five_bar_two_dyads_stacked");
+  const auto longest_of = [&](const std::string& path) {
+    std::size_t longest = 0;
+    for (const core::LocusFactor& factor : derived(path).problem.factors)
+      longest = std::max(longest, factor.line.steps.size());
+    return longest;
+  };
+  const std::size_t both_legs = longest_of("/tests/corpus/loci/seven_bar_on_both_legs.yaml");
+  EXPECT_GT(both_legs, 100u);
+  EXPECT_LT(both_legs, 500u);                               // 1100 by coordinates
+  EXPECT_LT(longest_of("/examples/delta.yaml"), 700u);      // 1368 by coordinates of the elbows
+  EXPECT_LT(longest_of("/examples/three_rrr.yaml"), 200u);  // |A| has 140 terms in them, and 10 in the ways
+  const DerivedProblem stacked = derived("/tests/corpus/loci/five_bar_two_dyads_stacked.yaml");
   ASSERT_EQ(stacked.problem.tower.roots.size(), 4u);
   EXPECT_LT(stacked.problem.tower.roots[3].square.terms.size(), 300u);  // 583 with D as a sum of squares
   EXPECT_LT(stacked.problem.tower.roots[3].line.steps.size(), 120u);
@@ -297,7 +304,7 @@ TEST(StraightLinesOfTowers, TellTheRimsOfADyadOnDyadsApart) {
 INSTANTIATE_TEST_SUITE_P(Mechanisms, StraightLineForms,
                          testing::Values("five_bar_weights", "five_bar_coupler", "three_rrr", "seven_bar",
                                          "seven_bar_on_both_legs", "five_bar_two_dyads_stacked",
-                                         "five_bar_three_dyads_stacked", "stephenson_six_bar"),
+                                         "five_bar_three_dyads_stacked", "stephenson_six_bar", "delta", "three_ruu"),
                          [](const auto& test) { return test.param; });
 
 }  // namespace
