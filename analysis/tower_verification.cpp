@@ -396,15 +396,10 @@ Verification placed_in_tower(const mechanism::Mechanism& mechanism, const Task& 
   const auto fit = loci::fit_task(maps, mode_of(verifier.sides(), maps.front()->tower), task.shape,
                                   core::to_double(task.margin), request.fit, verifier.signature(), accept, pulse);
   Verification result = verifier.verify(fit ? moved(fit->by) : task);
-  if (fit) result.moved_by = way(fit->by);
-  // Places are compared by their clearance within the box, which a margin may leave.
-  if (fit && request.fit == core::TaskFit::best)
-    if (Verification here = verifier.verify(task); here.verified() && here.margin >= result.margin) {
-      result = std::move(here);
-      result.moved_by = way({0, 0});
-    }
   add_zones(mechanism, verifier, result);
-  if (!fit)
+  if (fit)
+    result.moved_by = way(fit->by);
+  else
     result.notes.emplace_back(
         "no place was found at which the task is verified; the verdict is that of the task as written");
   return result;

@@ -119,14 +119,6 @@ core::TaskWitness told_failure(const Mechanism& mechanism, const numeric::Numeri
 
 namespace {
 
-Verification verified_in(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
-  Verification result = is_asked_of_tower(mechanism, task, request.fit)
-                            ? verify_by_tower(mechanism, task, request)
-                            : verify_by_statics(mechanism::with_bounded_belts(mechanism), task, request);
-  tell_mechanism(mechanism, request, result);
-  return result;
-}
-
 /// Whether a place that was found is better than another one, for what is looked for.
 bool is_better(const Verification& a, const Verification& b, TaskFit fit) {
   if (a.verified() != b.verified()) return a.verified();
@@ -141,6 +133,26 @@ bool is_better(const Verification& a, const Verification& b, TaskFit fit) {
     return square;
   };
   return way(a) < way(b);
+}
+
+Verification answered(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
+  Verification result = is_asked_of_tower(mechanism, task, request.fit)
+                            ? verify_by_tower(mechanism, task, request)
+                            : verify_by_statics(mechanism::with_bounded_belts(mechanism), task, request);
+  tell_mechanism(mechanism, request, result);
+  return result;
+}
+
+Verification verified_in(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
+  Verification result = answered(mechanism, task, request);
+  if (request.fit != TaskFit::best || !result.moved_by) return result;
+  // Places are compared by their clearance within the ranges of the workspace, which a margin may leave.
+  VerifyRequest unmoved = request;
+  unmoved.fit = TaskFit::none;
+  Verification here = answered(mechanism, task, unmoved);
+  if (!is_better(here, result, request.fit)) return result;
+  here.moved_by = core::RationalPose(mechanism.coordinates.size());
+  return here;
 }
 
 /// A place on any flank, where none is asked for: the teeth push all over it.
