@@ -49,12 +49,12 @@ std::optional<std::string> complaint(const mechanism::Mechanism& loaded, const D
          *why;
 }
 
-constexpr const char* mend = "choose another working mode, or change the lengths, the joints or which are actuated";
+constexpr const char* other_mode = "choose another working mode, or change the lengths, the joints or which are actuated";
 
 }  // namespace
 
 void require_regular(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
-  if (const auto what = complaint(mechanism, sides)) throw core::InputError({mechanism.file}, *what, mend);
+  if (const auto what = complaint(mechanism, sides)) throw core::InputError({mechanism.file}, *what, other_mode);
 }
 
 std::vector<DyadSides> regular_modes(const mechanism::Mechanism& mechanism, const std::vector<DyadSides>& modes,
@@ -71,7 +71,7 @@ std::vector<DyadSides> regular_modes(const mechanism::Mechanism& mechanism, cons
     const std::string note = *what + "; left out";
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
-  if (regular.empty()) throw core::InputError({mechanism.file}, last.value_or("there is no working mode"), mend);
+  if (regular.empty()) throw core::InputError({mechanism.file}, last.value_or("there is no working mode"), other_mode);
   return regular;
 }
 
