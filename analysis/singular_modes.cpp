@@ -49,7 +49,8 @@ std::optional<std::string> complaint(const mechanism::Mechanism& loaded, const D
          *why;
 }
 
-constexpr const char* other_mode = "choose another working mode, or change the lengths, the joints or which are actuated";
+constexpr const char* other_mode =
+    "choose another working mode, or change the lengths, the joints or which are actuated";
 
 }  // namespace
 
