@@ -260,7 +260,10 @@ core::Zones from_frame(core::Zones map, const mechanism::Mechanism& mechanism, c
     for (std::vector<double>* const at : {&zone.lower, &zone.upper, &zone.sample, &zone.ball.centre}) outward.move(*at);
     zone.ball.radius = outward.size(zone.ball.radius);
     for (core::ZoneBorder& border : zone.borders) border.length = outward.size(border.length);
-    for (core::ZoneEnd& end : zone.ends) end.at = outward.value(end.at, 0);
+    for (core::ZoneEnd& end : zone.ends) {
+      end.at = outward.value(end.at, 0);
+      if (end.zero) end.zero = outward.value(*end.zero, 0);
+    }
     outward.move(zone.outer);
     for (core::Polyline& hole : zone.holes) outward.move(hole);
     for (std::vector<core::Point3>& face : zone.faces)

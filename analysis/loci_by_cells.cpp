@@ -16,7 +16,6 @@
 #include "loci/curves/curves.hpp"
 #include "loci/surfaces/surfaces.hpp"
 #include "mechanism/group_closing.hpp"
-#include "mechanism/known_lines.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "numeric/model.hpp"
@@ -40,14 +39,6 @@ void require_traceable(const Mechanism& mechanism, const LociRequest& request) {
     if (own != core::Quantity::f && own != core::Quantity::M && own != core::Quantity::F)
       mechanism::require_closed_forms(mechanism, "loci of the component " + core::to_string(own) + " are traced",
                                       "ask for f, M and F");
-}
-
-/// Whether a change of sign tells a zero: in the plane, of a force of one component or along a known line.
-bool changes_through_zero(const Mechanism& mechanism, const core::Vanishing& what) {
-  return what.quantity != core::Quantity::f ||
-         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& own) {
-           return own.name == what.joint && mechanism::keeps_to_known_line(mechanism, own);
-         });
 }
 
 class Points {

@@ -67,8 +67,9 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
     switch (const Quantity q = reaction.quantity; q) {
       case Quantity::M:
       case Quantity::F: {
-        // A linear drive, teeth and belts bear a force.
-        const std::optional<core::Rational>& least = q == Quantity::M ? request.min_couple : request.min_force;
+        // A linear drive and teeth bear a force along an axis. That of a belt's spans has no unknown of its own.
+        const bool of_belt = joint->type == mechanism::JointType::belt;
+        const auto least = q == Quantity::M ? request.min_couple : of_belt ? std::nullopt : request.min_force;
         if (wanted(q) || wanted(Quantity::M) || least) add(q, least);
         break;
       }
@@ -90,8 +91,10 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
         break;
       default:
         // Once a joint, with the first component of its force.
-        if (!force.empty() && q == force.front() && (wanted(Quantity::f) || request.min_force))
-          add(Quantity::f, request.min_force);
+        if (force.empty() || q != force.front()) break;
+        if (const auto& least = plays_across(mechanism, *joint) ? request.min_force : std::nullopt;
+            wanted(Quantity::f) || least)
+          add(Quantity::f, least);
     }
   }
   // The teeth of a gear keep their flank all over a task.

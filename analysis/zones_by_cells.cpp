@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "analysis/flanks.hpp"
@@ -15,6 +16,7 @@
 #include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "loci/zones/zones.hpp"
+#include "mechanism/known_lines.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "numeric/error_samples.hpp"
@@ -252,6 +254,28 @@ void leave_rigid(loci::pose::CellZones& found, const numeric::NumericModel& mode
   found.zones = std::move(kept);
 }
 
+/// Whether something that vanishes at an end of a zone over one coordinate is proven to lie between it and another one.
+bool is_zero_between(const mechanism::Mechanism& mechanism, const Zone& zone, const Zone& other) {
+  const bool above = other.lower[0] >= zone.upper[0];
+  return std::any_of(zone.ends.begin(), zone.ends.end(), [&](const core::ZoneEnd& end) {
+    return end.turns && end.at == (above ? zone.upper[0] : zone.lower[0]) &&
+           std::any_of(end.vanishing.begin(), end.vanishing.end(),
+                       [&](const core::Vanishing& what) { return changes_through_zero(mechanism, what); });
+  });
+}
+
+/// Zones with a zero between them are not one.
+void part_at_zeros(const mechanism::Mechanism& mechanism, std::span<Zone> zones) {
+  for (Zone& zone : zones) {
+    for (Zone& other : zones) {
+      if (&zone == &other || !is_zero_between(mechanism, zone, other)) continue;
+      std::erase(zone.perhaps_one_with, other.id);
+      std::erase(other.perhaps_one_with, zone.id);
+    }
+  }
+  for (Zone& zone : zones) zone.certified = zone.perhaps_one_with.empty();
+}
+
 /// A crank that turns on: where the range is a full turn, its first and last zone are one.
 void note_meeting_ends(const core::WorkingMode& mode, const std::array<double, 2>& range, Zones& map) {
   if (!is_full_turn(range[0], range[1])) return;
@@ -335,6 +359,7 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
     if (ground.lower.size() == 1) ends.add(found.zones[z], all, {ground.lower[0], ground.upper[0]}, zone);
     map.zones.push_back(std::move(zone));
   }
+  part_at_zeros(ground.mechanism, std::span(map.zones).subspan(before));
   own.labels = std::move(found.raster);
   for (int& label : own.labels)
     if (label > 0) label += static_cast<int>(before);
@@ -344,6 +369,13 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
 }
 
 }  // namespace
+
+bool changes_through_zero(const mechanism::Mechanism& mechanism, const core::Vanishing& what) {
+  return what.quantity != core::Quantity::f ||
+         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& own) {
+           return own.name == what.joint && mechanism::keeps_to_known_line(mechanism, own);
+         });
+}
 
 Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& request) {
   if (const std::optional<Framed> own = framed(mechanism, Scaling::none))

@@ -8,6 +8,10 @@
 
 namespace clearloci {
 
+/// Whether what changes its sign, or turns round, vanishes in between: what has one component, or keeps to a known
+/// line.
+bool changes_through_zero(const mechanism::Mechanism& mechanism, const core::Vanishing& what);
+
 core::Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& request);
 
 }  // namespace clearloci

@@ -340,4 +340,14 @@ Json parse_certificate(const std::string& text, const std::string& file) {
 
 CertificateFile read_certificate(const Json& root, const std::string& file) { return Reader(file).read(root); }
 
+core::LocusKind gravest_kind(const std::vector<Reaction>& vanishing) {
+  using core::Quantity;
+  core::LocusKind kind = core::LocusKind::component;
+  for (const auto& [joint, quantity] : vanishing) {
+    if (quantity == Quantity::f || core::is_guide_end(quantity)) return core::LocusKind::contact_loss;
+    if (quantity == Quantity::M || quantity == Quantity::F) kind = core::LocusKind::backlash;
+  }
+  return kind;
+}
+
 }  // namespace clearloci::check

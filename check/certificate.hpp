@@ -39,6 +39,8 @@ struct SheetCells {
 };
 
 using Reaction = std::pair<std::string, core::Quantity>;
+/// The gravest of what vanishes: what loses contact, an actuator's couple or force, a component.
+core::LocusKind gravest_kind(const std::vector<Reaction>& vanishing);
 
 struct CurveClaim {
   int mode = 0;

@@ -32,16 +32,6 @@ namespace {
 using core::FactorRole;
 using core::Quantity;
 
-/// The gravest of what vanishes: what loses contact, an actuator's couple or force, a component.
-core::LocusKind gravest_kind(const std::vector<Reaction>& vanishing) {
-  core::LocusKind kind = core::LocusKind::component;
-  for (const auto& [joint, quantity] : vanishing) {
-    if (quantity == Quantity::f || core::is_guide_end(quantity)) return core::LocusKind::contact_loss;
-    if (quantity == Quantity::M || quantity == Quantity::F) kind = core::LocusKind::backlash;
-  }
-  return kind;
-}
-
 constexpr int no_pose = -2;  // of an arc of a mode that could not be looked at
 constexpr std::size_t most_bytes = 400'000'000;
 

@@ -44,6 +44,14 @@ class PoseRangeCheck {
     return own;
   }
 
+  /// Without its least size.
+  PoseTaskClaim with_demand(const PoseRangeClaim::Mode& mode, std::size_t demand, const Rational& from,
+                            const Rational& to) const {
+    PoseTaskClaim own = task(mode, from, to);
+    own.demands = {mode.demands[demand]};
+    return own;
+  }
+
   std::string place(const Rational& from, const Rational& to) const {
     if (to - from <= narrow()) return fmt::format("{} = {:.9g}", claim_.head.coordinates[0], from.get_d());
     return fmt::format("{} from {:.9g} to {:.9g}", claim_.head.coordinates[0], from.get_d(), to.get_d());
@@ -65,10 +73,47 @@ class PoseRangeCheck {
       reached = own.to;
     }
     if (reached < upper_) check_between(mode, reached, upper_);
-    for (const PoseRangeClaim::Point& point : mode.points)
-      if (std::any_of(free.begin(), free.end(),
-                      [&](const auto& own) { return own.from < point.at && point.at < own.to; }))
+    for (const PoseRangeClaim::Point& point : mode.points) {
+      check_words(point);
+      if (point.at < lower_ || point.at > upper_ || std::any_of(free.begin(), free.end(), [&](const auto& own) {
+            return own.from < point.at && point.at < own.to;
+          }))
         throw FalseClaim("points: one is where no locus is, at " + place(point.at, point.at));
+    }
+  }
+
+  /// What vanishes is of the mechanism, and the kind is that of what vanishes.
+  void check_words(const PoseRangeClaim::Point& point) {
+    using enum core::LocusKind;
+    const std::string what = words_of(point);
+    for (const auto& [joint, quantity] : point.vanishing)
+      if (std::none_of(m_.joints.begin(), m_.joints.end(), [&](const auto& own) { return own.name == joint; }))
+        throw FalseClaim(what + ": the model has no joint " + joint.substr(0, 40));
+    const bool of_reactions = point.kind == contact_loss || point.kind == backlash;
+    if (of_reactions && (point.vanishing.empty() || gravest_kind(point.vanishing) != point.kind))
+      throw FalseClaim(what + ": what vanishes is of another kind");
+    if ((point.kind == workspace_boundary || point.kind == direct_singularity) && !point.vanishing.empty())
+      leave(what + ": what vanishes there");
+  }
+
+  std::string words_of(const PoseRangeClaim::Point& point) const {
+    return fmt::format("the {} at {}", core::to_string(point.kind), place(point.at, point.at));
+  }
+
+  /// Whether what is within reach is where the mechanism closes, from wherever it comes, and not where efforts keep to
+  /// bounds besides.
+  bool is_reach_closure() const {
+    return std::none_of(m_.joints.begin(), m_.joints.end(),
+                        [](const mechanism::Joint& own) { return own.meshing || own.within || own.law_within; });
+  }
+
+  bool holds(const PoseTaskClaim& claim, Holding holding) {
+    try {
+      examination_.task_cells += check_poses(m_, claim, holding, deadline_);
+      return true;
+    } catch (const FalseClaim&) {
+      return false;
+    }
   }
 
   void check_free(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Free& own) {
@@ -88,8 +133,8 @@ class PoseRangeCheck {
     }
     for (const auto& [joint, quantity, sign] : own.signs) {
       const std::optional<std::size_t> demand = demand_of(mode, joint, quantity);
-      if (!demand || sign == 0 || signs.demands[*demand] == 0) continue;
-      if (signs.demands[*demand] != sign)
+      if (demand && sign != 0 && signs.demands[*demand] == 0) continue;
+      if (!demand || signs.demands[*demand] != sign)
         throw FalseClaim(fmt::format("signs: of {}_{}, at {}", core::to_string(quantity), joint.substr(0, 40),
                                      place(own.from, own.to)));
     }
@@ -117,10 +162,26 @@ class PoseRangeCheck {
   /// But for a hair at either end, where a boundary is.
   void check_out_of_reach(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) {
     const double left = maybe_reached(m_, without_demands(mode, from, to), deadline_);
-    if (left > 10 * narrow().get_d()) leave("that " + place(from, to) + " is out of reach");
+    if (left > 10 * narrow().get_d()) {
+      refuse_reached(mode, from, to);
+      leave("that " + place(from, to) + " is out of reach");
+    }
     for (const PoseRangeClaim::Point& own : mode.points) {
-      if (own.at < from || own.at > to || own.kind == core::LocusKind::workspace_boundary) continue;
-      check_at_boundary(mode, own, from, to);
+      if (own.at < from || own.at > to) continue;
+      if (own.at - from > narrow() && to - own.at > narrow())
+        throw FalseClaim("points: one is out of reach, at " + place(own.at, own.at));
+      if (own.kind != core::LocusKind::workspace_boundary) check_at_boundary(mode, own, from, to);
+    }
+  }
+
+  /// Poses between two at which the mechanism closes are within reach.
+  void refuse_reached(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) {
+    if (!is_reach_closure()) return;
+    constexpr int parts = 16;
+    for (int k = 1; k < parts; ++k) {
+      const Rational at = from + (to - from) * Rational(k, parts);
+      if (holds(without_demands(mode, at, at), Holding::closure))
+        throw FalseClaim("free: " + place(at, at) + " is within reach, and neither there nor open");
     }
   }
 
@@ -133,14 +194,17 @@ class PoseRangeCheck {
     } catch (const FalseClaim&) {
       // Nothing closes beyond: a change of sign is not seen.
     }
-    leave(fmt::format("the {} at {}, on the boundary", core::to_string(point.kind), place(point.at, point.at)));
+    leave(words_of(point) + ", on the boundary");
   }
 
   void check_point(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Point& point, const Rational& from,
                    const Rational& to) {
     using enum core::LocusKind;
-    const std::string what = fmt::format("the {} at {}", core::to_string(point.kind), place(point.at, point.at));
+    const std::string what = words_of(point);
     const bool zero = point.kind == contact_loss || point.kind == backlash || point.kind == direct_singularity;
+    if (point.kind == workspace_boundary && is_reach_closure() &&
+        holds(without_demands(mode, from, to), Holding::closure))
+      throw FalseClaim(what + ": the mechanism closes on both sides");
     if (!zero) return leave(what);
     try {
       const bool singular = point.kind == direct_singularity;
@@ -148,13 +212,20 @@ class PoseRangeCheck {
           check_poses(m_, without_demands(mode, from, to), singular ? Holding::closure : Holding::regular, deadline_);
       const PoseSigns before = signs_at(m_, task(mode, from, from), deadline_),
                       behind = signs_at(m_, task(mode, to, to), deadline_);
-      if (singular && before.determinant * behind.determinant >= 0) return leave(what);
+      if (singular && before.determinant * behind.determinant >= 0) {
+        if (holds(without_demands(mode, from, to), Holding::regular)) throw FalseClaim("|A| does not vanish");
+        return leave(what);
+      }
+      std::string unknown;
       for (const auto& [joint, quantity] : point.vanishing) {
         if (singular) continue;
         const std::optional<std::size_t> d = demand_of(mode, joint, quantity);
-        if (!d || before.demands[*d] * behind.demands[*d] >= 0 || mode.demands[*d].least != 0)
-          return leave(fmt::format("{}: that {}_{} vanishes", what, core::to_string(quantity), joint.substr(0, 40)));
+        if (d && before.demands[*d] * behind.demands[*d] < 0 && mode.demands[*d].least == 0) continue;
+        const std::string name = fmt::format("{}_{}", core::to_string(quantity), joint.substr(0, 40));
+        if (d && holds(with_demand(mode, *d, from, to), Holding::clear)) throw FalseClaim(name + " does not vanish");
+        unknown += (unknown.empty() ? "" : ", ") + name;
       }
+      if (!unknown.empty()) return leave(what + ": that " + unknown + " vanishes");
       ++examination_.points;
     } catch (const FalseClaim& claim) {
       if (!point.certified) return leave(what);

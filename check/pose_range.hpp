@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "check/certificate.hpp"
 #include "check/pose_task.hpp"
 #include "core/locus_map.hpp"
 
@@ -28,7 +29,7 @@ struct PoseRangeClaim {
   };
   struct Point {
     core::LocusKind kind = core::LocusKind::contact_loss;
-    std::vector<std::pair<std::string, core::Quantity>> vanishing;
+    std::vector<Reaction> vanishing;
     core::Rational at;
     bool certified = false;
   };

@@ -18,6 +18,10 @@ std::vector<core::Quantity> contact_components(const Mechanism& mechanism, const
   return is_guide(mechanism, joint) ? reaction_components(mechanism, joint) : force_components(mechanism, joint);
 }
 
+bool plays_across(const Mechanism& mechanism, const Joint& joint) {
+  return joint.type != JointType::cylindrical || !joint.clearance || value_of(joint.clearance->radial, mechanism) != 0;
+}
+
 Rational near_root(const Rational& square) {
   core::ensure(square >= 0, "the root of a number that is not negative");
   if (const std::optional<Rational> exact = core::square_root(square)) return *exact;

@@ -20,6 +20,9 @@ inline constexpr std::array<std::pair<core::Quantity, int>, 2> guide_end_signs =
 /// not known all that it bears. None of a guide with ends, which are lost one at a time.
 std::vector<core::Quantity> contact_components(const Mechanism& mechanism, const Joint& joint);
 
+/// False of a sleeve whose clearance is along its axis or about it alone: no contact is lost across the axis.
+bool plays_across(const Mechanism& mechanism, const Joint& joint);
+
 /// A rational within 1e-30 of the root of a rational, relative to it; exact where the root is rational. Required: not
 /// negative. What stands for the length of an axis that is constant, as rationals do for irrational numbers.
 Rational near_root(const Rational& square);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mechanism/guide.hpp"
+
 namespace clearloci::symbolic {
 namespace {
 
@@ -15,6 +17,7 @@ class Margins {
       : geometry_(geometry), elimination_(elimination), determinant_(determinant), reactions_(reactions) {}
 
   void add_force(const mechanism::Joint& joint, const Rational& bound) {
+    if (!mechanism::plays_across(geometry_.mechanism(), joint)) return;
     const PressingForce pressing = pressing_force(geometry_, reactions_, joint, determinant_);
     const std::vector<FactoredPoly>& force = pressing.parts;
     if (std::all_of(force.begin(), force.end(), [](const FactoredPoly& part) { return part.is_zero(); })) return;
@@ -47,25 +50,33 @@ class Margins {
     }
   }
 
-  /// The couple or the force along an axis u: of an actuator, of teeth or of a belt.
+  /// The couple or the force along an axis u: of an actuator or of teeth.
   void add_effort(const mechanism::Joint& joint, Quantity quantity, const Rational& bound) {
     const FactoredPoly* effort = numerator(reactions_, joint.name, quantity);
-    if (effort == nullptr || effort->is_zero()) return;
+    const bool of_belt = quantity == Quantity::F && joint.type == mechanism::JointType::belt;
+    if (effort == nullptr || effort->is_zero() || of_belt) return;
     const FactoredPoly shared = common_factors(*effort, determinant_);
-    Poly n = without(*effort, shared, ring()), d = without(determinant_, shared, ring());
+    Poly n = without(*effort, shared, ring()), d = without(determinant_, shared, ring()).scaled(bound);
     const mechanism::Mechanism& mechanism = geometry_.mechanism();
     const bool is_number = quantity == Quantity::M && mechanism.space == mechanism::Space::planar;
-    const bool over_axis = quantity == Quantity::F && is_force_over_axis(mechanism, joint);
+    bool over_axis = quantity == Quantity::F && is_force_over_axis(mechanism, joint);
     const Poly axis2 = is_number ? geometry_.poly(1) : squared_axis(geometry_, joint);
-    Poly& scaled = over_axis ? n : d;
-    if (const auto length = constant_length(axis2)) {
-      scaled = scaled.scaled(*length);
-      add(joint.name, quantity, n - d.scaled(bound), bound, {cleared(shared), 1});
-      add(joint.name, quantity, n + d.scaled(bound), bound, {cleared(shared), 1});
-    } else {
-      const Poly n2 = n * n, d2 = (d * d).scaled(bound * bound);
-      add(joint.name, quantity, over_axis ? n2 * axis2 - d2 : n2 - d2 * axis2, bound, {cleared(shared), 2});
+    if (const auto square = elimination_.constant_over_tower(axis2)) {
+      Poly& scaled = over_axis ? n : d;
+      scaled = scaled.scaled(mechanism::near_root(*square));
+      add(joint.name, quantity, n - d, bound, {cleared(shared), 1});
+      add(joint.name, quantity, n + d, bound, {cleared(shared), 1});
+      return;
     }
+    // u . w of a force that keeps to u has |u|^2 as a factor.
+    Poly along = n;
+    if (!over_axis && n.divides(axis2, along)) {
+      n = along;
+      over_axis = true;
+    }
+    const Poly &size = over_axis ? n : d, &other = over_axis ? d : n;
+    add(joint.name, quantity, size * size * axis2 - other * other, bound, {cleared(shared), 2},
+        size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, axis2, other}));
   }
 
   std::vector<Margin> take() { return std::move(margins_); }

@@ -177,7 +177,7 @@ CoverProof prove_task(const core::TaskConditions& conditions, const core::Workin
   SearchMeter meter(budget);
   BoxSearch<QueuedCell> left(SearchOrder::breadth_first);
   const auto push = [&](QueuedCell cell) {
-    if (region.distance(cell.x, cell.y) <= reach) left.push(std::move(cell));
+    if (region.distance(cell.x, cell.y) <= reach) left.push(cell);
   };
   push({Interval(region.lower()[0] - reach, region.upper()[0] + reach),
         Interval(region.lower()[1] - reach, region.upper()[1] + reach)});

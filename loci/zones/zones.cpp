@@ -348,8 +348,14 @@ class ModeZones {
       const core::LocusCurve& curve = map_.curves[static_cast<std::size_t>(owner)];
       list.push_back({curve.id, length, curve.kind, curve.vanishing, {beside[owner].begin(), beside[owner].end()}});
     }
+    // Lengths are those of chords: what is as long to a thousandth is told in the order of its name.
+    const auto longest =
+        std::max_element(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.length < b.length; });
+    const double step = list.empty() ? 0 : 1e-3 * longest->length;
     std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.curve < b.curve; });
-    std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.length > b.length; });
+    std::stable_sort(list.begin(), list.end(), [step](const auto& a, const auto& b) {
+      return std::round(a.length / step) > std::round(b.length / step);
+    });
     return list;
   }
 

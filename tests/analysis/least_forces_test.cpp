@@ -103,5 +103,17 @@ TEST(LeastForceOfATask, IsThatOfTeethToo) {
   expect_weakest(model, {70 * std::numbers::pi / 180}, "{theta: [69.99, 70.01]}", {"W", Quantity::F});
 }
 
+/// A strut whose rod turns in its cylinder, with the play of its motor alone, bears nothing across its axis.
+TEST(LeastForceOfATask, IsNotAskedOfASleeveAcrossItsAxisWhereItHasNoPlay) {
+  std::string text = example_text("gough_stewart_slice");
+  text = replaced(text, "S5: {prismatic: [cylinder5, rod5]", "S5: {cylindrical: [cylinder5, rod5]");
+  text = replaced(text, "B5: {spherical: [rod5, platform], at: B5,",
+                  "B5: {universal: [rod5, platform], at: B5, axes: ['cross([1, 0, 0], B5 - A5)', [1, 0, 0]],");
+  const std::string task = "format: 1\nbox: {x: [0.01, 0.011], y: [0.01, 0.011]}\n";
+  const Model model = Model::parse(text);
+  ASSERT_EQ(verify(model, parse_task(task, model)).verdict, Verdict::verified);
+  EXPECT_EQ(verify(model, parse_task(task + "min_force: 0.01\n", model)).verdict, Verdict::verified);
+}
+
 }  // namespace
 }  // namespace clearloci

@@ -369,5 +369,16 @@ TEST(ZonesByCells, OverTwoLengthsBoundTheFaces) {
 
 TEST(ZonesByCells, WantThreeCoordinatesAtMost) { EXPECT_THROW(find_zones(example("gough_stewart_poses")), InputError); }
 
+/// The force of a pin has no sign; along a two-force link it has.
+TEST(ZonesByCells, OverOneCoordinateAreTwoWhereTheForceOfAPinVanishesBetweenThem) {
+  const Zones zones = find_zones(example("gripper"));
+  int lost = 0;
+  for (const Zone& zone : zones.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    for (const ZoneEnd& end : zone.ends) lost += end.kind == LocusKind::contact_loss ? 1 : 0;
+  }
+  EXPECT_GE(lost, 2) << "from either side";
+}
+
 }  // namespace
 }  // namespace clearloci
