@@ -206,6 +206,7 @@ class PoseRangeCheck {
         holds(without_demands(mode, from, to), Holding::closure))
       throw FalseClaim(what + ": the mechanism closes on both sides");
     if (!zero) return leave(what);
+    std::string refuted;
     try {
       const bool singular = point.kind == direct_singularity;
       examination_.task_cells +=
@@ -213,8 +214,8 @@ class PoseRangeCheck {
       const PoseSigns before = signs_at(m_, task(mode, from, from), deadline_),
                       behind = signs_at(m_, task(mode, to, to), deadline_);
       if (singular && before.determinant * behind.determinant >= 0) {
-        if (holds(without_demands(mode, from, to), Holding::regular)) throw FalseClaim("|A| does not vanish");
-        return leave(what);
+        if (!holds(without_demands(mode, from, to), Holding::regular)) return leave(what);
+        refuted = "|A|";
       }
       std::string unknown;
       for (const auto& [joint, quantity] : point.vanishing) {
@@ -222,15 +223,16 @@ class PoseRangeCheck {
         const std::optional<std::size_t> d = demand_of(mode, joint, quantity);
         if (d && before.demands[*d] * behind.demands[*d] < 0 && mode.demands[*d].least == 0) continue;
         const std::string name = fmt::format("{}_{}", core::to_string(quantity), joint.substr(0, 40));
-        if (d && holds(with_demand(mode, *d, from, to), Holding::clear)) throw FalseClaim(name + " does not vanish");
+        if (d && holds(with_demand(mode, *d, from, to), Holding::clear)) refuted = name;
         unknown += (unknown.empty() ? "" : ", ") + name;
       }
-      if (!unknown.empty()) return leave(what + ": that " + unknown + " vanishes");
-      ++examination_.points;
+      if (!unknown.empty() && refuted.empty()) return leave(what + ": that " + unknown + " vanishes");
+      if (refuted.empty()) ++examination_.points;
     } catch (const FalseClaim& claim) {
       if (!point.certified) return leave(what);
       throw FalseClaim(what + ": " + claim.what());
     }
+    if (!refuted.empty()) throw FalseClaim(what + ": " + refuted + " does not vanish");
   }
 
   const Mechanism& m_;
