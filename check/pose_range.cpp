@@ -86,9 +86,10 @@ class PoseRangeCheck {
   void check_words(const PoseRangeClaim::Point& point) {
     using enum core::LocusKind;
     const std::string what = words_of(point);
-    for (const auto& [joint, quantity] : point.vanishing)
-      if (std::none_of(m_.joints.begin(), m_.joints.end(), [&](const auto& own) { return own.name == joint; }))
-        throw FalseClaim(what + ": the model has no joint " + joint.substr(0, 40));
+    for (const Reaction& vanishing : point.vanishing)
+      if (std::none_of(m_.joints.begin(), m_.joints.end(),
+                       [&](const auto& own) { return own.name == vanishing.first; }))
+        throw FalseClaim(what + ": the model has no joint " + vanishing.first.substr(0, 40));
     const bool of_reactions = point.kind == contact_loss || point.kind == backlash;
     if (of_reactions && (point.vanishing.empty() || gravest_kind(point.vanishing) != point.kind))
       throw FalseClaim(what + ": what vanishes is of another kind");
