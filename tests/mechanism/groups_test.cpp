@@ -184,6 +184,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"at: {phi: 123.289 deg}, ", "", 12, "'at' is missing"},
                     Mistake{"E-H: 0.8", "E-H: 8", 12, "does not close: E-H is 0.79979 m in it and has to be 8 m"},
                     Mistake{"B: [0.052, 0.295]", "B: [0.5, -0.7]", 12, "does not close"},
+                    Mistake{"E-H: 0.8", "E-H: 0.8 - 2*1", 11, "E-H of group hip is negative: 0.8 - 2*1 = -1.2 m"},
+                    Mistake{"E-H: 0.8", "E-H: cos(phi) - 1.2", 11, "the length of E-H in group hip is -1.748"},
                     Mistake{"E-H: 0.8", "A-E: 0.9", 12, "group hip"}));
 
 TEST(Groups, NameTheLengthThatIsWorstAndByHowMuch) {
@@ -192,16 +194,6 @@ TEST(Groups, NameTheLengthThatIsWorstAndByHowMuch) {
     FAIL() << "accepted";
   } catch (const core::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("has to be 8 m, off by 7.2"), std::string::npos) << error.what();
-  }
-}
-
-TEST(Groups, RefuseALengthThatIsNegativeInItsPosture) {
-  try {
-    parse_mechanism(with(six_bar, "E-H: 0.8", "E-H: 0.8 - 2*1"), "m.yaml");
-    FAIL() << "accepted";
-  } catch (const core::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("E-H"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("-1.2"), std::string::npos) << error.what();
   }
 }
 
