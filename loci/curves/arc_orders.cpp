@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "core/interval.hpp"
+#include "loci/curves/simple_zeros.hpp"
 #include "loci/numbers/numbers.hpp"
 #include "loci/sheet/sheet.hpp"
 
@@ -367,6 +368,17 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   std::optional<Germ> both = germ(product, side);
   if (!both || both->is_zero()) return both;
   return Germ{both->order - plain->order, both->sign * plain->sign};
+}
+
+std::optional<Germ> ArcOrders::germ(const core::LocusFactor& factor, int side) {
+  const std::vector<Polynomial>& curves = factor.implicit;
+  const bool divides_norm =
+      factor.role == core::FactorRole::reaction || factor.role == core::FactorRole::direct_singularity;
+  if (!rule_ && divides_norm && std::find(curves.begin(), curves.end(), algebra_->curve()) != curves.end() &&
+      sign_at_point(factor.sheet) == 0)
+    if (const std::optional<int> slope = slope_at_simple_zero(factor.sheet, algebra_->curve(), tower_, at_))
+      return Germ{1, side * *slope};
+  return germ(factor.sheet, side);
 }
 
 }  // namespace clearloci::loci

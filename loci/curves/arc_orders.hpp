@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/locus_factor.hpp"
 #include "core/root_tower.hpp"
 #include "loci/numbers/numbers.hpp"
 
@@ -54,6 +55,7 @@ class CurveAlgebra {
     core::Polynomial rest;    ///< what is left of it then, over `scale`
     core::Rational scale{1};  ///< positive
   };
+  const core::Polynomial& curve() const { return curve_; }
   const Divided& divided(const core::Polynomial& p);
   struct Conjugate {
     core::Polynomial product;  ///< p times its conjugate by a root, over `scale`
@@ -110,6 +112,8 @@ class ArcOrders {
   bool is_nonzero(const core::StraightLine& line) const;
   /// Of a sheet polynomial. Nothing: not decided.
   std::optional<Germ> germ(const core::Polynomial& p, int side);
+  /// The same of a factor's, with what is known from its implicit polynomials.
+  std::optional<Germ> germ(const core::LocusFactor& factor, int side);
 
  private:
   void place_roots(const EnclosedPoint& at);

@@ -35,9 +35,9 @@ std::vector<Vanishing> reactions_with(const LocusProblem& problem, const std::ve
 }
 
 /// The order to which a factor vanishes on one side. Zero all along: higher than any that occurs.
-std::optional<Rational> order_of(const core::Polynomial& sheet, ArcOrders& arc, int side) {
+std::optional<Rational> order_of(const auto& factor, ArcOrders& arc, int side) {
   constexpr int everywhere = 1 << 20;
-  const std::optional<Germ> germ = arc.germ(sheet, side);
+  const std::optional<Germ> germ = arc.germ(factor, side);
   if (!germ) return std::nullopt;
   return germ->is_zero() ? Rational(everywhere) : germ->order;
 }
@@ -77,7 +77,7 @@ ReactionOrders reaction_orders(const LocusProblem& problem, ArcOrders& arc, cons
       const LocusFactor& factor = problem.factors[static_cast<std::size_t>(f)];
       // A polynomial of thousands of terms is not looked at where a few steps tell that it does not vanish.
       if (factor.sheet.terms.size() > factor.line.steps.size() && arc.is_nonzero(factor.line)) continue;
-      const std::optional<Rational> order = order_of(factor.sheet, arc, side);
+      const std::optional<Rational> order = order_of(factor, arc, side);
       if (!order) {
         result.decided = false;
         return result;
@@ -120,7 +120,7 @@ ReactionOrders orders_at_simple_zero(const LocusProblem& problem, int factor) {
 std::optional<bool> is_margin(const LocusFactor& margin, ArcOrders& arc) {
   if (!arc.decided()) return std::nullopt;
   for (const int side : arc.sides()) {
-    std::optional<Rational> own = order_of(margin.sheet, arc, side);
+    std::optional<Rational> own = order_of(margin, arc, side);
     if (!own) return std::nullopt;
     for (const auto& [sheet, power] : margin.cleared) {
       const std::optional<Rational> order = order_of(sheet, arc, side);
