@@ -1,6 +1,8 @@
 #include "numeric/elimination.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -112,8 +114,22 @@ Elimination eliminate(TapeBuilder& tape, SparseEquations equations) {
   return Reducer(tape, std::move(equations)).reduce();
 }
 
+namespace {
+
+/// Of rank n - 1 or less as far as values tell; errors may hide a higher rank.
 template <class T>
-void kernel_vector(int n, T* g, T* kernel) {
+T zero_of_low_rank();
+template <>
+double zero_of_low_rank<double>() {
+  return 0;
+}
+template <>
+Bounded zero_of_low_rank<Bounded>() {
+  return {0.0, std::numeric_limits<double>::infinity()};
+}
+
+template <class T>
+void kernel_by_elimination(int n, T* g, T* kernel) {
   const int width = n + 1;
   std::vector<int> order(static_cast<std::size_t>(width));  // order[c]: the column that stands in place c
   std::iota(order.begin(), order.end(), 0);
@@ -128,7 +144,7 @@ void kernel_vector(int n, T* g, T* kernel) {
       }
     }
     if (nominal(at(row, column)) == 0) {
-      std::fill(kernel, kernel + width, T(0.0));
+      std::fill(kernel, kernel + width, zero_of_low_rank<T>());
       return;
     }
     if (row != step) {
@@ -158,7 +174,66 @@ void kernel_vector(int n, T* g, T* kernel) {
   for (int c = 0; c < width; ++c) kernel[order[static_cast<std::size_t>(c)]] = z[static_cast<std::size_t>(c)];
 }
 
-template void kernel_vector<double>(int, double*, double*);
-template void kernel_vector<Bounded>(int, Bounded*, Bounded*);
+/// The determinant of m, n × n row after row, destroyed; its error is finite whatever the rank.
+Bounded determinant(int n, std::vector<Bounded>& m) {
+  const auto at = [&](int r, int c) -> Bounded& {
+    return m[static_cast<std::size_t>(r) * static_cast<std::size_t>(n) + static_cast<std::size_t>(c)];
+  };
+  const auto least = [](const Bounded& a) { return magnitude(a) - a.error; };
+  Bounded product(1.0);
+  for (int step = 0; step + 1 < n; ++step) {
+    int row = step, column = step;
+    for (int r = step; r < n; ++r)
+      for (int c = step; c < n; ++c)
+        if (least(at(r, c)) > least(at(row, column))) row = r, column = c;
+    if (!(least(at(row, column)) > 0)) {
+      // The rank may be lower by two: what is left is at most the product of the sums of its rows.
+      double most = 1;
+      for (int r = step; r < n; ++r) {
+        double sum = 0;
+        for (int c = step; c < n; ++c) sum += magnitude(at(r, c)) + at(r, c).error;
+        most *= sum * (1 + n * unit_roundoff);
+      }
+      return product * Bounded(0.0, most * (1 + n * unit_roundoff));
+    }
+    if (row != step) product = -product;
+    if (column != step) product = -product;
+    for (int c = 0; c < n; ++c) std::swap(at(row, c), at(step, c));
+    for (int r = 0; r < n; ++r) std::swap(at(r, column), at(r, step));
+    product = product * at(step, step);
+    for (int r = step + 1; r < n; ++r) {
+      const Bounded factor = at(r, step) / at(step, step);
+      for (int c = step + 1; c < n; ++c) at(r, c) = at(r, c) - factor * at(step, c);
+    }
+  }
+  return product * at(n - 1, n - 1);
+}
+
+/// The same vector by Cramer's rule, one determinant an unknown: for what a doubtful pivot leaves without a bound.
+void bound_the_rest(int n, const std::vector<Bounded>& g, Bounded* kernel) {
+  const auto width = static_cast<std::size_t>(n) + 1;
+  for (std::size_t k = 0; k < width; ++k) {
+    if (std::isfinite(kernel[k].error)) continue;
+    std::vector<Bounded> m;
+    for (std::size_t r = 0; r + 1 < width; ++r)
+      for (std::size_t c = 0; c + 1 < width; ++c) m.push_back(g[r * width + (c == k ? width - 1 : c)]);
+    const Bounded value = determinant(n, m);
+    kernel[k] = k + 1 == width ? -value : value;
+  }
+}
+
+}  // namespace
+
+template <>
+void kernel_vector<double>(int n, double* g, double* kernel) {
+  kernel_by_elimination(n, g, kernel);
+}
+
+template <>
+void kernel_vector<Bounded>(int n, Bounded* g, Bounded* kernel) {
+  const std::vector<Bounded> equations(g, g + static_cast<std::ptrdiff_t>(n) * (n + 1));
+  kernel_by_elimination(n, g, kernel);
+  bound_the_rest(n, equations, kernel);
+}
 
 }  // namespace clearloci::numeric

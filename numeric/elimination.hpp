@@ -37,8 +37,13 @@ struct Elimination {
 Elimination eliminate(TapeBuilder& tape, SparseEquations equations);
 
 /// The vector (N_1 ... N_n, -|M|) with M N = b |M| from g = [M | b], n × (n + 1) row after row, destroyed.
-/// Complete pivoting over all n + 1 columns; a rank below n gives the zero vector. T: double or Bounded.
+/// Complete pivoting over all n + 1 columns; a rank below n gives the zero vector. T: double or Bounded, of which the
+/// errors are finite whatever the rank.
 template <class T>
 void kernel_vector(int n, T* g, T* kernel);
+template <>
+void kernel_vector<double>(int n, double* g, double* kernel);
+template <>
+void kernel_vector<Bounded>(int n, Bounded* g, Bounded* kernel);
 
 }  // namespace clearloci::numeric

@@ -30,6 +30,19 @@ double largest_determinant(const NumericModel& model, std::span<const int> mode,
   return largest;
 }
 
+/// Poses around the middle of the workspace: a task may be so small that |A| is small in all of it.
+std::vector<std::vector<double>> poses_of_workspace(const NumericModel& model) {
+  std::vector<double> middle;
+  for (const auto& [lower, upper] : model.box) middle.push_back(0.5 * (lower + upper));
+  std::vector<std::vector<double>> poses = {middle};
+  for (std::size_t c = 0; c < middle.size(); ++c)
+    for (const double part : {0.25, 0.75}) {
+      poses.push_back(middle);
+      poses.back()[c] = model.box[c][0] + part * (model.box[c][1] - model.box[c][0]);
+    }
+  return poses;
+}
+
 /// The sum of products of a force's components, which may be of the plane, with those of a vector.
 Bounded along(std::span<const Bounded> force, const std::array<Bounded, 3>& way) {
   Bounded sum;
@@ -61,7 +74,9 @@ TaskWitness::TaskWitness(WitnessLoads loads, std::vector<int> mode, std::vector<
   }
   if (rounding_ == Rounding::of_plane && extents_.size() > 1)
     extents_[0] = extents_[1] = std::max(extents_[0], extents_[1]);
-  usual_determinant_ = largest_determinant(*loads_.ends.front(), mode_, usual);
+  const NumericModel& model = *loads_.ends.front();
+  usual_determinant_ =
+      std::max(largest_determinant(model, mode_, usual), largest_determinant(model, mode_, poses_of_workspace(model)));
 }
 
 std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskDemand& demand,

@@ -60,7 +60,7 @@ class TaskWitness {
   };
 
   /// `demands`: without those of reactions that are zero whatever the pose. `usual`: poses that say how large |A| is,
-  /// and coordinates.
+  /// besides those of the workspace, and coordinates.
   TaskWitness(WitnessLoads loads, std::vector<int> mode, std::vector<core::TaskDemand> demands,
               const std::vector<std::vector<double>>& usual, Rounding rounding);
 

@@ -143,6 +143,20 @@ TEST(Verify, ALimitThatIsMetWithEqualityEverywhereBoundsNothing) {
   EXPECT_TRUE(numeric::reachable(model, std::vector<double>{0.2, -0.7}, mechanism::working_mode(limited)));
 }
 
+TEST(Verify, FindsASingularityAtWhichNothingIsLoaded) {
+  // The couplers are aligned, and bear nothing: all numerators and |A| vanish together, and the equations have a rank
+  // lower by one with the loads too.
+  const mechanism::Mechanism free_couplers = kept("tests/corpus/verify/singular_without_load.yaml");
+  for (const char* task :
+       {"box: {x: [0.6611, 0.7314], y: [0.6237, 0.6637]}\nmargin: 0.002",
+        "box: {x: [0.6611, 0.7334], y: [0.6218, 0.6637]}", "box: {x: [0.7324, 0.7326], y: [0.623, 0.6232]}"}) {
+    const Verification result = verified(free_couplers, task);
+    EXPECT_EQ(result.verdict, core::Verdict::refuted) << task;
+    ASSERT_TRUE(result.witness) << task;
+    EXPECT_EQ(result.witness->kind, core::TaskWitness::Kind::singular) << task;
+  }
+}
+
 TEST(Verify, FindsASingularityOnALineThroughZero) {
   const Verification result = decided(kept("tests/corpus/verify/singular_at_zero.yaml"), "singular_at_zero_task.yaml");
   EXPECT_EQ(result.verdict, core::Verdict::refuted);

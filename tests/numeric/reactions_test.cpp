@@ -320,6 +320,23 @@ TEST(KernelVector, HoldsForAnyRank) {
   EXPECT_EQ(kernel[0], -1.0);
 }
 
+TEST(KernelVector, BoundsErrorsOfAnyRank) {
+  // |M| = 1e-17 +- 1e-15, and the column of the loads is pivoted: neither is known from the quotient of the two.
+  const Bounded tiny(1e-17, 1e-15);
+  std::vector<Bounded> g = {2.0, 1.0, 9.0, 2.0, Bounded(1.0) + tiny, 9.0};
+  std::vector<Bounded> kernel(3);
+  kernel_vector<Bounded>(2, g.data(), kernel.data());
+  for (const Bounded& one : kernel) EXPECT_LT(one.error, 1e-13);
+  EXPECT_LE(std::abs(kernel[2].value), kernel[2].error);
+  // Of rank one as far as values tell: a determinant that may be 1e-3 * 1e-3 is not told to be zero.
+  const Bounded doubtful(0.0, 1e-3);
+  g = {1.0, 2.0, 3.0, 1.0, 0.0, doubtful, doubtful, 0.0, 0.0, doubtful, doubtful, 0.0};
+  kernel.resize(4);
+  kernel_vector<Bounded>(3, g.data(), kernel.data());
+  EXPECT_GE(kernel[3].error, 1e-6);
+  EXPECT_LT(kernel[3].error, 1e-4);
+}
+
 RC_GTEST_PROP(KernelVector, IsCramersRule, ()) {
   const int n = *rc::gen::inRange(1, 6);
   Eigen::MatrixXd g(n, n + 1);
