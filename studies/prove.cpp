@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <set>
 #include <utility>
 
 #include "analysis/model.hpp"
@@ -15,6 +16,27 @@ namespace {
 using core::Rational;
 using core::StudyDesign;
 using Status = StudyDesign::Status;
+
+/// Designs that are judged one by one at the end of a proof.
+constexpr std::size_t most_single_designs = 256;
+
+/// The middle of a cell, then its corners.
+std::vector<std::vector<Rational>> designs_of(const std::vector<ExactRange>& ranges) {
+  std::vector<std::vector<Rational>> designs(1);
+  for (const auto& [low, high] : ranges) designs.front().push_back((low + high) / 2);
+  for (std::size_t corner = 0; corner < std::size_t{1} << ranges.size(); ++corner) {
+    std::vector<Rational>& design = designs.emplace_back();
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+      design.push_back((corner >> i & 1) != 0 ? ranges[i].second : ranges[i].first);
+  }
+  return designs;
+}
+
+std::vector<ExactRange> only(const std::vector<Rational>& design) {
+  std::vector<ExactRange> point;
+  for (const Rational& value : design) point.emplace_back(value, value);
+  return point;
+}
 
 constexpr loci::SearchBudget of_tolerances = {.most_cells = 40'000, .most_cells_in_vain = 2'000};
 
@@ -100,24 +122,15 @@ double BestProven::bound(const std::vector<ExactRange>& ranges) const {
 }
 
 double BestProven::value(const std::vector<Rational>& design) const {
-  std::vector<ExactRange> point;
-  for (const Rational& own : design) point.emplace_back(own, own);
-  const core::Interval values = problem_.goal_over(goal_, point);
+  const core::Interval values = problem_.goal_over(goal_, only(design));
   return goal_.maximise ? -values.lower() : values.upper();
 }
 
 void BestProven::add_feasible(const std::vector<ExactRange>& ranges) {
-  std::vector<std::vector<Rational>> designs(1);
-  for (const auto& [low, high] : ranges) designs.front().push_back((low + high) / 2);
-  for (std::size_t corner = 0; corner < std::size_t{1} << ranges.size(); ++corner) {
-    std::vector<Rational>& own = designs.emplace_back();
-    for (std::size_t i = 0; i < ranges.size(); ++i)
-      own.push_back((corner >> i & 1) != 0 ? ranges[i].second : ranges[i].first);
-  }
-  for (std::vector<Rational>& own : designs)
-    if (const double found = value(own); found < found_) {
+  for (std::vector<Rational>& design : designs_of(ranges))
+    if (const double found = value(design); found < found_) {
       found_ = found;
-      best_ = std::move(own);
+      best_ = std::move(design);
     }
 }
 
@@ -129,7 +142,25 @@ bool BestProven::may_be_better(const std::vector<ExactRange>& ranges) const {
   return bound(ranges) < found_ - tolerance;
 }
 
-void BestProven::add_left(const std::vector<ExactRange>& ranges) { least_ = std::min(least_, bound(ranges)); }
+void BestProven::add_left(const std::vector<ExactRange>& ranges) {
+  least_ = std::min(least_, bound(ranges));
+  left_.push_back(ranges);
+}
+
+void BestProven::judge_single_designs(CellJudge& judge) {
+  std::set<std::pair<double, std::vector<Rational>>> designs;  // the best first, each once
+  for (const std::vector<ExactRange>& ranges : left_)
+    for (std::vector<Rational>& design : designs_of(ranges))
+      if (const double goal = value(design); goal < found_) designs.emplace(goal, std::move(design));
+  std::size_t judged = 0;
+  for (const auto& [goal, design] : designs) {
+    if (++judged > most_single_designs) return;
+    if (!judge.proven(only(design))) continue;
+    found_ = goal;
+    best_ = design;
+    return;
+  }
+}
 
 void BestProven::tell(core::StudyResult& result) const {
   if (best_.empty()) return;

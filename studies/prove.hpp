@@ -52,6 +52,8 @@ class BestProven {
   bool may_be_better(const std::vector<ExactRange>& ranges) const;
   /// Of a cell that is left as it is, without being proven to be infeasible.
   void add_left(const std::vector<ExactRange>& ranges);
+  /// Of the cells that were left, single designs: the best of those that are proven to be feasible.
+  void judge_single_designs(CellJudge& judge);
   /// The best, and the goal's values that it is proven to be between: the best possible, and its own.
   void tell(core::StudyResult& result) const;
 
@@ -62,6 +64,7 @@ class BestProven {
 
   const StudyProblem& problem_;
   const core::StudyGoal& goal_;
+  std::vector<std::vector<ExactRange>> left_;
   std::vector<core::Rational> best_;
   double found_ = std::numeric_limits<double>::infinity(), least_ = std::numeric_limits<double>::infinity();
 };

@@ -205,7 +205,11 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
       result.ranges = joined_ranges(result.cells);
       choose_end(problem.study(), result);
     }
-    if (result.complete && best) best->tell(result);
+    if (result.complete && best) {
+      CellJudge judge(problem);
+      best->judge_single_designs(judge);
+      best->tell(result);
+    }
     if (result.complete) result.tolerances = proven_tolerances(problem);
   });
 }
