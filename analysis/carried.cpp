@@ -72,7 +72,6 @@ LocusMap carry_loci(const LocusMap& last, const Model& model, const LociRequest&
   const mechanism::Mechanism& mechanism = content.mechanism;
   check_request(mechanism, request);
   require_coordinates(mechanism, 1, 3, "loci are traced");
-  check_sides(mechanism, request);
   if (!mechanism.groups.empty()) return unfinished_map(mechanism, "loci over such a closure are not carried over");
   const symbolic::LocusFamily* const family = content.member ? &content.shared->family() : nullptr;
   const std::optional<Framed> own = framed(mechanism);

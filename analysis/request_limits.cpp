@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "analysis/loci.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
 #include "core/task.hpp"
@@ -103,6 +104,7 @@ void check_request(const mechanism::Mechanism& mechanism, const LociRequest& req
     throw InputError({}, "the mesh size is no positive number", "give a part of the box, such as 0.03");
   check_positive(request.min_force, "min_force", "N");
   check_positive(request.min_couple, "min_couple", "N m");
+  check_sides(mechanism, request);
 }
 
 void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {

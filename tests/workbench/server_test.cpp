@@ -181,6 +181,35 @@ TEST_F(TheServer, SolvesPosesAndSketchesThem) {
   EXPECT_EQ(Json::parse(server->ask("pose", question)->body)["unreachable"], "B1");
 }
 
+TEST_F(TheServer, SweepsInPartsAsPoseByPose) {
+  // More poses than one part: the columns go on.
+  constexpr int count = 600;
+  Json question = five_bar();
+  std::vector<double> poses;
+  for (int i = 0; i < count; ++i) poses.insert(poses.end(), {0.2 + 1e-4 * i, -0.7});
+  question["poses"] = poses;
+  const auto answer = Json::parse(server->ask("sweep", question)->body);
+  const Json& column = answer["reactions"].front()["values"];
+  ASSERT_EQ(column.size(), static_cast<std::size_t>(count));
+  ASSERT_EQ(answer["errors"].size(), static_cast<std::size_t>(count));
+  const Reactions all = reactions(Model::parse(example("five_bar.yaml")), poses);
+  const auto k = std::find(all.table.names.begin(), all.table.names.end(), answer["reactions"].items().begin().key()) -
+                 all.table.names.begin();
+  for (const std::size_t i : {0UL, 255UL, 256UL, 511UL, 512UL, 599UL})
+    EXPECT_DOUBLE_EQ(column[i], all.table.columns[static_cast<std::size_t>(k)][i]) << i;
+}
+
+TEST_F(TheServer, RefusesAWorkingModeOfOtherDyads) {
+  Json question = five_bar();
+  question["mode"] = {1, 1, 1};
+  question["task"] = example("tasks/pick_and_place.yaml");
+  for (const char* name : {"loci", "zones", "verify"}) {
+    const auto answer = server->ask(name, question);
+    EXPECT_EQ(answer->status, 422) << name;
+    EXPECT_NE(answer->body.find("a side for each of the 2 dyads"), std::string::npos) << answer->body;
+  }
+}
+
 TEST_F(TheServer, SaysWhatIsWrongInTheWordsOfTheCommandLine) {
   Json question = five_bar();
   std::string text = question["text"];

@@ -1,6 +1,8 @@
 // Poses, one and many; the cycle of a linkage; a trajectory.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "clearloci/error.hpp"
 #include "clearloci/handed_files.hpp"
@@ -48,6 +50,28 @@ std::vector<std::vector<double>> poses_of(const Fields& fields, const Model& mod
   return poses;
 }
 
+/// The reactions at the poses of a list, in parts, so that the watch is kept.
+Reactions watched_reactions(const Model& model, const std::vector<double>& poses, const DyadSides& sides,
+                            const Watch& watch) {
+  constexpr std::size_t part = 256;
+  const std::size_t values = part * model.coordinates().size();
+  Reactions all;
+  for (std::size_t first = 0; first < poses.size(); first += values) {
+    check(watch);
+    const std::size_t count = std::min(values, poses.size() - first);
+    Reactions some = reactions(model, std::span(poses).subspan(first, count), sides);
+    if (first == 0) {
+      all = std::move(some);
+      continue;
+    }
+    for (std::size_t k = 0; k < all.table.columns.size(); ++k) {
+      std::vector<double>& column = all.table.columns[k];
+      column.insert(column.end(), some.table.columns[k].begin(), some.table.columns[k].end());
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 Json answer_pose(const Json& body, const Watch&) {
@@ -73,9 +97,10 @@ Json answer_sweep(const Json& body, const Watch& watch) {
   const Model model = model_of(fields);
   const DyadSides sides = sides_of(fields);
   const std::string followed = fields.text("follow", "");
-  const Reactions forces = reactions(model, fields.numbers("poses"), sides);
+  const std::vector<std::vector<double>> poses = poses_of(fields, model);
+  const Reactions forces = watched_reactions(model, fields.numbers("poses"), sides, watch);
   Json errors = Json::array(), places = Json::array();
-  for (const std::vector<double>& at : poses_of(fields, model)) {
+  for (const std::vector<double>& at : poses) {
     check(watch);
     const Pose pose = solve_pose(model, at, {.working_mode = sides});
     errors.push_back(error_json(pose));
