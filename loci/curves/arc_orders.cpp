@@ -370,15 +370,31 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
   return Germ{both->order - plain->order, both->sign * plain->sign};
 }
 
-std::optional<Germ> ArcOrders::germ(const core::LocusFactor& factor, int side) {
-  const std::vector<Polynomial>& curves = factor.implicit;
+std::optional<int> ArcOrders::slope_of(const core::LocusFactor& factor) {
   const bool divides_norm =
       factor.role == core::FactorRole::reaction || factor.role == core::FactorRole::direct_singularity;
-  if (!rule_ && divides_norm && std::find(curves.begin(), curves.end(), algebra_->curve()) != curves.end() &&
-      sign_at_point(factor.sheet) == 0)
-    if (const std::optional<int> slope = slope_at_simple_zero(factor.sheet, algebra_->curve(), tower_, at_))
-      return Germ{1, side * *slope};
-  return germ(factor.sheet, side);
+  if (!divides_norm || sign_at_point(factor.sheet) != 0) return std::nullopt;
+  const std::vector<Polynomial>& curves = factor.implicit;
+  if (!rule_)
+    return std::find(curves.begin(), curves.end(), algebra_->curve()) == curves.end()
+               ? std::nullopt
+               : slope_at_simple_zero(factor.sheet, algebra_->curve(), tower_, at_);
+  if (tower_.coordinates.size() != 1) return std::nullopt;
+  const bool norm_vanishes = std::any_of(curves.begin(), curves.end(), [&](const Polynomial& curve) {
+    const std::optional<Germ> germ = rule_(curve, 1);
+    return germ && germ->order > 0;
+  });
+  const int slope = norm_vanishes ? slope_on_sheet(factor.sheet, 0, tower_, at_) : 0;
+  if (slope == 0 || !vanishes_where_norm_does(factor.sheet, tower_, at_)) return std::nullopt;
+  return slope;
+}
+
+std::optional<Germ> ArcOrders::germ(const core::LocusFactor& factor, int side) {
+  const auto found =
+      std::find_if(slopes_.begin(), slopes_.end(), [&](const auto& one) { return one.first == &factor; });
+  const std::optional<int> slope = found != slopes_.end() ? found->second : slope_of(factor);
+  if (found == slopes_.end()) slopes_.emplace_back(&factor, slope);
+  return slope ? Germ{1, side * *slope} : germ(factor.sheet, side);
 }
 
 }  // namespace clearloci::loci

@@ -112,7 +112,7 @@ class ArcOrders {
   bool is_nonzero(const core::StraightLine& line) const;
   /// Of a sheet polynomial. Nothing: not decided.
   std::optional<Germ> germ(const core::Polynomial& p, int side);
-  /// The same of a factor's, with what is known from its implicit polynomials.
+  /// The same of a factor of the problem, with what is known from its implicit polynomials. The factor outlives this.
   std::optional<Germ> germ(const core::LocusFactor& factor, int side);
 
  private:
@@ -120,6 +120,8 @@ class ArcOrders {
   bool place_roots_on(int side);
   std::optional<Germ> coordinate_germ(const core::Polynomial& p, int side);
   int sign_at_point(const core::Polynomial& p);
+  /// The sign of a factor's slope towards side +1, where it is proven to vanish to the first order.
+  std::optional<int> slope_of(const core::LocusFactor& factor);
   std::optional<Germ> germ_with_angle(const core::Polynomial& p, int root, int side);
   std::optional<Germ> angle_germ(int root, int side);
   /// The limit of an element over |g|^order on one side, enclosed; nothing where its germ is not told. Required: the
@@ -136,7 +138,8 @@ class ArcOrders {
   CoordinateGerm rule_;                                ///< instead of the curve's own; may be empty
   std::vector<sheet::MultiInterval> at_;               ///< coordinates, then the roots placed so far
   std::list<std::pair<core::Polynomial, int>> signs_;  ///< at the point; of the one side as of the other
-  std::map<int, std::vector<Germ>> squares_;           ///< of every side: of the squares placed so far
+  std::vector<std::pair<const core::LocusFactor*, std::optional<int>>> slopes_;
+  std::map<int, std::vector<Germ>> squares_;  ///< of every side: of the squares placed so far
   std::vector<int> sides_;
   int ramification_ = 1;
   bool decided_ = true;

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
+#include "loci/curves/simple_zeros.hpp"
 #include "loci/numbers/numbers.hpp"
 #include "loci/points/sheet_roots.hpp"
 
@@ -32,6 +33,10 @@ constexpr double heavy_degree = 48;
 
 /// A sign at a zero that is known by its enclosure alone was not told by intervals.
 struct NotTold {};
+
+bool is_reaction_or_determinant(const LocusFactor& factor) {
+  return factor.role == FactorRole::reaction || factor.role == FactorRole::direct_singularity;
+}
 
 /// The configurations of one mode at one value of the coordinate.
 class RootPlace {
@@ -74,6 +79,15 @@ class RootPlace {
 
   /// Exact: intervals where they decide, else signs of the parts (loci/curves/sheet_sign.hpp). Of what holds an angle 0
   /// means that it is not told from zero.
+  int sign(const LocusFactor& factor) {
+    const Polynomial& p = factor.sheet;
+    if (const int quick = evaluate(p, values_).sign(); quick != 0 || p.is_zero()) return quick;
+    const bool norm_vanishes =
+        root_ != nullptr && is_reaction_or_determinant(factor) &&
+        std::any_of(factor.implicit.begin(), factor.implicit.end(),
+                    [&](const Polynomial& curve) { return sign_at(univariate_signed(curve), *root_) == 0; });
+    return norm_vanishes && vanishes_where_norm_does(p, tower_, values_) ? 0 : sign(p);
+  }
   int sign(const Polynomial& p) {
     const int quick = evaluate(p, values_).sign();
     if (quick != 0 || p.is_zero()) return quick;
@@ -168,10 +182,6 @@ Search search_of(const LocusFactor& factor, const core::RootTower& tower) {
   return heavy ? Search::on_sheet : Search::by_polynomial;
 }
 
-bool is_reaction_or_determinant(const LocusFactor& factor) {
-  return factor.role == FactorRole::reaction || factor.role == FactorRole::direct_singularity;
-}
-
 /// `vanishing`: of every factor, whether it does; `margins`: of those that are margins, whether reactions are at
 /// theirs.
 std::vector<EdgeLabel> labels_from(const LocusProblem& problem, const ReactionOrders& orders,
@@ -211,7 +221,7 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::Workin
   bool proven = true;
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
     const LocusFactor& factor = problem.factors[f];
-    vanishing[f] = factor.role != FactorRole::construction && place.sign(factor.sheet) == 0;
+    vanishing[f] = factor.role != FactorRole::construction && place.sign(factor) == 0;
     if (!vanishing[f]) continue;
     // Whether what holds an angle vanishes at the very zero of something else is never told.
     if (has_angle(factor.sheet, problem.tower)) {

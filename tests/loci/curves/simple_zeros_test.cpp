@@ -65,6 +65,16 @@ TEST(SimpleZeros, AreNotToldWhereARootVanishes) {
   EXPECT_FALSE(slope_at_simple_zero(S - ring(1) + Y * T, in_plane(Y), tower, at(0, 0, 1, 0)));
 }
 
+TEST(SimpleZeros, VanishWithTheNormWhereNoOtherConjugateDoes) {
+  const RootTower tower = tower_of(ring(1) + Y, ring(4) + X);
+  EXPECT_TRUE(vanishes_where_norm_does(S - ring(1), tower, at(0, 0, 1, 2)));
+  EXPECT_FALSE(vanishes_where_norm_does(S - ring(1), tower, at(0, 0, -1, 2)));
+  // (s - 1) + (t - 2) and its conjugates: 0, -4, -2, -6 at the point.
+  EXPECT_TRUE(vanishes_where_norm_does(S - ring(1) + T - ring(2), tower, at(0, 0, 1, 2)));
+  EXPECT_EQ(slope_on_sheet(S - ring(1) + T - ring(2), 0, tower, at(0, 0, 1, 2)), 1);
+  EXPECT_EQ(slope_on_sheet(S - ring(1) - T + ring(2), 0, tower, at(0, 0, 1, 2)), -1);
+}
+
 TEST(SimpleZeros, AreToldBesideConjugatesThatAreNotReal) {
   // t^2 = 3 s - 2 is 1 where s = 1, and -5 for the conjugate s = -1. The norm of t - 1 is -9 y.
   const RootTower tower = tower_of(ring(1) + Y, ring(3) * S - ring(2));
