@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <random>
 
 #include "analysis/zones.hpp"
 #include "core/errors.hpp"
+#include "loci/zones/zones.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"
 #include "tests/laws/task_designs.hpp"
@@ -200,6 +202,32 @@ TEST(Zones, BesideBoundariesNeedNoFinerLoci) {
 TEST(Zones, OfSliversAndBehindATouchNeedNoFinerLoci) {
   expect_no_finer_loci({{"prrr_r_slivers_at_an_angle", 17}, {"prrr_r_singularity_through_a_touch", 9}},
                        std::mt19937(20110580));
+}
+
+/// That two curves are one follows from what they are, not from their vertices: zones of a picture are the same when
+/// every vertex is moved by a few roundings.
+TEST(Zones, OfASketchDoNotDependOnTheRoundingOfVertices) {
+  std::mt19937 random(20261126);
+  std::uniform_int_distribution<int> steps(-4, 4);
+  for (const char* name : {"five_bar", "five_bar_weights", "five_bar_generic", "five_bar_coupler"}) {
+    SCOPED_TRACE(name);
+    const mechanism::Mechanism mechanism = example(name);
+    TracedProblem traced = trace_problem(mechanism, {}, {}, TraceEffort::sketch);
+    const auto areas = [&] {
+      std::vector<double> list;
+      for (const core::Zone& zone : loci::zones(traced.problem, traced.map, true).map.zones) list.push_back(zone.size);
+      return list;
+    };
+    const std::vector<double> own = areas();
+    EXPECT_GE(own.size(), 2U);
+    for (core::LocusCurve& curve : traced.map.curves)
+      for (core::Arc& arc : curve.arcs)
+        for (core::Point2& at : arc.points)
+          for (double& c : at) c += steps(random) * std::numeric_limits<double>::epsilon();
+    const std::vector<double> moved = areas();
+    ASSERT_EQ(moved.size(), own.size());
+    for (std::size_t z = 0; z < own.size(); ++z) EXPECT_NEAR(moved[z], own[z], traced.map.tolerance) << z;
+  }
 }
 
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
