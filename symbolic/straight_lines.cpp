@@ -33,7 +33,7 @@ int StraightLines::scaled_value(const Poly& natural, long exponent) {
   for (core::Term& term : scaled.terms) term.coefficient = core::times_power_of_two(term.coefficient, exponent);
   const auto form =
       std::find_if(forms_.begin(), forms_.end(), [&](const DeterminantForm& f) { return f.value == natural; });
-  if (form == forms_.end()) return is_nested_ || of_surfaces() ? scaled_value_by_ways(natural, scaled) : value(scaled);
+  if (form == forms_.end()) return scaled_value_by_ways(natural, scaled);
   return determinant(*form, scaled.terms.front().coefficient / plain.terms.front().coefficient);
 }
 
@@ -184,8 +184,7 @@ int StraightLines::determinant(const DeterminantForm& form, const Rational& scal
     }
   std::vector<std::vector<int>> rows(size);
   for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t j = 0; j < size; ++j)
-      rows[i].push_back(of_surfaces() ? scaled_value_by_ways(form.rows[i][j], entries[i][j]) : value(entries[i][j]));
+    for (std::size_t j = 0; j < size; ++j) rows[i].push_back(scaled_value_by_ways(form.rows[i][j], entries[i][j]));
   const Rational constant = core::times_power_of_two(form.constant * scale, taken);
   return builder_.multiply(builder_.constant(constant), Minors(builder_, rows).of((1U << size) - 1));
 }

@@ -78,8 +78,6 @@ class StraightLines {
   int value_by_ways(const Poly& natural, const core::Rational& scale);
   /// `scaled`: its multiple that is asked for.
   int scaled_value_by_ways(const Poly& natural, const core::Polynomial& scaled);
-  /// Whether cells of three coordinates are to be bounded, where sharp bounds count more than the time of writing them.
-  bool of_surfaces() const { return geometry_->coordinates() > 2; }
   const std::vector<ArmedPoint>& armed_points();
   int scaled_value(const Poly& natural, long exponent);
   int determinant(const DeterminantForm& form, const core::Rational& scale);
