@@ -354,5 +354,30 @@ TEST(Zones, HaveNoSignOfWhatChangesInsideThem) {
   }
 }
 
+/// Zeros of what was not asked for cut no zone, so a zone has no sign of it.
+TEST(Zones, HaveNoSignOfWhatWasNotAskedFor) {
+  using enum core::Quantity;
+  std::mt19937 random(20261127);
+  for (const char* name : {"five_bar", "prrrp"}) {
+    const mechanism::Mechanism mechanism = example(name);
+    for (const std::vector<core::Quantity>& asked :
+         std::vector<std::vector<core::Quantity>>{{fx}, {f}, {M}, {end_ahead}, {f, M}}) {
+      LociRequest request;
+      request.quantities = asked;
+      const core::Zones map = find_zones(mechanism, {request});
+      expect_one_sign_a_zone(mechanism, map, random);
+      const auto is_asked = [&](core::Quantity own) {
+        return std::find(asked.begin(), asked.end(), own) != asked.end();
+      };
+      for (const core::Zone& zone : map.zones)
+        for (const auto& [what, sign] : zone.signs) {
+          const core::Quantity own = what.quantity;
+          EXPECT_TRUE(is_asked(own) || (own == F && is_asked(M)) || (core::is_guide_end(own) && is_asked(f)))
+              << name << " " << zone.id << " " << core::to_string(own) << "_" << what.joint;
+        }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace clearloci
