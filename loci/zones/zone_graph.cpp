@@ -112,6 +112,7 @@ class Builder {
       node_at(strand.points.front());
       node_at(strand.points.back());
     }
+    add_stars();
     for (const Strand& strand : strands_) {
       if (strand.owner == box_owner) continue;
       for (const std::size_t axis : {0u, 1u})
@@ -166,6 +167,18 @@ class Builder {
     }
     nodes.push_back(at);
     return static_cast<int>(nodes.size()) - 1;
+  }
+
+  /// Where the sheet is not smooth branches of curves arrive and leave side by side, of one curve or of several that
+  /// have no isolated zero in common there. Such a place has a vertex of each; where several arrive it is a node.
+  void add_stars() {
+    for (const Point2& star : stars_) {
+      std::size_t arriving = 0;
+      for (const Strand& strand : strands_)
+        if (strand.owner != box_owner)
+          for (const Point2& at : strand.points) arriving += distance(at, star) <= same_place * size_ ? 1 : 0;
+      if (arriving > 1) node_at(star);
+    }
   }
 
   /// Where a curve touches a side of the box nothing crosses, yet what lies between them is pinched: the place is a

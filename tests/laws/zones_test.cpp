@@ -230,6 +230,11 @@ TEST(Zones, OfASketchDoNotDependOnTheRoundingOfVertices) {
   }
 }
 
+// Once not in order: two loci pass the place where the ends of a spring meet, one of them twice.
+TEST(Zones, ThroughAPlaceWhereASpringHasNoLength) {
+  expect_no_finer_loci({{"three_rpr_curves_through_ends_of_a_spring", 22}}, std::mt19937(20110581));
+}
+
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
   const core::Zones map = find_zones(example("five_bar"));
   const auto home = std::find_if(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) {
