@@ -85,8 +85,14 @@ int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
       }
     }
   }
+  if (const auto own = value_by_lengths(best.scaled(scale), arms)) return *own;
   if (best.length() >= natural.length()) return value(natural.scaled(scale).plain());
-  Polynomial plain = best.scaled(scale).plain();
+  return value_of_arms(best.scaled(scale), arms);
+}
+
+int StraightLines::value_of_arms(const Poly& p, const std::vector<std::size_t>& arms) {
+  const std::vector<ArmedPoint>& points = armed_points();
+  const Polynomial plain = p.plain();
   std::vector<int> variables(static_cast<std::size_t>(plain.variables), 0);
   for (int v = 0; v < plain.variables; ++v) {
     if (!core::depends_on(plain, v)) continue;
@@ -100,6 +106,62 @@ int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
     if (!is_arm) own = variable(v);
   }
   return builder_.polynomial(plain, variables);
+}
+
+namespace {
+
+/// p = squares (X^2 + Y^2) + along (w . (X, Y)) + across (w x (X, Y)) + rest, D = w . w.
+struct ByLengths {
+  Poly squares, along, across, rest;
+  std::size_t length() const { return squares.length() + along.length() + across.length() + rest.length(); }
+};
+
+std::optional<ByLengths> by_lengths(const Poly& p, int x, int y, const Poly& wx, const Poly& wy) {
+  if (p.degree({x, y}) > 2 || p.degree({x, y}) == 0) return std::nullopt;
+  std::vector<std::vector<Poly>> c(3);
+  const std::vector<Poly> in_x = p.coefficients(x);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i < in_x.size()) c[i] = in_x[i].coefficients(y);
+    while (c[i].size() < 3) c[i].emplace_back(p.ring());
+  }
+  if (!(c[2][0] == c[0][2]) || !c[1][1].is_zero()) return std::nullopt;
+  const Poly d = wx * wx + wy * wy;
+  ByLengths own{c[2][0], Poly(p.ring()), Poly(p.ring()), c[0][0]};
+  if (d.is_zero() || !(c[1][0] * wx + c[0][1] * wy).divides(d, own.along) ||
+      !(c[0][1] * wx - c[1][0] * wy).divides(d, own.across))
+    return std::nullopt;
+  return own;
+}
+
+}  // namespace
+
+/// Of the way w from the end of an arm to the dyad's other end: |arm|^2 = own^2, 2 w . arm = own^2 - other^2 + D,
+/// 2 w x arm = +-s.
+std::optional<int> StraightLines::value_by_lengths(const Poly& p, const std::vector<std::size_t>& arms) {
+  const std::vector<ArmedPoint>& points = armed_points();
+  for (std::size_t i = points.size(); i-- > 0;) {
+    const ArmedPoint& point = points[i];
+    if (!point.lengths) continue;
+    const bool from = arms[i] == 0;
+    std::array<Poly, 2> w = {point.arms[from ? 1 : 0].end[0] - point.arms[from ? 0 : 1].end[0],
+                             point.arms[from ? 1 : 0].end[1] - point.arms[from ? 0 : 1].end[1]};
+    for (Poly& own : w)
+      for (std::size_t j = i; j-- > 0;)
+        for (std::size_t k = 0; k < 3; ++k) own = moved(own, points[j].variables[k], points[j].arms[arms[j]].end[k]);
+    const std::optional<ByLengths> parts = by_lengths(p, point.variables[0], point.variables[1], w[0], w[1]);
+    if (!parts || parts->length() >= p.length()) continue;
+    const auto of = [&](const Poly& part) {
+      const std::optional<int> own = value_by_lengths(part, arms);
+      return own ? *own : value_of_arms(part, arms);
+    };
+    const auto& [a2, along, across] = (*point.lengths)[from ? 0 : 1];
+    int sum = of(parts->rest);
+    for (const auto& [factor, length] :
+         {std::pair(&parts->squares, a2), std::pair(&parts->along, along), std::pair(&parts->across, across)})
+      if (!factor->is_zero()) sum = builder_.add(sum, builder_.multiply(of(*factor), length));
+    return sum;
+  }
+  return std::nullopt;
 }
 
 const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
@@ -117,7 +179,9 @@ const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
       const auto& natural = geometry_->natural(end);
       return Arm{{geometry_->poly(natural[0]), geometry_->poly(natural[1]), geometry_->poly(natural[2])}, step};
     };
-    armed_points_->push_back({{point.x, point.y, point.z}, {arm(form.from, steps[0]), arm(form.to, steps[1])}});
+    armed_points_->push_back({{point.x, point.y, point.z},
+                              {arm(form.from, steps[0]), arm(form.to, steps[1])},
+                              known->axis ? std::nullopt : std::optional(lengths_of(*known, *root))});
   }
   return *armed_points_;
 }
@@ -267,7 +331,7 @@ StraightLine StraightLines::squared_length(const InverseLength& length) {
 
 /// (4 + angle)^2.
 StraightLine StraightLines::shifted_angle(const TorsionAngle& angle) {
-  const auto part = [&](std::size_t i) { return value(geometry_->poly(angle.way[i].expand()).plain()); };
+  const auto part = [&](std::size_t i) { return value_by_ways(geometry_->poly(angle.way[i].expand()), 1); };
   const int x = part(0), turned = builder_.angle(part(1), x);
   return builder_.line(builder_.power(builder_.add(builder_.constant(core::angle_shift), turned), 2));
 }
@@ -449,6 +513,18 @@ std::array<StraightLines::Place, 2> StraightLines::steps_in_space(const Dyad& dy
     steps[1][i] = builder_.subtract(builder_.add(builder_.multiply(to, in_plane), across), v);
   }
   return steps;
+}
+
+std::array<std::array<int, 3>, 2> StraightLines::lengths_of(const Dyad& dyad, const TowerRoot& root) {
+  const int own = root.value ? value(root.value->plain()) : known_.at(root.variable);
+  const int half = builder_.constant(Rational(1, 2));
+  const int across = builder_.multiply(half, builder_.multiply(own, builder_.inverse(dyad.scale)));
+  const int product = builder_.multiply(dyad.sum, dyad.difference);
+  const int a = builder_.multiply(half, builder_.add(dyad.sum, dyad.difference)),
+            b = builder_.multiply(half, builder_.subtract(dyad.sum, dyad.difference));
+  return {{{builder_.power(a, 2), builder_.multiply(half, builder_.add(dyad.distance2, product)), across},
+           {builder_.power(b, 2), builder_.multiply(half, builder_.subtract(dyad.distance2, product)),
+            builder_.subtract(builder_.constant(0), across)}}};
 }
 
 std::array<StraightLines::Place, 2> StraightLines::steps_to(const Dyad& dyad, const TowerRoot& root) {

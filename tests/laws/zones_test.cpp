@@ -163,9 +163,10 @@ void expect_partition(const mechanism::Mechanism& mechanism, const core::Zones& 
 
 // Once open: in the base of a cylinder, where |A| vanishes in either mode on a curve of its own; where what a curve
 // with long coefficients leaves of a product was too small to have a sign; along a boundary on which numerators are
-// zero with the root though no term of them has it as a factor.
+// zero with the root though no term of them has it as a factor; along the slit of a torsion spring.
 TEST(Zones, OfTheCorpusAreCertified) {
-  for (const std::string name : {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients", "minitaur_foot"}) {
+  for (const std::string name :
+       {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients", "minitaur_foot", "rrrpr_torsion_slit"}) {
     SCOPED_TRACE(name);
     const core::Zones map =
         find_zones(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml"), {});
