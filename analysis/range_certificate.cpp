@@ -4,6 +4,7 @@
 
 #include "analysis/loci_by_cells.hpp"
 #include "analysis/pose_demands.hpp"
+#include "analysis/singular_modes.hpp"
 #include "analysis/task_demands.hpp"
 #include "core/errors.hpp"
 #include "mechanism/posture_sample.hpp"
@@ -30,7 +31,7 @@ class RangeClaims {
     result_.coordinate = mechanism.coordinates.front().name;
   }
 
-  RangeCertificate::Mode& mode(const core::WorkingMode& own) {
+  RangeCertificate::Mode& mode(const core::WorkingMode& own, bool reached = true) {
     const auto known = std::find(modes_.begin(), modes_.end(), own);
     if (known != modes_.end()) return result_.modes[static_cast<std::size_t>(known - modes_.begin())];
     modes_.push_back(own);
@@ -39,8 +40,11 @@ class RangeClaims {
     added.sides = numeric::dyad_signs(model, map_.tower, own);
     constexpr std::size_t poses = 24;
     std::vector<std::string> notes;
-    added.demands = loaded_demands({model}, added.sides, demands_of(mechanism_, request_),
-                                   mechanism::spread_poses(mechanism_, poses), notes);
+    const std::vector<core::TaskDemand> asked = demands_of(mechanism_, request_);
+    // Where no pose is within reach none tells what is never loaded.
+    added.demands = reached
+                        ? loaded_demands({model}, added.sides, asked, mechanism::spread_poses(mechanism_, poses), notes)
+                        : asked;
     // Bounds of efforts are the model's.
     std::erase_if(added.demands, [](const core::TaskDemand& demand) { return demand.bound.has_value(); });
     for (const core::IsolatedPoint& point : map_.isolated_points)
@@ -57,7 +61,12 @@ class RangeClaims {
     if (free.from < free.to) mode.free.push_back(std::move(free));
   }
 
+  /// Where no mode is within reach, the claim is that the whole range is out of reach in each.
   RangeCertificate done() {
+    std::vector<std::string> notes;
+    if (result_.modes.empty())
+      for (const DyadSides& sides : regular_modes(mechanism_, requested_modes(mechanism_, request_), notes))
+        mode(mode_of(sides, map_.tower), false);
     for (const RangeCertificate::Mode& own : result_.modes)
       if (own.demands.empty())
         throw core::InputError({.file = "--certificate"}, "none of the reactions asked for is certified",

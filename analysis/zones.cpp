@@ -51,6 +51,17 @@ bool keeps_sign_in_zones(const core::Vanishing& what, const LociRequest& request
   return asked(core::Quantity::f) && std::any_of(always_zero.begin(), always_zero.end(), is(other));
 }
 
+/// Whether zeros of an effort or of the force at the end of a guide cut zones: those of what was asked for.
+bool cuts_zones(core::Quantity quantity, const LociRequest& request) {
+  const auto asked = [&](core::Quantity own) {
+    return std::find(request.quantities.begin(), request.quantities.end(), own) != request.quantities.end();
+  };
+  using enum core::Quantity;
+  if (quantity == F) return asked(F) || asked(M);
+  if (quantity == end_ahead || quantity == end_behind) return asked(quantity) || asked(f);
+  return asked(quantity);
+}
+
 /// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
 void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request,
                const std::vector<core::Vanishing>& always_zero, core::Zones& map) {
@@ -81,13 +92,15 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
       const bool slot = mechanism::is_slot(mechanism, mechanism.joints[static_cast<std::size_t>(unknown.joint)]);
       const bool cuts = slot && std::find(request.quantities.begin(), request.quantities.end(), core::Quantity::f) !=
                                     request.quantities.end();
-      if (!component && chosen && (!guide || cuts || keeps_sign_in_zones(what, request, map.loci, always_zero)))
-        zone.signs.emplace_back(what, sign(at.values[k]) * zone.assembly_mode);
+      const bool keeps =
+          guide ? cuts || keeps_sign_in_zones(what, request, map.loci, always_zero) : cuts_zones(q, request);
+      if (!component && chosen && keeps) zone.signs.emplace_back(what, sign(at.values[k]) * zone.assembly_mode);
     }
     for (std::size_t j = 0; j < mechanism.joints.size(); ++j)
       for (const auto& [end, side] : mechanism::guide_end_signs)
-        if (std::find(wanted.begin(), wanted.end(), numeric::TracedReaction{mechanism.joints[j].name, end}) !=
-            wanted.end()) {
+        if (cuts_zones(end, request) &&
+            std::find(wanted.begin(), wanted.end(), numeric::TracedReaction{mechanism.joints[j].name, end}) !=
+                wanted.end()) {
           const numeric::WitnessColumns columns = {columns_of_joints[j].normal, columns_of_joints[j].tilt, -1,
                                                    side / clearances[j].half_length};
           zone.signs.emplace_back(core::Vanishing{mechanism.joints[j].name, end, 1},

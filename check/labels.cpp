@@ -96,6 +96,7 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
       if (unknowns[k].joint == static_cast<int>(j) && is_part(unknowns[k].quantity))
         least = std::min(least, (*orders)[k]);
     const bool force = least > no_order && least != HUGE_VAL;
+    const bool asked = std::find(c.joints.begin(), c.joints.end(), joint.name) != c.joints.end();
     std::set<Quantity> own;
     if (force) own.insert(Quantity::f);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
@@ -105,10 +106,10 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
       const bool guide = quantity == Quantity::N || quantity == Quantity::T;
       // Components are named where they are asked for, and vanish beyond what the force itself does.
       if ((guide || is_part(quantity)) && !wants(quantity)) continue;
+      any = any || (asked && wants(quantity));
       if (is_part(quantity) && !guide && force && order < least + no_order) continue;
       own.insert(quantity);
     }
-    const bool asked = std::find(c.joints.begin(), c.joints.end(), joint.name) != c.joints.end();
     for (const Quantity quantity : own) {
       label.insert({joint.name, quantity});
       any = any || (asked && wants(quantity));

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "mechanism/posture_sample.hpp"
+#include "mechanism/precise_posture.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
@@ -21,6 +24,9 @@ constexpr std::size_t enough_postures = 24;
 constexpr double least_part = 1e-6;
 /// What rounding moves a point by, of its coordinates, with room for a construction.
 constexpr double rounding = 1e-13;
+/// The same of points to 256 bits, and what irrational numbers, replaced within 1e-30, move of a link's length beside
+/// the end of a reach.
+constexpr double precise_rounding = 1e-60, precise_bending = 1e-26;
 
 Pair pair_of(PointIndex a, PointIndex b) { return {std::min(a, b), std::max(a, b)}; }
 
@@ -131,7 +137,8 @@ class Construction {
 };
 
 /// The value that most of the sampled ones are, to `tolerance`; nothing where no two agree.
-std::optional<double> usual_value(std::vector<double> values, double tolerance) {
+template <class Number>
+std::optional<Number> usual_value(std::vector<Number> values, double tolerance) {
   if (values.size() == 1) return values.front();
   std::sort(values.begin(), values.end());
   std::size_t best = 0, most = 1;
@@ -142,13 +149,41 @@ std::optional<double> usual_value(std::vector<double> values, double tolerance) 
   return most > 1 ? std::optional(values[best]) : std::nullopt;
 }
 
+/// Postures, and where all points have closed forms the same to 256 bits.
+struct Samples {
+  std::vector<SampledPosture> postures;
+  std::vector<PrecisePoints> precise;
+};
+
+Samples samples_of(const Mechanism& mechanism) {
+  const std::vector<int> sides = working_mode(mechanism);
+  Samples all{sample_poses(mechanism, sides, enough_postures), {}};
+  if (!mechanism.groups.empty()) return all;
+  Samples closed;
+  for (const SampledPosture& own : all.postures)
+    if (auto points = precise_posture(mechanism, own.pose, sides)) {
+      closed.postures.push_back(own);
+      closed.precise.push_back(std::move(*points));
+    }
+  return closed.postures.size() < 2 ? all : closed;
+}
+
 /// One distance that has to be held, over sampled postures.
 struct Sampled {
   HeldDistance held;
-  std::vector<double> lengths;
-  double tolerance = 0;
-  std::optional<double> usual;
+  std::vector<mpf_class> lengths;
+  double size = 0, tolerance = 0;  ///< m: of the link, and by which lengths may differ
+  std::optional<mpf_class> usual;
 };
+
+mpf_class precise_distance(const std::array<mpf_class, 3>& a, const std::array<mpf_class, 3>& b) {
+  mpf_class sum(0, precise_bits);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const mpf_class way = a[i] - b[i];
+    sum += way * way;
+  }
+  return sqrt(sum);
+}
 
 double size_of(const std::vector<PointIndex>& points, const std::vector<SampledPosture>& postures) {
   double size = 0;
@@ -160,29 +195,38 @@ double size_of(const std::vector<PointIndex>& points, const std::vector<SampledP
   return size;
 }
 
-std::vector<Sampled> sampled_distances(const Mechanism& mechanism, const std::vector<SampledPosture>& postures,
-                                       bool by_sides_alone) {
+/// The lengths of a distance, and by how much those of a rigid link may differ.
+void measure(Sampled& own, const Samples& samples) {
+  const auto a = static_cast<std::size_t>(own.held.first), b = static_cast<std::size_t>(own.held.second);
+  double farthest = 0;
+  for (std::size_t k = 0; k < samples.postures.size(); ++k) {
+    const Vector &p = samples.postures[k].points[a], &q = samples.postures[k].points[b];
+    farthest = std::max({farthest, distance(p, {}), distance(q, {})});
+    if (samples.precise.empty())
+      own.lengths.emplace_back(distance(p, q));
+    else
+      own.lengths.push_back(precise_distance(samples.precise[k][a], samples.precise[k][b]));
+  }
+  own.tolerance = samples.precise.empty() ? bending * own.size + rounding * farthest
+                                          : precise_bending * own.size + precise_rounding * farthest;
+  own.usual = usual_value(own.lengths, own.tolerance);
+  own.held.length = own.usual ? own.usual->get_d() : 0;
+}
+
+std::vector<Sampled> sampled_distances(const Mechanism& mechanism, const Samples& samples, bool by_sides_alone) {
   const Construction construction(mechanism);
   std::vector<Sampled> all;
   for (std::size_t l = 0; l < mechanism.links.size(); ++l) {
     const std::vector<PointIndex> points = points_held(mechanism.links[l]);
-    const double size = size_of(points, postures);
+    const double size = size_of(points, samples.postures);
     for (std::size_t i = 0; i < points.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const PointIndex a = points[j], b = points[i];
         const bool by_sides = construction.is_built_by_roots(a) || construction.is_built_by_roots(b);
         if (construction.holds(a, b) || (by_sides_alone && !by_sides)) continue;
-        Sampled& own = all.emplace_back(Sampled{{static_cast<LinkIndex>(l), a, b, 0, by_sides}, {}, 0, {}});
-        double farthest = 0;
-        for (const SampledPosture& posture : postures) {
-          const Vector &p = posture.points[static_cast<std::size_t>(a)],
-                       &q = posture.points[static_cast<std::size_t>(b)];
-          own.lengths.push_back(distance(p, q));
-          farthest = std::max({farthest, distance(p, {}), distance(q, {})});
-        }
-        own.tolerance = bending * size + rounding * farthest;
-        own.usual = usual_value(own.lengths, own.tolerance);
-        own.held.length = own.usual.value_or(0);
+        Sampled own{{static_cast<LinkIndex>(l), a, b, 0, by_sides}, {}, size, 0, {}};
+        measure(own, samples);
+        all.push_back(std::move(own));
       }
   }
   return all;
@@ -196,6 +240,21 @@ std::string in_file_units(const Mechanism& mechanism, double value, bool angle) 
     std::snprintf(text, sizeof text, "%.10g %s", value / mechanism.units.length.size,
                   mechanism.units.length.name.c_str());
   return text;
+}
+
+/// Two lengths with as many digits as tell them apart, at least 10.
+std::array<std::string, 2> lengths_in_file_units(const Mechanism& mechanism, const mpf_class& first,
+                                                 const mpf_class& second) {
+  constexpr int fewest = 10, most = 40;
+  const auto text = [&](const mpf_class& length, int digits) {
+    const mpf_class own = length / mechanism.units.length.size;
+    char buffer[2 * most];
+    gmp_snprintf(buffer, sizeof buffer, "%.*Fg %s", digits, own.get_mpf_t(), mechanism.units.length.name.c_str());
+    return std::string(buffer);
+  };
+  int digits = fewest;
+  while (digits < most && text(first, digits) == text(second, digits)) ++digits;
+  return {text(first, digits), text(second, digits)};
 }
 
 std::string words_of_pose(const Mechanism& mechanism, const std::vector<double>& pose) {
@@ -214,15 +273,16 @@ const std::string& point_name(const Mechanism& mechanism, PointIndex point) {
   const auto [least, greatest] = std::minmax_element(bent.lengths.begin(), bent.lengths.end());
   const Link& link = mechanism.links[static_cast<std::size_t>(bent.held.link)];
   const bool unnamed = mechanism.points[static_cast<std::size_t>(bent.held.second)].auxiliary;
-  const auto where = [&](auto found) {
-    return in_file_units(mechanism, *found, false) + " at " +
+  const auto [low, high] = lengths_in_file_units(mechanism, *least, *greatest);
+  const auto where = [&](const std::string& length, auto found) {
+    return length + " at " +
            words_of_pose(mechanism, postures[static_cast<std::size_t>(found - bent.lengths.begin())].pose);
   };
   throw core::InputError(
       link.where,
       "link " + link.name + " is not rigid: the distance between " + point_name(mechanism, bent.held.first) + " and " +
           (unnamed ? "its centre of mass" : point_name(mechanism, bent.held.second)) +
-          " changes over the workspace, from " + where(least) + " to " + where(greatest),
+          " changes over the workspace, from " + where(low, least) + " to " + where(high, greatest),
       "list only points that move together, and write a com beside the pins as {on: [A, B], offset: [u, v]}");
 }
 
@@ -235,7 +295,7 @@ double turn_of(const std::vector<PointIndex>& points, const PosturePoints& postu
 /// Whether a sampled posture keeps the distances.
 bool keeps(const std::vector<Sampled>& distances, std::size_t posture) {
   return std::all_of(distances.begin(), distances.end(), [&](const Sampled& own) {
-    return !own.usual || std::abs(own.lengths[posture] - *own.usual) <= own.tolerance;
+    return !own.usual || abs(own.lengths[posture] - *own.usual) <= own.tolerance;
   });
 }
 
@@ -279,11 +339,12 @@ HeldByLinks held_by_links(const Mechanism& mechanism) {
     return points.size() == 2 && may_bend(link) && !construction.holds(points[0], points[1]);
   });
   if (!any) return result;
-  const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), enough_postures);
+  const Samples samples = samples_of(mechanism);
+  const std::vector<SampledPosture>& postures = samples.postures;
   if (postures.size() < 2) return result;
-  const std::vector<Sampled> distances = sampled_distances(mechanism, postures, true);
+  const std::vector<Sampled> distances = sampled_distances(mechanism, samples, true);
   for (const Sampled& own : distances)  // of points in one place there is no ratio, nor a side to be on
-    if (own.usual && *own.usual > own.tolerance / bending * least_part) result.distances.push_back(own.held);
+    if (own.usual && own.held.length > least_part * own.size) result.distances.push_back(own.held);
   std::vector<bool> kept;
   for (std::size_t p = 0; p < postures.size(); ++p) kept.push_back(keeps(distances, p));
   for (std::size_t l = 0; l < mechanism.links.size(); ++l)
@@ -292,11 +353,12 @@ HeldByLinks held_by_links(const Mechanism& mechanism) {
 }
 
 void check_rigidity(const Mechanism& mechanism) {
-  const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), enough_postures);
-  if (postures.size() < 2) return;
-  for (const Sampled& own : sampled_distances(mechanism, postures, false)) {
+  const Samples samples = samples_of(mechanism);
+  if (samples.postures.size() < 2) return;
+  for (const Sampled& own : sampled_distances(mechanism, samples, false)) {
     const auto [least, greatest] = std::minmax_element(own.lengths.begin(), own.lengths.end());
-    if (!own.usual || (!own.held.by_sides && *greatest - *least > own.tolerance)) refuse(mechanism, own, postures);
+    if (!own.usual || (!own.held.by_sides && *greatest - *least > own.tolerance))
+      refuse(mechanism, own, samples.postures);
   }
 }
 

@@ -1,8 +1,8 @@
 // Rigid means rigid: the points of a link keep their distances and turns of its triangles (in space of its tetrahedra).
 // Most are held by the way the points are built: an elbow is a length away from its bases. Others are held only where
 // the mechanism stands on one side of a fold, such as those of a parallelogram that can flip; there this side alone is
-// the mechanism. What has to be held is told from sampled postures of the file's working mode; symbolic/rigid_sheets
-// proves it sheet by sheet, and whoever builds a posture holds it to rounding.
+// the mechanism. What has to be held is told from sampled postures of the file's working mode, of points with closed
+// forms to 256 bits; symbolic/rigid_sheets proves it sheet by sheet, and whoever builds a posture holds it to rounding.
 #pragma once
 
 #include <array>

@@ -33,93 +33,8 @@ int StraightLines::scaled_value(const Poly& natural, long exponent) {
   for (core::Term& term : scaled.terms) term.coefficient = core::times_power_of_two(term.coefficient, exponent);
   const auto form =
       std::find_if(forms_.begin(), forms_.end(), [&](const DeterminantForm& f) { return f.value == natural; });
-  if (form == forms_.end()) return is_nested_ || of_surfaces() ? scaled_value_by_ways(natural, scaled) : value(scaled);
+  if (form == forms_.end()) return scaled_value_by_ways(natural, scaled);
   return determinant(*form, scaled.terms.front().coefficient / plain.terms.front().coefficient);
-}
-
-namespace {
-
-/// p with v + by in the place of v, of which there may be none.
-Poly moved(const Poly& p, int v, const Poly& by) {
-  if (v < 0) return p;
-  const std::vector<Poly> powers = p.coefficients(v);
-  if (powers.size() <= 1) return p;
-  const Poly place = Poly::variable(p.ring(), v) + by;
-  Poly sum(p.ring());
-  for (auto power = powers.rbegin(); power != powers.rend(); ++power) sum = sum * place + *power;
-  return sum;
-}
-
-}  // namespace
-
-int StraightLines::scaled_value_by_ways(const Poly& natural, const Polynomial& scaled) {
-  if (scaled.terms.empty()) return builder_.constant(0);
-  return value_by_ways(natural, scaled.terms.front().coefficient / natural.plain().terms.front().coefficient);
-}
-
-int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
-  const std::vector<ArmedPoint>& points = armed_points();
-  const auto written = [&](const std::vector<std::size_t>& arms) {
-    Poly result = natural;
-    for (std::size_t i = points.size(); i-- > 0;) {
-      const Arm& arm = points[i].arms[arms[i]];
-      for (std::size_t k = 0; k < 3; ++k) result = moved(result, points[i].variables[k], arm.end[k]);
-    }
-    return result;
-  };
-  std::vector<std::size_t> arms(points.size(), 0), others(points.size(), 1);
-  Poly best = written(arms);
-  if (Poly other = written(others); other.length() < best.length()) {
-    best = std::move(other);
-    arms = others;
-  }
-  for (bool improved = true; improved;) {
-    improved = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      others = arms;
-      others[i] = 1 - others[i];
-      if (Poly other = written(others); other.length() < best.length()) {
-        best = std::move(other);
-        arms = others;
-        improved = true;
-      }
-    }
-  }
-  if (best.length() >= natural.length()) return value(natural.scaled(scale).plain());
-  Polynomial plain = best.scaled(scale).plain();
-  std::vector<int> variables(static_cast<std::size_t>(plain.variables), 0);
-  for (int v = 0; v < plain.variables; ++v) {
-    if (!core::depends_on(plain, v)) continue;
-    int& own = variables[static_cast<std::size_t>(v)];
-    bool is_arm = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Place& step = points[i].arms[arms[i]].step;
-      for (std::size_t k = 0; k < 3; ++k)
-        if (v == points[i].variables[k]) own = step[k], is_arm = true;
-    }
-    if (!is_arm) own = variable(v);
-  }
-  return builder_.polynomial(plain, variables);
-}
-
-const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
-  if (armed_points_) return *armed_points_;
-  armed_points_.emplace();
-  for (const ConstructedPoint& point : geometry_->constructed()) {
-    const std::optional<Dyad> known = dyad(point.point);
-    if (!known || known->axis.has_value() != (point.z >= 0)) continue;
-    const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
-                                   [&](const TowerRoot& r) { return r.point == point.point; });
-    const auto& form =
-        std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
-    const std::array<Place, 2> steps = steps_to(*known, *root);
-    const auto arm = [&](mechanism::PointIndex end, const Place& step) {
-      const auto& natural = geometry_->natural(end);
-      return Arm{{geometry_->poly(natural[0]), geometry_->poly(natural[1]), geometry_->poly(natural[2])}, step};
-    };
-    armed_points_->push_back({{point.x, point.y, point.z}, {arm(form.from, steps[0]), arm(form.to, steps[1])}});
-  }
-  return *armed_points_;
 }
 
 namespace {
@@ -184,8 +99,7 @@ int StraightLines::determinant(const DeterminantForm& form, const Rational& scal
     }
   std::vector<std::vector<int>> rows(size);
   for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t j = 0; j < size; ++j)
-      rows[i].push_back(of_surfaces() ? scaled_value_by_ways(form.rows[i][j], entries[i][j]) : value(entries[i][j]));
+    for (std::size_t j = 0; j < size; ++j) rows[i].push_back(scaled_value_by_ways(form.rows[i][j], entries[i][j]));
   const Rational constant = core::times_power_of_two(form.constant * scale, taken);
   return builder_.multiply(builder_.constant(constant), Minors(builder_, rows).of((1U << size) - 1));
 }
@@ -268,7 +182,7 @@ StraightLine StraightLines::squared_length(const InverseLength& length) {
 
 /// (4 + angle)^2.
 StraightLine StraightLines::shifted_angle(const TorsionAngle& angle) {
-  const auto part = [&](std::size_t i) { return value(geometry_->poly(angle.way[i].expand()).plain()); };
+  const auto part = [&](std::size_t i) { return value_by_ways(geometry_->poly(angle.way[i].expand()), 1); };
   const int x = part(0), turned = builder_.angle(part(1), x);
   return builder_.line(builder_.power(builder_.add(builder_.constant(core::angle_shift), turned), 2));
 }

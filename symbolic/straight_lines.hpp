@@ -71,15 +71,20 @@ class StraightLines {
   struct ArmedPoint {
     std::array<int, 3> variables;  ///< of the ring; -1: none
     std::array<Arm, 2> arms;       ///< from either end
+    /// In the plane, from either end: |arm|^2, and w . arm and w x arm for the way w to the other end.
+    std::optional<std::array<std::array<int, 3>, 2>> lengths = {};
   };
 
   int value(const core::Polynomial& p);
   /// The same, by the ways from point to point where that takes fewer terms.
   int value_by_ways(const Poly& natural, const core::Rational& scale);
+  /// Of what is written by arms: as it is, and where that is shorter by the lengths of dyads alone, which do not change
+  /// when a dyad turns about its end.
+  int value_of_arms(const Poly& p, const std::vector<std::size_t>& arms);
+  std::optional<int> value_by_lengths(const Poly& p, const std::vector<std::size_t>& arms);
+  std::array<std::array<int, 3>, 2> lengths_of(const Dyad& dyad, const TowerRoot& root);
   /// `scaled`: its multiple that is asked for.
   int scaled_value_by_ways(const Poly& natural, const core::Polynomial& scaled);
-  /// Whether cells of three coordinates are to be bounded, where sharp bounds count more than the time of writing them.
-  bool of_surfaces() const { return geometry_->coordinates() > 2; }
   const std::vector<ArmedPoint>& armed_points();
   int scaled_value(const Poly& natural, long exponent);
   int determinant(const DeterminantForm& form, const core::Rational& scale);

@@ -87,7 +87,11 @@ std::vector<Vanishing> wanted_vanishing(const LocusProblem& problem, const std::
           Quantity::my, Quantity::mz, Quantity::m1, Quantity::m2}) {
       const int times = multiplicity(joint, component);
       const bool part = contains(components_of_f, component);
-      if (times > 0 && !(part && together) && wanted(component)) take(single, joint, component, times);
+      if (times == 0 || !wanted(component)) continue;
+      if (part && together)
+        any = any || contains(problem.joints, joint);
+      else
+        take(single, joint, component, times);
     }
     for (const Quantity quantity : {Quantity::end_ahead, Quantity::end_behind})
       if (const int times = multiplicity(joint, quantity); times > 0) take(forces, joint, quantity, times);

@@ -7,6 +7,8 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "loci/curves/curves.hpp"
 #include "loci/search/search.hpp"
@@ -110,15 +112,13 @@ class Builder {
       node_at(strand.points.front());
       node_at(strand.points.back());
     }
+    add_stars();
     for (const Strand& strand : strands_) {
       if (strand.owner == box_owner) continue;
       for (const std::size_t axis : {0u, 1u})
         for (const double side : {low_[axis], high_[axis]}) add_touches(strand, axis, side);
     }
-    if (sketch_)
-      add_drawn_crossings();
-    else
-      add_crossings();
+    add_crossings();
     for (std::size_t n = 0; n < result_.graph.nodes.size(); ++n) cut_at(static_cast<int>(n));
     for (Strand& strand : strands_) split(strand);
     order_edges();
@@ -167,6 +167,18 @@ class Builder {
     }
     nodes.push_back(at);
     return static_cast<int>(nodes.size()) - 1;
+  }
+
+  /// Where the sheet is not smooth branches of curves arrive and leave side by side, of one curve or of several that
+  /// have no isolated zero in common there. Such a place has a vertex of each; where several arrive it is a node.
+  void add_stars() {
+    for (const Point2& star : stars_) {
+      std::size_t arriving = 0;
+      for (const Strand& strand : strands_)
+        if (strand.owner != box_owner)
+          for (const Point2& at : strand.points) arriving += distance(at, star) <= same_place * size_ ? 1 : 0;
+      if (arriving > 1) node_at(star);
+    }
   }
 
   /// Where a curve touches a side of the box nothing crosses, yet what lies between them is pinched: the place is a
@@ -224,8 +236,10 @@ class Builder {
   }
 
   /// Arcs of reactions end on the boundary and on direct singularities, preload loci pass through these; among each
-  /// other they may cross.
+  /// other they may cross. A sketch, too, decides this by what the curves are: polylines of two that are one curve
+  /// cross anywhere.
   void add_crossings() {
+    std::set<std::pair<int, int>> drawn;
     std::vector<int> owners;
     for (const Strand& strand : strands_) {
       if (strand.owner == box_owner || curve(strand.owner).kind == LocusKind::workspace_boundary) continue;
@@ -239,12 +253,17 @@ class Builder {
             !passes && (a.kind == LocusKind::direct_singularity) != (b.kind == LocusKind::direct_singularity);
         if (one_singular || add_own_crossings(owners[i], owners[k]) || add_closed_crossings(owners[i], owners[k]))
           continue;
-        for (const sheet::PlaneCell& place : meeting_places(owners[i], owners[k]))
-          if (!add_crossings_in(place, owners[i], owners[k])) {
-            add_plane_crossings(a, b);
-            break;
-          }
+        if (sketch_)
+          drawn.emplace(owners[i], owners[k]);
+        else
+          add_proven_crossings(owners[i], owners[k]);
       }
+    if (!drawn.empty()) add_drawn_crossings(drawn);
+  }
+
+  void add_proven_crossings(int first, int second) {
+    for (const sheet::PlaneCell& place : meeting_places(first, second))
+      if (!add_crossings_in(place, first, second)) return add_plane_crossings(curve(first), curve(second));
   }
 
   /// Of two factors' parts of one plane curve: where it crosses itself, arcs of one factor end, but one of each may
@@ -327,15 +346,17 @@ class Builder {
     return true;
   }
 
-  /// Those that the polylines show, moved onto both curves.
-  void add_drawn_crossings() {
+  /// Those that the polylines of these pairs of owners show, moved onto both curves.
+  void add_drawn_crossings(const std::set<std::pair<int, int>>& pairs) {
+    std::set<int> owners;
+    for (const auto& [first, second] : pairs) owners.insert({first, second});
     std::vector<Segment> segments;
     for (std::size_t i = 0; i < strands_.size(); ++i)
-      if (strands_[i].owner != box_owner) add_segments(strands_[i].points, static_cast<int>(i), segments);
+      if (owners.contains(strands_[i].owner)) add_segments(strands_[i].points, static_cast<int>(i), segments);
     each_crossing(std::move(segments), [&](const Segment& s, const Segment& t) {
       const int first = strands_[static_cast<std::size_t>(s.of)].owner,
                 second = strands_[static_cast<std::size_t>(t.of)].owner;
-      if (first == second) return;
+      if (!pairs.contains({first, second}) && !pairs.contains({second, first})) return;
       const double part = turn(t.a, t.b, s.a) / (turn(t.a, t.b, s.a) - turn(t.a, t.b, s.b));
       const Point2 drawn = {s.a[0] + part * (s.b[0] - s.a[0]), s.a[1] + part * (s.b[1] - s.a[1])};
       const Point2 at = on_both(*projection(first), *projection(second), drawn);

@@ -132,5 +132,28 @@ TEST(PoseRangeCertificate, IsRejectedWhereAPointIsOutOfReach) {
   EXPECT_FALSE(examination_of(model, changed.dump()).accepted);
 }
 
+/// A mechanism whose legs reach no point of the line together, and one that its limit holds from every pose.
+TEST(PoseRangeCertificate, SaysThatTheWholeRangeIsOutOfReach) {
+  std::string apart = example("five_bar.yaml");
+  for (const auto& [old, now] : std::vector<std::pair<std::string, std::string>>{{"  y: [-1.0, 1.0]", ""},
+                                                                                 {"P:  [x, y]", "P:  [x, 0]"},
+                                                                                 {"  d: L ", "  d: 3 "},
+                                                                                 {"x: [-0.5, 1.0]", "x: [0, 3]"}})
+    apart = replaced(apart, old, now);
+  const std::string limited = example("four_bar.yaml") + "limits:\n  - {distance: [A, C], within: [10, 11]}\n";
+  for (const std::string& model : {apart, limited})
+    for (const bool zones : {false, true}) {
+      const std::string certificate = range_certified(model, zones);
+      const check::Examination own = examination_of(model, certificate);
+      EXPECT_TRUE(own.accepted) << own.why;
+      EXPECT_TRUE(own.unchecked.empty()) << testing::PrintToString(own.unchecked);
+      // The same is said in vain of a mechanism that moves.
+      Json changed = Json::parse(range_certified(example("four_bar.yaml"), zones));
+      Json& mode = changed["pose_range"]["modes"][0];
+      mode["free"] = mode["points"] = mode["open"] = Json::array();
+      EXPECT_FALSE(examination_of(example("four_bar.yaml"), changed.dump()).accepted);
+    }
+}
+
 }  // namespace
 }  // namespace clearloci::test

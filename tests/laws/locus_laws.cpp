@@ -277,9 +277,8 @@ class LocusLaws {
       for (const core::Vanishing& what : curve.vanishing) {
         const double wa = std::abs(s_.witness.value_of(*a, what)), wb = std::abs(s_.witness.value_of(*b, what));
         if (curve.kind == LocusKind::margin) {
-          const auto& least = what.quantity == core::Quantity::f || core::is_guide_end(what.quantity)
-                                  ? s_.request.min_force
-                                  : s_.request.min_couple;
+          // A linear drive bears a force.
+          const auto& least = what.quantity == core::Quantity::M ? s_.request.min_couple : s_.request.min_force;
           if (least && !(std::abs(wb - core::to_double(*least)) <= 1e-4 * core::to_double(*least) + std::abs(wb - wa)))
             fault << what.joint << "." << core::to_string(what.quantity) << " is " << wb << " on a margin";
         } else if (!(wb <= 0.2 * wa + 1e-6 * scale)) {

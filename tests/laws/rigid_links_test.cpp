@@ -210,6 +210,30 @@ TEST(RigidLinks, LimitsAtTheirLengthsBoundNothing) {
           .verified());
 }
 
+/// However little it bends, in every command: the reader refuses it. Irrational lengths are no bend.
+TEST(RigidLinks, OneThatBendsByLittleIsRefusedWhenItIsRead) {
+  const auto with_rod = [](const std::string& length) {
+    std::string text = delta({});
+    const std::string rod = "lengths: [h, arm], side: left";
+    return text.replace(text.find(rod), rod.size(), "lengths: [h, " + length + "], side: left");
+  };
+  for (const char* more : {"1e-6", "1e-9", "1e-10", "1e-13", "1e-16", "1e-20"}) {
+    SCOPED_TRACE(more);
+    try {
+      mechanism::parse_mechanism(with_rod(std::string("arm*(1 + ") + more + ")"), "delta.yaml");
+      ADD_FAILURE() << "rod2 is not rigid";
+    } catch (const core::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("rod2 is not rigid"), std::string::npos) << error.what();
+    }
+  }
+  for (const char* length : {"arm", "arm*(1 + 0)", "arm*sqrt(2)*sqrt(2)/2", "arm*(sqrt(3) + 1)*(sqrt(3) - 1)/2"})
+    EXPECT_NO_THROW(mechanism::parse_mechanism(with_rod(length), "delta.yaml")) << length;
+  std::string irrational = delta({});
+  const std::string height = "h: 60";
+  irrational.replace(irrational.find(height), height.size(), "h: 60*sqrt(2)");
+  EXPECT_NO_THROW(mechanism::parse_mechanism(irrational, "delta.yaml"));
+}
+
 TEST(RigidLinks, OneThatIsRigidNowhereIsRefusedWithItsLengths) {
   std::string text = delta({});
   const std::string right = "  Q1: [x - tip - h, y]\n";

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <random>
 
 #include "analysis/zones.hpp"
 #include "core/errors.hpp"
+#include "loci/zones/zones.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"
 #include "tests/laws/task_designs.hpp"
@@ -161,9 +163,10 @@ void expect_partition(const mechanism::Mechanism& mechanism, const core::Zones& 
 
 // Once open: in the base of a cylinder, where |A| vanishes in either mode on a curve of its own; where what a curve
 // with long coefficients leaves of a product was too small to have a sign; along a boundary on which numerators are
-// zero with the root though no term of them has it as a factor.
+// zero with the root though no term of them has it as a factor; along the slit of a torsion spring.
 TEST(Zones, OfTheCorpusAreCertified) {
-  for (const std::string name : {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients", "minitaur_foot"}) {
+  for (const std::string name :
+       {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients", "minitaur_foot", "rrrpr_torsion_slit"}) {
     SCOPED_TRACE(name);
     const core::Zones map =
         find_zones(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml"), {});
@@ -200,6 +203,37 @@ TEST(Zones, BesideBoundariesNeedNoFinerLoci) {
 TEST(Zones, OfSliversAndBehindATouchNeedNoFinerLoci) {
   expect_no_finer_loci({{"prrr_r_slivers_at_an_angle", 17}, {"prrr_r_singularity_through_a_touch", 9}},
                        std::mt19937(20110580));
+}
+
+/// That two curves are one follows from what they are, not from their vertices: zones of a picture are the same when
+/// every vertex is moved by a few roundings.
+TEST(Zones, OfASketchDoNotDependOnTheRoundingOfVertices) {
+  std::mt19937 random(20261126);
+  std::uniform_int_distribution<int> steps(-4, 4);
+  for (const char* name : {"five_bar", "five_bar_weights", "five_bar_generic", "five_bar_coupler"}) {
+    SCOPED_TRACE(name);
+    const mechanism::Mechanism mechanism = example(name);
+    TracedProblem traced = trace_problem(mechanism, {}, {}, TraceEffort::sketch);
+    const auto areas = [&] {
+      std::vector<double> list;
+      for (const core::Zone& zone : loci::zones(traced.problem, traced.map, true).map.zones) list.push_back(zone.size);
+      return list;
+    };
+    const std::vector<double> own = areas();
+    EXPECT_GE(own.size(), 2U);
+    for (core::LocusCurve& curve : traced.map.curves)
+      for (core::Arc& arc : curve.arcs)
+        for (core::Point2& at : arc.points)
+          for (double& c : at) c += steps(random) * std::numeric_limits<double>::epsilon();
+    const std::vector<double> moved = areas();
+    ASSERT_EQ(moved.size(), own.size());
+    for (std::size_t z = 0; z < own.size(); ++z) EXPECT_NEAR(moved[z], own[z], traced.map.tolerance) << z;
+  }
+}
+
+// Once not in order: two loci pass the place where the ends of a spring meet, one of them twice.
+TEST(Zones, ThroughAPlaceWhereASpringHasNoLength) {
+  expect_no_finer_loci({{"three_rpr_curves_through_ends_of_a_spring", 22}}, std::mt19937(20110581));
 }
 
 TEST(PaperZones, FourSurfacesOfTheAssemblyModeOfFig9AndTheSliversOfTheOther) {
@@ -322,6 +356,31 @@ TEST(Zones, HaveNoSignOfWhatChangesInsideThem) {
       EXPECT_EQ(told(core::Quantity::N), 0) << zone.id;
       EXPECT_EQ(told(core::Quantity::T), request.quantities == asked.quantities ? 1 : 0) << zone.id;
       EXPECT_EQ(told(core::Quantity::F), 1) << zone.id;
+    }
+  }
+}
+
+/// Zeros of what was not asked for cut no zone, so a zone has no sign of it.
+TEST(Zones, HaveNoSignOfWhatWasNotAskedFor) {
+  using enum core::Quantity;
+  std::mt19937 random(20261127);
+  for (const char* name : {"five_bar", "prrrp"}) {
+    const mechanism::Mechanism mechanism = example(name);
+    for (const std::vector<core::Quantity>& asked :
+         std::vector<std::vector<core::Quantity>>{{fx}, {f}, {M}, {end_ahead}, {f, M}}) {
+      LociRequest request;
+      request.quantities = asked;
+      const core::Zones map = find_zones(mechanism, {request});
+      expect_one_sign_a_zone(mechanism, map, random);
+      const auto is_asked = [&](core::Quantity own) {
+        return std::find(asked.begin(), asked.end(), own) != asked.end();
+      };
+      for (const core::Zone& zone : map.zones)
+        for (const auto& [what, sign] : zone.signs) {
+          const core::Quantity own = what.quantity;
+          EXPECT_TRUE(is_asked(own) || (own == F && is_asked(M)) || (core::is_guide_end(own) && is_asked(f)))
+              << name << " " << zone.id << " " << core::to_string(own) << "_" << what.joint;
+        }
     }
   }
 }

@@ -8,8 +8,10 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <random>
+#include <span>
 
 #include "mechanism/read.hpp"
 #include "symbolic/locus_problem.hpp"
@@ -241,6 +243,40 @@ TEST(StraightLinesOfTowers, AreShort) {
   ASSERT_EQ(stacked.problem.tower.roots.size(), 4u);
   EXPECT_LT(stacked.problem.tower.roots[3].square.terms.size(), 300u);  // 583 with D as a sum of squares
   EXPECT_LT(stacked.problem.tower.roots[3].line.steps.size(), 120u);
+}
+
+// What does not change when a dyad turns about its end is written by lengths: the angle at an elbow, by the distance of
+// the ends and the root alone, is the one between the links.
+TEST(StraightLinesOfTowers, TellAnglesAtElbowsByLengths) {
+  const mechanism::Mechanism mechanism =
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/rrrpr_torsion_slit.yaml");
+  const DerivedProblem derived = locus_problem(mechanism, {});
+  const core::RootTower& tower = derived.problem.tower;
+  const auto angle =
+      std::find_if(tower.roots.begin(), tower.roots.end(), [](const auto& root) { return root.is_angle(); });
+  ASSERT_NE(angle, tower.roots.end());
+  EXPECT_LT(angle->line.steps.size(), 40u);  // 50 by the ways along the links
+  const int side = derived.problem.modes.front().front();
+  const double a = 24.0 / 41, b = 47.0 / 107, rest = -18 * std::numbers::pi / 180;
+  std::mt19937 random(20261128);
+  int compared = 0;
+  for (int sample = 0; sample < 400; ++sample) {
+    const double x = std::uniform_real_distribution(-1.0, 1.0)(random),
+                 y = std::uniform_real_distribution(-1.0, 1.0)(random);
+    const double d = std::hypot(x, y);
+    if (d >= a + b || d <= std::abs(a - b)) continue;
+    // The triangle of the two links: how far the second is turned out of the line of the first.
+    const double elbow = std::acos((a * a + b * b - d * d) / (2 * a * b));
+    const double turned = -side * (std::numbers::pi - elbow) - rest;
+    const double expected = core::angle_shift + std::remainder(turned, 2 * std::numbers::pi);
+    std::vector<double> at = {x, y};
+    at.push_back(side * std::sqrt(core::evaluate(tower.roots.front().square,
+                                                 std::span<const double>(std::vector<double>{x, y, 0, 0, 0}))));
+    at.resize(static_cast<std::size_t>(tower.variables()), 0.0);
+    EXPECT_NEAR(evaluate(angle->line, at), expected * expected, 1e-9) << x << " " << y;
+    ++compared;
+  }
+  EXPECT_GT(compared, 100);
 }
 
 // A third dyad: nothing of it is longer than it must be, and its two rims are known apart, each by a polynomial and by
