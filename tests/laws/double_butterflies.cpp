@@ -333,6 +333,10 @@ DoubleButterfly double_butterfly(std::mt19937& random, bool lattice) {
   own.e = near(0.5, 3.5);
   own.f = near(2, 2.2);
   own.h = near(3.5, 2.5);
+  const std::array<Place, 10> all = {Place{0, 0}, own.o2, own.o3, own.a, own.b, own.c, own.d, own.e, own.f, own.h};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (apart(all[i], all[k]) < 0.1) return double_butterfly(random, lattice);
   own.left = {number(-50, 50), number(-100, -10)};
   if (random() % 2 == 0) {
     own.right = {number(-50, 50), number(-80, 20)};
