@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
@@ -18,7 +19,8 @@ namespace clearloci::test {
 namespace {
 
 struct Tally {
-  int designs = 0, refused = 0, lost = 0, points = 0, uncertified = 0, changes = 0, dead_centres = 0, incomplete = 0;
+  int designs = 0, refused = 0, lost = 0, points = 0, uncertified = 0, changes = 0, dead_centres = 0,
+      uncertified_ends = 0, incomplete = 0;
 };
 
 constexpr double near = 1e-6;
@@ -56,17 +58,23 @@ void hold_range(const LocusMap& map, const Walk& own, Tally& tally) {
     return interval.from < own.to && interval.to > own.from;
   });
   ASSERT_NE(range, map.reachable.end());
-  EXPECT_NEAR(range->from, own.from, near);
-  EXPECT_NEAR(range->to, own.to, near);
   EXPECT_EQ(map.reachable.size(), 1U);
-  for (const auto& [is_dead, at] : {std::pair(own.dead_from, own.from), std::pair(own.dead_to, own.to)}) {
-    if (!is_dead) continue;
+  for (const auto& [is_dead, told, at] :
+       {std::tuple(own.dead_from, range->from, own.from), std::tuple(own.dead_to, range->to, own.to)}) {
+    if (!is_dead) {
+      EXPECT_NEAR(told, at, near);
+      continue;
+    }
     ++tally.dead_centres;
-    EXPECT_TRUE(std::any_of(map.isolated_points.begin(), map.isolated_points.end(),
-                            [&](const IsolatedPoint& point) {
-                              return point.kind == LocusKind::workspace_boundary && std::abs(point.at[0] - at) < near;
-                            }))
-        << "no dead centre is told at " << at;
+    // One that is not certified may be somewhat beyond what is proven to be in reach.
+    constexpr double doubtful = 1e-4;
+    const auto point = std::find_if(map.isolated_points.begin(), map.isolated_points.end(), [&](const auto& one) {
+      return one.kind == LocusKind::workspace_boundary && std::abs(one.at[0] - at) < doubtful;
+    });
+    ASSERT_NE(point, map.isolated_points.end()) << "no dead centre is told at " << at;
+    tally.uncertified_ends += point->certified ? 0 : 1;
+    EXPECT_NEAR(told, at, point->certified ? near : doubtful);
+    EXPECT_NEAR(point->at[0], at, point->certified ? near : doubtful);
   }
 }
 
@@ -136,6 +144,7 @@ TEST(GroupLaw, DoubleButterfliesAreThoseOfAContinuation) {
   EXPECT_LE(tally.lost, tally.designs / 20);
   EXPECT_GT(tally.changes, 10);
   EXPECT_GT(tally.dead_centres, 10);
+  EXPECT_LE(3 * tally.uncertified_ends, tally.dead_centres);
 }
 
 }  // namespace

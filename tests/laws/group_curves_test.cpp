@@ -10,7 +10,6 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
