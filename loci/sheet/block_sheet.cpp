@@ -319,6 +319,15 @@ class Growth {
     }
     const double off = q.r + Form::slack(std::abs(q.c) + std::abs(q.a[0]));
     farthest_ = {std::max(farthest_[0], range[0] - off), std::min(farthest_[1], range[1] + off)};
+    // Over so short a part alone less is left to rounding.
+    const double middle = 0.5 * (near + far);
+    BlockUnknowns u(start.begin(), start.end());
+    for (std::size_t j = 0; j < u.size(); ++j) u[j] = j == k ? start[k] + middle * half : at(j, middle);
+    if (!forms_.turn(at(k, middle), u, k, 0.51 * std::abs(near - far) * half)) return;
+    for (std::size_t j = 0; j < u.size(); ++j)
+      if (!(std::abs(forms_.turned()[j].middle.c - at(j, middle)) + 0.1 * curve[j].radius < curve[j].radius)) return;
+    farthest_ = {std::max(farthest_[0], forms_.turned_coordinate().lower()),
+                 std::min(farthest_[1], forms_.turned_coordinate().upper())};
   }
 
   bool cut(int index) {

@@ -120,7 +120,9 @@ TEST(GroupLaw, DoubleButterfliesAreThoseOfAContinuation) {
       model = Model::parse(text, "butterfly.yaml");
     } catch (const InputError& error) {
       ++tally.refused;
-      EXPECT_NE(std::string(error.what()).find("dead centre"), std::string::npos) << error.what();
+      const std::string what = error.what();
+      EXPECT_TRUE(what.find("dead centre") != std::string::npos || what.find("it is singular") != std::string::npos)
+          << what;
       continue;
     }
     const std::optional<Walk> own = walk(design, reach);
@@ -135,11 +137,10 @@ TEST(GroupLaw, DoubleButterfliesAreThoseOfAContinuation) {
       return point.kind == LocusKind::workspace_boundary && !point.certified;
     }));
   }
-  fmt::print(
-      "{} designs, {} refused, {} lost, {} incomplete; {} changes of sign, {} points ({} not certified), {} dead "
-      "centres\n",
-      tally.designs, tally.refused, tally.lost, tally.incomplete, tally.changes, tally.points, tally.uncertified,
-      tally.dead_centres);
+  fmt::print("{} designs, {} refused, {} lost, {} incomplete; ", tally.designs, tally.refused, tally.lost,
+             tally.incomplete);
+  fmt::print("{} changes of sign, {} points ({} not certified), {} dead centres ({} not certified)\n", tally.changes,
+             tally.points, tally.uncertified, tally.dead_centres, tally.uncertified_ends);
   EXPECT_GT(tally.designs, 20);
   EXPECT_LE(tally.lost, tally.designs / 20);
   EXPECT_GT(tally.changes, 10);
