@@ -98,7 +98,7 @@ class Growth {
           own.box[0][1] - own.box[0][0] <= 2 * std::ldexp(box_[0][1] - box_[0][0], -deepest(1)))
         all.push_back({own.box[0][0], own.box[0][1], own.block, false});
     // What lies between the cells and a dead centre is no more than what is in doubt.
-    const double most = 1e-8 * (box_[0][1] - box_[0][0]);
+    const double most = 5e-7 * (box_[0][1] - box_[0][0]);
     for (SheetEnd& own : all)
       own.proven = own.block == 0 && (turns_back(own, -1) || turns_back(own, 1)) && own.upper - own.lower <= most;
     ends_ = all;
