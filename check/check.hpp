@@ -24,6 +24,7 @@ struct Examination {
   std::string why;  ///< the first claim that is false or could not be shown; empty where accepted
   std::size_t cells = 0, graphs = 0, crossings = 0, arcs = 0, points = 0, zones = 0;  ///< that were shown
   std::size_t task_cells = 0;                                                         ///< in which a task keeps clear
+  std::size_t refuted_patterns = 0;                                                   ///< of signs, by their rows
   double open_share = 0;                                                              ///< of the area of all sheets
   std::vector<std::string> unchecked;  ///< what was not looked at, and why
 };

@@ -54,10 +54,10 @@ PoseVariables variables_over(const std::vector<std::string>& names, const Cell& 
 
 GroupSheet::GroupSheet(const mechanism::Mechanism& m, const std::vector<int>& sides, std::vector<std::string> names,
                        const Cell& whole, const std::vector<double>& pose,
-                       const std::function<bool(const Cell&)>& is_apart, const Deadline& deadline)
+                       const std::function<bool(const Cell&)>& is_apart, const Deadline& deadline, GroupPlaces& shown)
     : m_(m), sides_(sides), names_(std::move(names)) {
   for (const auto& [low, high] : whole) widths_.push_back(std::max(high - low, 1e-12));
-  follow(pose);
+  follow(pose, shown);
   std::vector<double> at = middle_of(whole);
   std::copy(pose.begin(), pose.end(), at.begin());
   known_.emplace_back(std::move(at), doubles_of(at_pose_));
@@ -66,48 +66,74 @@ GroupSheet::GroupSheet(const mechanism::Mechanism& m, const std::vector<int>& si
   join(is_apart);
 }
 
-/// Along the straight way from the pose of the postures, t from 0 to 1.
-void GroupSheet::follow(const std::vector<double>& pose) {
-  std::vector<double> start;
-  for (const mechanism::Group& group : m_.groups)
-    for (const auto& place : group.near)
-      for (std::size_t c = 0; c < mechanism::dimension(m_); ++c) start.push_back(place[c].get_d());
-  const std::vector<std::string> names(names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(pose.size()));
-  const auto over = [&](double from, double to, const std::vector<double>& near) {
-    Jet::Offsets offsets;
-    const Jet t = variables_over({"t"}, {{from, to}}, offsets).values.front();
-    PoseVariables variables{names, {}};
-    for (std::size_t c = 0; c < pose.size(); ++c) {
-      const Interval first(m_.near.at(c), cell_bits), last(pose[c], cell_bits);
-      variables.values.push_back(Jet(first) + t * Jet(last - first));
-    }
-    std::vector<double> spreads(1);
-    std::optional<GroupCell> found = closed_over(m_, sides_, variables, offsets, near, spreads);
-    if (found) found->places.clear();  // they point to the offsets
-    return found;
+void GroupSheet::follow(const std::vector<double>& pose, GroupPlaces& shown) {
+  if (shown.empty()) {
+    std::vector<double> start;
+    for (const mechanism::Group& group : m_.groups)
+      for (const auto& place : group.near)
+        for (std::size_t c = 0; c < mechanism::dimension(m_); ++c) start.push_back(place[c].get_d());
+    std::vector<Interval> near;
+    for (std::size_t c = 0; c < pose.size(); ++c) near.emplace_back(m_.near.at(c), cell_bits);
+    const std::optional<GroupCell> first = between(near, near, {0, 0}, start);
+    if (!first) throw FalseClaim("groups: that they close in their postures is not shown");
+    shown.emplace_back(near, first->at_middle);
+  }
+  const auto off = [&](const auto& own) {
+    double sum = 0;
+    for (std::size_t c = 0; c < pose.size(); ++c) sum += std::pow((own.first[c].middle() - pose[c]) / widths_[c], 2);
+    return sum;
   };
-  const std::optional<GroupCell> first = over(0, 0, start);
-  if (!first) throw FalseClaim("groups: that they close in their postures is not shown");
-  std::vector<Interval> here = first->at_middle;
+  std::vector<Interval> end_pose;
+  for (const double own : pose) end_pose.emplace_back(own, cell_bits);
+  std::vector<std::size_t> starts = {0};
+  const auto nearest =
+      std::min_element(shown.begin(), shown.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+  if (nearest != shown.begin()) starts.insert(starts.begin(), static_cast<std::size_t>(nearest - shown.begin()));
+  for (const std::size_t own : starts) {
+    std::optional<std::vector<Interval>> end = followed(shown[own].first, end_pose, shown[own].second);
+    if (!end) continue;
+    at_pose_ = std::move(*end);
+    shown.emplace_back(std::move(end_pose), at_pose_);
+    return;
+  }
+  throw FalseClaim(
+      "groups: that the straight way from the pose of their postures to the task has no dead centre is not shown");
+}
+
+/// Over a part of the straight way, t from 0 to 1.
+std::optional<GroupCell> GroupSheet::between(const std::vector<Interval>& from, const std::vector<Interval>& to,
+                                             const std::array<double, 2>& part, const std::vector<double>& near) const {
+  Jet::Offsets offsets;
+  const Jet t = variables_over({"t"}, {part}, offsets).values.front();
+  PoseVariables variables{{names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(to.size())}, {}};
+  for (std::size_t c = 0; c < to.size(); ++c) {
+    variables.values.push_back(Jet(from[c]) + t * Jet(to[c] - from[c]));
+  }
+  std::vector<double> spreads(1);
+  std::optional<GroupCell> found = closed_over(m_, sides_, variables, offsets, near, spreads);
+  if (found) found->places.clear();  // they point to the offsets
+  return found;
+}
+
+std::optional<std::vector<Interval>> GroupSheet::followed(const std::vector<Interval>& from,
+                                                          const std::vector<Interval>& to,
+                                                          std::vector<Interval> here) const {
   double t = 0, step = 1;
   constexpr double least = 0x1p-30;
   while (t < 1) {
     const double next = std::min(1.0, t + step);
-    const std::vector<double> near = doubles_of(here);
-    const std::optional<GroupCell> cell = over(t, next, near);
+    const std::optional<GroupCell> cell = between(from, to, {t, next}, doubles_of(here));
     const std::optional<GroupCell> end =
-        cell && lie_in(here, cell->alone) ? over(next, next, cell->middle) : std::nullopt;
+        cell && lie_in(here, cell->alone) ? between(from, to, {next, next}, cell->middle) : std::nullopt;
     if (end && lie_in(end->at_middle, cell->alone)) {
       here = end->at_middle;
       t = next;
       step *= 2;
     } else if ((step *= 0.5) < least) {
-      throw FalseClaim(
-          "groups: that the straight way from the pose of their postures to the task has no dead centre is "
-          "not shown");
+      return std::nullopt;
     }
   }
-  at_pose_ = std::move(here);
+  return here;
 }
 
 std::vector<double> GroupSheet::nearest(const std::vector<double>& at) const {

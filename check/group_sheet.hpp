@@ -1,6 +1,6 @@
 // The assembly of a mechanism's groups that its file means, over the poses of a task: cells that cover them, in each of
 // which the groups close once (check/group_cell.hpp). It is one function of the pose and that of the file's postures:
-//  - from the pose of the postures a straight way of cells leads to a pose of the task, each with the solution of the
+//  - from the pose of the postures straight ways of cells lead to a pose of the task, each with the solution of the
 //    one before where they meet;
 //  - wherever two cells of the task meet they have one solution at a pose, and so wherever they meet, as both are
 //    continuous and J is regular.
@@ -20,6 +20,10 @@ namespace clearloci::check {
 /// The coordinates and the parameters that vary over a cell; `offsets` outlives them.
 PoseVariables variables_over(const std::vector<std::string>& names, const Cell& cell, Jet::Offsets& offsets);
 
+/// Poses at which the assembly of the file is shown, with its enclosure there: of one working mode, and of the
+/// parameters as they are.
+using GroupPlaces = std::vector<std::pair<std::vector<Interval>, std::vector<Interval>>>;
+
 class GroupSheet {
  public:
   struct Part {
@@ -27,11 +31,12 @@ class GroupSheet {
     GroupCell groups;
   };
 
-  /// `names`: of the coordinates, then of the parameters that vary. Throws FalseClaim where it is not shown,
-  /// core::LimitReached where the deadline comes first.
+  /// `names`: of the coordinates, then of the parameters that vary. The way starts at one of the poses `shown`, or at
+  /// that of the postures; its end is added to them. Throws FalseClaim where it is not shown, core::LimitReached where
+  /// the deadline comes first.
   GroupSheet(const mechanism::Mechanism& m, const std::vector<int>& sides, std::vector<std::string> names,
              const Cell& whole, const std::vector<double>& pose, const std::function<bool(const Cell&)>& is_apart,
-             const Deadline& deadline);
+             const Deadline& deadline, GroupPlaces& shown);
 
   const std::vector<Part>& parts() const { return parts_; }
 
@@ -41,7 +46,12 @@ class GroupSheet {
 
  private:
   std::vector<double> nearest(const std::vector<double>& at) const;
-  void follow(const std::vector<double>& pose);
+  void follow(const std::vector<double>& pose, GroupPlaces& shown);
+  /// Along the straight way between two poses; nothing where it is not shown to have no dead centre.
+  std::optional<std::vector<Interval>> followed(const std::vector<Interval>& from, const std::vector<Interval>& to,
+                                                std::vector<Interval> here) const;
+  std::optional<GroupCell> between(const std::vector<Interval>& from, const std::vector<Interval>& to,
+                                   const std::array<double, 2>& part, const std::vector<double>& near) const;
   void cover(const Cell& whole, const std::function<bool(const Cell&)>& is_apart, const Deadline& deadline);
   void join(const std::function<bool(const Cell&)>& is_apart) const;
   void reach(const std::vector<double>& pose) const;

@@ -104,23 +104,31 @@ class Jet {
     Jet result(value, middle);
     const Jet& longer = a.is_constant() ? b : a;
     result.offsets_ = longer.offsets_;
-    for (std::size_t c = 0; c < longer.slopes_.size(); ++c)
-      result.slopes_.push_back(
-          slope(a.is_constant() ? nullptr : &a.slopes_[c], b.is_constant() ? nullptr : &b.slopes_[c]));
+    result.slopes_.reserve(longer.slopes_.size());
+    for (std::size_t c = 0; c < longer.slopes_.size(); ++c) {
+      const Interval *const p = slope_of(a, c), *const q = slope_of(b, c);
+      result.slopes_.push_back(p == nullptr && q == nullptr ? Interval(value.bits()) : slope(p, q));
+    }
     return result.met();
+  }
+
+  /// None where it is 0.
+  static const Interval* slope_of(const Jet& a, std::size_t c) {
+    return a.is_constant() || a.slopes_[c].is_zero() ? nullptr : &a.slopes_[c];
   }
 
   Jet through(const Interval& value, const Interval& middle, const Interval& slope) const {
     Jet result(value, middle);
     result.offsets_ = offsets_;
-    for (const Interval& own : slopes_) result.slopes_.push_back(own * slope);
+    for (const Interval& own : slopes_) result.slopes_.push_back(own.is_zero() ? own : own * slope);
     return result.met();
   }
 
   Jet& met() {
     if (slopes_.empty()) return *this;
     Interval centred = middle_;
-    for (std::size_t c = 0; c < slopes_.size(); ++c) centred = centred + slopes_[c] * (*offsets_)[c];
+    for (std::size_t c = 0; c < slopes_.size(); ++c)
+      if (!slopes_[c].is_zero() && !(*offsets_)[c].is_zero()) centred = centred + slopes_[c] * (*offsets_)[c];
     if (centred.is_finite()) value_ = value_.is_finite() ? meet(value_, centred) : centred;
     return *this;
   }

@@ -63,6 +63,7 @@ class PoseRangeCheck {
 
   void check_mode(const PoseRangeClaim::Mode& mode) {
     if (mode.demands.empty()) throw FalseClaim("demands: there is none");
+    shown_.clear();
     std::vector<PoseRangeClaim::Free> free = mode.free;
     std::sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
     Rational reached = lower_;
@@ -110,7 +111,7 @@ class PoseRangeCheck {
 
   bool holds(const PoseTaskClaim& claim, Holding holding) {
     try {
-      examination_.task_cells += check_poses(m_, claim, holding, deadline_);
+      examination_.task_cells += check_poses(m_, claim, holding, deadline_, shown_);
       return true;
     } catch (const FalseClaim&) {
       return false;
@@ -119,14 +120,14 @@ class PoseRangeCheck {
 
   void check_free(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Free& own) {
     try {
-      examination_.task_cells += check_poses(m_, task(mode, own.from, own.to), Holding::clear, deadline_);
+      examination_.task_cells += check_poses(m_, task(mode, own.from, own.to), Holding::clear, deadline_, shown_);
     } catch (const FalseClaim& claim) {
       throw FalseClaim(fmt::format("{} ({}): {}", own.name.substr(0, 40), place(own.from, own.to), claim.what()));
     }
     ++examination_.zones;
     if (own.assembly_mode == 0 && own.signs.empty()) return;
     const Rational middle = (own.from + own.to) / 2;
-    const PoseSigns signs = signs_at(m_, task(mode, middle, middle), deadline_);
+    const PoseSigns signs = signs_at(m_, task(mode, middle, middle), deadline_, shown_);
     if (own.assembly_mode * signs.determinant != 0) {
       const int sense = own.assembly_mode * signs.determinant;
       if (sense_ != 0 && sense_ != sense) throw FalseClaim("signs: of |A|, at " + place(own.from, own.to));
@@ -210,10 +211,10 @@ class PoseRangeCheck {
     std::string refuted;
     try {
       const bool singular = point.kind == direct_singularity;
-      examination_.task_cells +=
-          check_poses(m_, without_demands(mode, from, to), singular ? Holding::closure : Holding::regular, deadline_);
-      const PoseSigns before = signs_at(m_, task(mode, from, from), deadline_),
-                      behind = signs_at(m_, task(mode, to, to), deadline_);
+      examination_.task_cells += check_poses(m_, without_demands(mode, from, to),
+                                             singular ? Holding::closure : Holding::regular, deadline_, shown_);
+      const PoseSigns before = signs_at(m_, task(mode, from, from), deadline_, shown_),
+                      behind = signs_at(m_, task(mode, to, to), deadline_, shown_);
       if (singular && before.determinant * behind.determinant >= 0) {
         if (!holds(without_demands(mode, from, to), Holding::regular)) return leave(what);
         refuted = "|A|";
@@ -240,6 +241,7 @@ class PoseRangeCheck {
   const PoseRangeClaim& claim_;
   const Deadline& deadline_;
   Examination& examination_;
+  GroupPlaces shown_;  ///< of the mode
   Rational lower_, upper_;
   int sense_ = 0;  ///< of the certificate's |A| and that of here
 };

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "check/certificate.hpp"
+#include "check/constants.hpp"
 #include "check/elimination.hpp"
-#include "check/group_sheet.hpp"
 #include "check/law_cells.hpp"
 #include "check/pose_cell.hpp"
 #include "check/pose_signs.hpp"
@@ -48,15 +48,21 @@ class PoseTaskCheck {
   using Efforts = PoseTaskClaim::Law::Efforts;
 
   /// `part`: of a law, poses at which the efforts are any convex combination of some.
-  PoseTaskCheck(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline, const Cell* part = nullptr,
-                const std::vector<Efforts>& efforts = {})
-      : m_(m), claim_(claim), deadline_(deadline), coordinates_(claim.coordinates.size()), names_(claim.coordinates) {
+  PoseTaskCheck(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline, GroupPlaces& shown,
+                const Cell* part = nullptr, const std::vector<Efforts>& efforts = {})
+      : m_(m),
+        claim_(claim),
+        deadline_(deadline),
+        shown_(shown),
+        coordinates_(claim.coordinates.size()),
+        names_(claim.coordinates) {
     check_names();
     region_.emplace(region());
     whole_ = region_->whole();
     for (const PoseTaskClaim::Range& own : claim.parameters) add_variable(own.parameter, own.lower, own.upper);
     if (!claim.loads_from.empty()) turn_load();
     for (const PoseTaskClaim::LoadWithin& own : claim.loads_within) widen_load(own);
+    fold_constants(m_, Varying(m_, names_));
     if (part == nullptr) return;
     std::copy(part->begin(), part->end(), whole_.begin());
     give_efforts(efforts);
@@ -97,6 +103,26 @@ class PoseTaskCheck {
   }
 
   PoseSigns signs() {
+    PosePosture posture;
+    PoseSigns all;
+    const PoseCellProof proof = proof_at_pose(posture, all.determinant);
+    all.demands.assign(claim_.demands.size(), 0);
+    for (std::size_t d = 0; d < proof.components.size(); ++d)
+      all.demands[d] = sign_of(m_, claim_.demands[d], proof.components[d], posture);
+    return all;
+  }
+
+  std::vector<std::vector<std::array<double, 2>>> reactions() {
+    PosePosture posture;
+    int determinant = 0;
+    PoseCellProof proof = proof_at_pose(posture, determinant);
+    if (!proof.regular) throw FalseClaim("singular: that a pose is not is not shown");
+    return std::move(proof.components);
+  }
+
+ private:
+  /// At a pose that is all of the task.
+  PoseCellProof proof_at_pose(PosePosture& posture, int& determinant) {
     close_groups();
     std::vector<double> spreads(names_.size());
     Jet::Offsets offsets;
@@ -104,17 +130,18 @@ class PoseTaskCheck {
     std::optional<GroupCell> groups;
     if (groups_ && !(groups = groups_->over(groups_->parts().front(), variables, offsets, spreads)))
       throw FalseClaim("groups: that they close at a pose is not shown");
-    const PosePosture posture = posture_over(m_, claim_.sides, variables, places_of(groups));
+    posture = posture_over(m_, claim_.sides, variables, places_of(groups));
     if (posture.stopped_by)
       throw FalseClaim("within reach: it is not shown of the pose " + described(whole_, claim_.coordinates));
     const PoseEquations equations = equations_over(m_, posture, variables, claim_.demands);
-    const PoseCellProof proof = prove_cell(equations, claim_.demands, offsets);
-    PoseSigns all{determinant_sign(equations), std::vector<int>(claim_.demands.size(), 0)};
-    for (std::size_t d = 0; d < proof.components.size(); ++d)
-      all.demands[d] = sign_of(m_, claim_.demands[d], proof.components[d], posture);
-    return all;
+    determinant = determinant_sign(equations);
+    // What the posture is made of points to the offsets.
+    for (auto& place : posture.points)
+      for (Jet& own : place) own = Jet(own.value());
+    return prove_cell(equations, claim_.demands, offsets);
   }
 
+ public:
   double maybe_reached() const {
     double open = 0;
     constexpr std::size_t most = 4000;
@@ -166,7 +193,7 @@ class PoseTaskCheck {
     groups_.emplace(
         m_, claim_.sides, std::vector<std::string>(names_.begin(), names_.begin() + count),
         Cell(whole_.begin(), whole_.begin() + count), pose_inside(),
-        [&](const Cell& cell) { return region_->is_apart(cell); }, deadline_);
+        [&](const Cell& cell) { return region_->is_apart(cell); }, deadline_, shown_);
   }
 
   void check_names() const {
@@ -373,6 +400,7 @@ class PoseTaskCheck {
   Mechanism m_;  ///< with what its loads vary by
   const PoseTaskClaim& claim_;
   const Deadline& deadline_;
+  GroupPlaces& shown_;
   std::size_t coordinates_;
   std::vector<std::string> names_;  ///< of the coordinates, and of all that varies besides
   std::optional<TaskRegion> region_;
@@ -395,19 +423,19 @@ std::vector<Cell> up_to_rim(std::vector<Cell> cells, const Cell& whole) {
 }
 
 /// Each cell with its efforts, and each place that several cells hold with all convex combinations of theirs.
-std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
+std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline, GroupPlaces& shown,
                       const PoseTaskCheck& task) {
   const PoseTaskClaim::Law& law = *claim.law;
   const std::vector<Cell> cells = up_to_rim(law.cells, task.poses());
   require_cover(task.poses(), cells, claim.coordinates, [&](const Cell& cell) { return task.task().is_apart(cell); });
   std::size_t count = 0;
   for (std::size_t i = 0; i < cells.size(); ++i)
-    count += PoseTaskCheck(m, claim, deadline, &cells[i], {law.efforts[i]}).run();
+    count += PoseTaskCheck(m, claim, deadline, shown, &cells[i], {law.efforts[i]}).run();
   for (const CommonPlace& own : common_places(cells)) {
     std::vector<PoseTaskClaim::Law::Efforts> efforts;
     for (const std::size_t i : own.cells)
       if (std::find(efforts.begin(), efforts.end(), law.efforts[i]) == efforts.end()) efforts.push_back(law.efforts[i]);
-    if (efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, &own.place, efforts).run();
+    if (efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, shown, &own.place, efforts).run();
   }
   return count;
 }
@@ -421,26 +449,42 @@ void check_pose_task(const Mechanism& m, const PoseTaskClaim& claim, const Deadl
     return joint.meshing || (joint.actuated && joint.within);
   });
   if (claim.demands.empty() && !bounded) throw FalseClaim("demands: there is none");
-  PoseTaskCheck check(m, claim, deadline);
+  if (claim.refutation) return check_refutation(m, claim, deadline, examination);
+  GroupPlaces shown;
+  PoseTaskCheck check(m, claim, deadline, shown);
   check.check_links();
-  examination.task_cells = claim.law ? check_law(m, claim, deadline, check) : check.run();
+  examination.task_cells = claim.law ? check_law(m, claim, deadline, shown, check) : check.run();
   examination.unchecked = claim.unchecked;
   for (std::string& own : examination.unchecked) own = "task: " + own.substr(0, 200);
   examination.accepted = true;
 }
 
-std::size_t check_poses(const Mechanism& m, const PoseTaskClaim& claim, Holding holding, const Deadline& deadline) {
-  PoseTaskCheck check(m, claim, deadline);
+std::size_t check_poses(const Mechanism& m, const PoseTaskClaim& claim, Holding holding, const Deadline& deadline,
+                        GroupPlaces& shown) {
+  PoseTaskCheck check(m, claim, deadline, shown);
   if (holding == Holding::clear) check.check_links();
   return check.run(holding);
 }
 
-PoseSigns signs_at(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline) {
-  return PoseTaskCheck(m, claim, deadline).signs();
+PoseSigns signs_at(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline, GroupPlaces& shown) {
+  return PoseTaskCheck(m, claim, deadline, shown).signs();
+}
+
+std::vector<std::vector<std::array<double, 2>>> reactions_at(const Mechanism& m, const PoseTaskClaim& claim,
+                                                             const Deadline& deadline, GroupPlaces& shown) {
+  return PoseTaskCheck(m, claim, deadline, shown).reactions();
+}
+
+bool may_be_pose_of(const Mechanism& m, const PoseTaskClaim& claim, const std::vector<Rational>& pose) {
+  GroupPlaces none;
+  Cell cell;
+  for (const Rational& own : pose) cell.push_back(around(own));
+  return !PoseTaskCheck(m, claim, {}, none).task().is_apart(cell);
 }
 
 double maybe_reached(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline) {
-  return PoseTaskCheck(m, claim, deadline).maybe_reached();
+  GroupPlaces none;
+  return PoseTaskCheck(m, claim, deadline, none).maybe_reached();
 }
 
 }  // namespace clearloci::check

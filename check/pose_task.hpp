@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "check/group_sheet.hpp"
+#include "check/refutation.hpp"
 #include "check/task_region.hpp"
 #include "core/rational.hpp"
 #include "core/task_conditions.hpp"
@@ -58,6 +60,7 @@ struct PoseTaskClaim {
     std::vector<Efforts> efforts;  ///< one a cell
   };
   std::optional<Law> law;
+  std::optional<Refutation> refutation;  ///< then the claim is that no free efforts keep the task clear
 };
 
 /// Throws core::InputError where the object is none.
@@ -72,9 +75,10 @@ void check_pose_task(const mechanism::Mechanism& m, const PoseTaskClaim& claim, 
 /// and keeps to all bounds.
 enum class Holding { closure, regular, clear };
 
-/// That it does, over cells; returns how many. Throws as check_pose_task.
+/// That it does, over cells; returns how many. `shown`: poses of the sides of the claim, to which it adds. Throws as
+/// check_pose_task.
 std::size_t check_poses(const mechanism::Mechanism& m, const PoseTaskClaim& claim, Holding holding,
-                        const Deadline& deadline);
+                        const Deadline& deadline, GroupPlaces& shown);
 
 /// At a pose that is all of a claim's task. Throws as check_pose_task where the mechanism does not close.
 struct PoseSigns {
@@ -82,7 +86,19 @@ struct PoseSigns {
   /// Of the reactions of one component, and of forces along the link that bears them; 0: not known, or of several.
   std::vector<int> demands;
 };
-PoseSigns signs_at(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline);
+PoseSigns signs_at(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
+                   GroupPlaces& shown);
+
+/// What the components of demands are within at such a pose, N or N m. Throws likewise, and where A is not regular.
+std::vector<std::vector<std::array<double, 2>>> reactions_at(const mechanism::Mechanism& m, const PoseTaskClaim& claim,
+                                                             const Deadline& deadline, GroupPlaces& shown);
+
+/// Whether a pose is one of the task or of its margin, or within rounding of them.
+bool may_be_pose_of(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const std::vector<core::Rational>& pose);
+
+/// Throws as check_pose_task.
+void check_refutation(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
+                      Examination& examination);
 
 /// The sizes together of cells of a task over one coordinate in which it is not shown that no pose is within reach: of
 /// a mechanism with groups all of it.

@@ -6,10 +6,10 @@
 #include <array>
 #include <cstdlib>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "check/constants.hpp"
 #include "check/jet.hpp"
 #include "check/pose_equations.hpp"
 #include "core/errors.hpp"
@@ -60,14 +60,12 @@ class Values {
   using Vector = VectorOf<Number>;
 
   Values(const Mechanism& m, const VariablesOf<Number>& variables)
-      : m_(m), variables_(variables), bits_(bits_of(variables.values.at(0))) {
-    for (const mechanism::Parameter& own : m.parameters)
-      if (varies(own.expression) && !is_variable(own.name)) dependent_.insert(own.name);
-  }
+      : m_(m), variables_(variables), bits_(bits_of(variables.values.at(0))), varies_(m, variables.names) {}
 
   using Value = Number;
   std::optional<Number> known(const Expression& e) const {
-    return varies(e) ? std::nullopt : std::optional(number(mechanism::value_of(e, m_)));
+    if (e.kind() == Expression::Kind::number) return number(e.value());
+    return varies_(e) ? std::nullopt : std::optional(number(mechanism::value_of(e, m_)));
   }
   static Number number(double value) { return Number(Interval(value, cell_bits)); }
   Number number(const core::Rational& own) const { return Number(Interval(own, bits_)); }
@@ -135,20 +133,10 @@ class Values {
   }
 
  private:
-  bool is_variable(const std::string& name) const {
-    return std::find(variables_.names.begin(), variables_.names.end(), name) != variables_.names.end();
-  }
-  /// Parameters stand behind those that they are made of.
-  bool varies(const Expression& e) const {
-    const std::set<std::string> names = core::symbols(e);
-    return std::any_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return is_variable(name) || dependent_.contains(name); });
-  }
-
   const Mechanism& m_;
   const VariablesOf<Number>& variables_;
   mpfr_prec_t bits_;
-  std::set<std::string> dependent_;
+  Varying varies_;
 };
 
 template <class Number>

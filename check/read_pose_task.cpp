@@ -28,12 +28,40 @@ class PoseTaskReader : ClaimReader {
       for (const Json& own : list(task["loads_within"], most_variables))
         claim.loads_within.push_back({index(item(own, 0)), rational(item(own, 1)), rational(item(own, 2))});
     if (task.contains("law")) claim.law = law(task["law"], claim.coordinates.size());
+    if (task.contains("refutation")) claim.refutation = refutation(task["refutation"]);
     if (!claim.shape.is_shape(claim.coordinates.size()) || (claim.angle_length && *claim.angle_length <= 0))
       fail("the task has no shape");
     return claim;
   }
 
  private:
+  int sign(const Json& json) const {
+    if (json != 1 && json != -1) fail("a sign is 1 or -1");
+    return json.get<int>();
+  }
+  bool flag(const Json& json) const {
+    if (!json.is_boolean()) fail("true or false is missing");
+    return json.get<bool>();
+  }
+
+  Refutation refutation(const Json& json) const {
+    Refutation own;
+    for (const Json& joint : list(at(json, "joints"), most_variables)) own.joints.push_back(text(joint));
+    for (const Json& range : list(at(json, "ranges"), most_variables))
+      own.ranges.push_back({rational(item(range, 0)), rational(item(range, 1))});
+    own.controlled = flag(at(json, "controlled"));
+    own.knows_load = flag(at(json, "knows_load"));
+    for (const Json& each : list(at(json, "patterns"), most_points)) {
+      Refutation::Pattern& pattern = own.patterns.emplace_back();
+      for (const Json& pair : list(at(each, "signs"), most_demands))
+        pattern.signs[text(item(pair, 0))] = sign(item(pair, 1));
+      for (const Json& row : list(at(each, "rows"), most_variables))
+        pattern.rows.push_back({text(at(row, "reaction")), sign(at(row, "sign")), flag(at(row, "bound")),
+                                rationals(at(row, "at")), rationals(at(row, "load")), rational(at(row, "multiplier"))});
+    }
+    return own;
+  }
+
   ClaimedShape shape(const Json& task) const {
     ClaimedShape own;
     own.name = text(at(task, "shape"));

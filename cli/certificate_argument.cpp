@@ -66,6 +66,12 @@ void stage_certificate(report::StagedFiles& staged, const std::string& file, con
 }
 
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::TaskCertificate& certificate,
+                       const core::PreloadAnswer& refuted) {
+  staged.add(file, report::certificate_text(source_of(command, arguments), certificate, refuted));
+}
+
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::RangeCertificate& certificate) {
   staged.add(file, report::certificate_text(source_of(command, arguments), certificate));
 }

@@ -32,6 +32,9 @@ void stage_certificate(report::StagedFiles& staged, const std::string& file, con
                        const CommonArguments& arguments, const core::TaskCertificate& certificate,
                        const std::vector<core::PreloadLawCell>& law = {});
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
+                       const CommonArguments& arguments, const core::TaskCertificate& certificate,
+                       const core::PreloadAnswer& refuted);
+void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::RangeCertificate& certificate);
 
 }  // namespace clearloci::cli

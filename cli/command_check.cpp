@@ -38,12 +38,15 @@ int run(const CheckCommand& arguments, TimeLimit& limit) {
                                         {"points", examination.points},
                                         {"zones", examination.zones},
                                         {"task_cells", examination.task_cells},
+                                        {"refuted_patterns", examination.refuted_patterns},
                                         {"open_share", examination.open_share},
                                         {"unchecked", examination.unchecked}}));
   } else if (!examination.accepted) {
     fmt::print("rejected: {}\n", why);
   } else if (examination.cells == 0 && examination.task_cells > 0) {
-    if (examination.zones == 0)
+    if (examination.refuted_patterns > 0)
+      fmt::print("accepted: no efforts keep the task clear, by {} patterns of signs\n", examination.refuted_patterns);
+    else if (examination.zones == 0)
       fmt::print("accepted: the task, over {} cells\n", examination.task_cells);
     else
       fmt::print("accepted: {} intervals without loci, {} points, over {} cells\n", examination.zones,

@@ -107,9 +107,25 @@ std::vector<Model::Value> efforts_of(const Model& model, const Verification& res
   return efforts;
 }
 
+/// Every pattern of signs is refuted by rows that exclude each other, of the mechanism as it is.
+bool is_refuted_by_rows(const Verification& result) {
+  const core::Task& task = result.task;
+  if (result.verdict != core::Verdict::refuted || !result.preload || result.preload->patterns.empty() ||
+      !task.tolerances.empty() || task.loads || task.pose_error || !task.preload.empty() ||
+      std::holds_alternative<core::TaskMesh>(task.shape))
+    return false;
+  const auto& patterns = result.preload->patterns;
+  return std::all_of(patterns.begin(), patterns.end(), [](const core::PreloadPattern& own) {
+    return own.verdict == core::Verdict::refuted && !own.refutation.empty();
+  });
+}
+
 /// With the efforts that were found as if they had been given: they are part of what is claimed.
 void certify_efforts(VerifyCommand arguments, const Model& model, Verification result, const LociRequest& request,
                      report::StagedFiles& staged) {
+  if (is_refuted_by_rows(result))
+    return stage_certificate(staged, arguments.certificate, "verify", arguments.common,
+                             certificate_of(model.content().mechanism, result.task, request), *result.preload);
   if (result.preload && result.preload->of_poses) {
     if (!result.verified()) return;
     const mechanism::Mechanism& mechanism = model.content().mechanism;
@@ -159,7 +175,8 @@ int run(const VerifyCommand& arguments, TimeLimit& limit) {
     fmt::print("{}", report::json_text(report::verification_object(result)));
   else if (!arguments.common.quiet)
     fmt::print("{}\n{}", report::verification_text(result), written_words(folder, files));
-  if (certified && !result.verified() && !arguments.common.json && !arguments.common.quiet)
+  if (certified && !result.verified() && !is_refuted_by_rows(result) && !arguments.common.json &&
+      !arguments.common.quiet)
     fmt::print("No certificate of the task: it is not verified.\n");
   return status_of(result.verdict);
 }
@@ -186,7 +203,7 @@ Command add_verify_command(CLI::App& program) {
   add_export_argument(*app, arguments->formats,
                       fmt::format("Pictures besides verify.json, comma-separated: {}",
                                   fmt::join(report::format_names<core::Verification>(), ", ")));
-  add_certificate_argument(*app, arguments->certificate, "only if the task is verified");
+  add_certificate_argument(*app, arguments->certificate, "only if the task is verified, or no free efforts are proven to cure it");
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
       "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a pose at which the\n"

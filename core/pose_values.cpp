@@ -136,6 +136,7 @@ bool PoseValues::close(std::size_t block, std::span<const double> pose, std::spa
     }
     if (count == 0) first = most;
     if (count == 1 && before > settled * size) contraction_ = std::max(contraction_, most / before);
+    if (contraction_ >= most_contraction_) return false;
     if (most <= rounding * size || (count > 2 && most < settled * size && most >= 0.5 * before)) {
       moved_ = std::max(moved_, first);
       orientation_ *= sign;
@@ -159,6 +160,13 @@ bool PoseValues::close(std::span<const double> pose, BlockUnknowns& unknowns) {
     first += own.unknowns.size();
   }
   return run_steps(done, registers_.size(), pose);
+}
+
+bool PoseValues::close_quickly(std::span<const double> pose, BlockUnknowns& unknowns, double part) {
+  most_contraction_ = part;
+  const bool closes = close(pose, unknowns);
+  most_contraction_ = std::numeric_limits<double>::infinity();
+  return closes;
 }
 
 bool PoseValues::put(std::span<const double> pose, const BlockUnknowns& unknowns) {
@@ -192,7 +200,7 @@ std::optional<BlockUnknowns> PoseValues::followed(std::span<const double> from, 
     for (std::size_t c = 0; c < to.size(); ++c) pose[c] = ahead == 1 ? to[c] : from[c] + ahead * (to[c] - from[c]);
     next = unknowns;
     for (std::size_t k = 0; k < next.size(); ++k) next[k] += step * rates[k];
-    if (close(pose, next) && orientation_ == sign && contraction_ < quick && moved_ < far * size) {
+    if (close_quickly(pose, next, quick) && orientation_ == sign && moved_ < far * size) {
       for (std::size_t k = 0; k < next.size(); ++k) rates[k] = (next[k] - unknowns[k]) / step;
       unknowns = next;
       at = ahead;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,6 +45,8 @@ class PoseValues {
  private:
   bool run_steps(std::size_t from, std::size_t to, std::span<const double> pose);
   bool close(std::size_t block, std::span<const double> pose, std::span<double> unknowns);
+  /// The same, given up as soon as a move is more than this part of the one before.
+  bool close_quickly(std::span<const double> pose, BlockUnknowns& unknowns, double part);
   std::optional<BlockUnknowns> followed(std::span<const double> from, BlockUnknowns unknowns,
                                         std::span<const double> to);
   std::optional<BlockUnknowns> followed_round(BlockUnknowns near, std::span<const double> pose);
@@ -52,6 +55,7 @@ class PoseValues {
   std::vector<double> registers_;
   int orientation_ = 1;
   double moved_ = 0, contraction_ = 0;
+  double most_contraction_ = std::numeric_limits<double>::infinity();
 };
 
 /// What the unknowns' accuracy is measured by: the largest of them and of the blocks' lengths.

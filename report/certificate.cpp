@@ -293,8 +293,9 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
   return text_of(root);
 }
 
-std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
-                             const std::vector<core::PreloadLawCell>& law) {
+namespace {
+
+Json root_of(const CertificateSource& source, const core::TaskCertificate& certificate) {
   const core::Task& task = certificate.task;
   Json root = begun(source);
   root["coordinates"] = certificate.coordinates;
@@ -334,7 +335,48 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
     root["pose_task"]["loads_from"] = Json::array({pose_list(task.loads->first), pose_list(task.loads->second)});
   for (const core::LoadWithin& own : task.loads_within)
     root["pose_task"]["loads_within"].push_back({own.load, core::to_string(own.force), core::to_string(own.couple)});
+  return root;
+}
+
+/// Rows of the efforts' own bounds are those of the ranges.
+Json rows_of(const core::PreloadPattern& pattern) {
+  Json rows = Json::array();
+  for (const core::PreloadRow& own : pattern.refutation) {
+    if (own.bound && own.at.empty()) continue;
+    rows.push_back({{"reaction", own.reaction},
+                    {"sign", own.sign},
+                    {"bound", own.bound},
+                    {"at", exact_list(own.at)},
+                    {"load", exact_list(own.load)},
+                    {"multiplier", core::to_string(core::Rational(own.multiplier))}});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
+                             const std::vector<core::PreloadLawCell>& law) {
+  Json root = root_of(source, certificate);
   if (!law.empty()) root["pose_task"]["law"] = law_of(law);
+  return text_of(root);
+}
+
+std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
+                             const core::PreloadAnswer& refuted) {
+  Json root = root_of(source, certificate), patterns = Json::array(), ranges = Json::array();
+  for (std::size_t k = 0; k < refuted.joints.size(); ++k)
+    ranges.push_back(exact_list({refuted.lower[k], refuted.upper[k]}));
+  for (const core::PreloadPattern& own : refuted.patterns) {
+    Json signs = Json::array();
+    for (const auto& [name, sign] : own.signs) signs.push_back({name, sign});
+    patterns.push_back({{"signs", std::move(signs)}, {"rows", rows_of(own)}});
+  }
+  root["pose_task"]["refutation"] = {{"joints", refuted.joints},
+                                     {"ranges", std::move(ranges)},
+                                     {"controlled", certificate.task.controlled_preload},
+                                     {"knows_load", certificate.task.knows_load},
+                                     {"patterns", std::move(patterns)}};
   return text_of(root);
 }
 

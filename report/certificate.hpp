@@ -26,6 +26,10 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
 std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
                              const std::vector<core::PreloadLawCell>& law = {});
 
+/// Of a task that no efforts of free actuators keep clear of every locus: rows of each pattern, with multipliers.
+std::string certificate_text(const CertificateSource& source, const core::TaskCertificate& certificate,
+                             const core::PreloadAnswer& refuted);
+
 /// Of loci or zones over one coordinate.
 std::string certificate_text(const CertificateSource& source, const core::RangeCertificate& certificate);
 

@@ -79,7 +79,9 @@ class Growth {
     for (std::size_t p = 0; p < box_.size(); ++p)
       if (!(lower[p] >= box_[p][0] && upper[p] <= box_[p][1])) return Cover::some;  // nothing is known beyond the box
     look(0, lower, upper, any, all);
-    return all ? Cover::all : any || out_of_effort_ ? Cover::some : Cover::none;
+    const bool ends = std::any_of(ends_.begin(), ends_.end(),
+                                  [&](const SheetEnd& own) { return upper[0] > own.lower && lower[0] < own.upper; });
+    return all ? Cover::all : any || ends || out_of_effort_ ? Cover::some : Cover::none;
   }
 
   bool complete() const {
@@ -88,14 +90,18 @@ class Growth {
   }
   bool out_of_effort() const { return out_of_effort_; }
   bool differs() const { return differs_; }
-  /// Over one coordinate: cells at the end of what is covered.
+  /// Over one coordinate: cells at the end of what is covered, up to the dead centre where one is found.
   std::vector<SheetEnd> ends() {
     std::vector<SheetEnd> all;
     for (const Node& own : nodes_)
       if (own.axis < 0 && own.state != State::open && own.state != State::proven &&
           own.box[0][1] - own.box[0][0] <= 2 * std::ldexp(box_[0][1] - box_[0][0], -deepest(1)))
         all.push_back({own.box[0][0], own.box[0][1], own.block, false});
-    for (SheetEnd& own : all) own.proven = own.block == 0 && (turns_back(own, -1) || turns_back(own, 1));
+    // What lies between the cells and a dead centre is no more than what is in doubt.
+    const double most = 5e-7 * (box_[0][1] - box_[0][0]);
+    for (SheetEnd& own : all)
+      own.proven = own.block == 0 && (turns_back(own, -1) || turns_back(own, 1)) && own.upper - own.lower <= most;
+    ends_ = all;
     return all;
   }
 
@@ -252,7 +258,8 @@ class Growth {
     const std::span<const double> start(last.data(), n);
     if (!forms_.turn(q, start, k, half)) return false;
     const std::vector<typename PoseForms<Form>::Unique> curve = forms_.turned();
-    farthest_ = {forms_.turned_coordinate().lower(), forms_.turned_coordinate().upper()};
+    const Form coordinate = forms_.turned_coordinate();
+    farthest_ = {coordinate.lower(), coordinate.upper()};
     const double way = first[k] < last[k] ? -1 : 1;
     // Where the first solution is on the curve, and what lies as far on the other side.
     BlockUnknowns other(n);
@@ -275,7 +282,52 @@ class Growth {
     }
     const int beyond = forms_.orientation();
     if (forms_.run({{q_first}, {}}, {}, first) != PoseForms<Form>::Outcome::complete) return false;
-    return beyond * forms_.orientation() < 0;
+    const int sign = forms_.orientation();
+    if (beyond * sign >= 0) return false;
+    narrow(curve, coordinate, {last.data(), n}, k, half, way, sign);
+    return true;
+  }
+
+  /// The part of a curve between parameters `way`, where det J has this sign, and `-way`, on which it changes its sign:
+  /// `farthest_` becomes what q is on it.
+  void narrow(const std::vector<typename PoseForms<Form>::Unique>& curve, const Form& q, std::span<const double> start,
+              std::size_t k, double half, double way, int sign) {
+    const auto at = [&](std::size_t j, double e) {
+      const Form& own = curve[j].middle;
+      return own.c + own.a[0] * e + (Form::products > 0 ? own.b[0] * e * e : 0);
+    };
+    double near = way, far = -way;
+    constexpr int most = 40;
+    for (int round = 0; round < most; ++round) {
+      const double e = 0.5 * (near + far);
+      BlockUnknowns u(start.begin(), start.end());
+      for (std::size_t j = 0; j < u.size(); ++j) u[j] = j == k ? start[k] + e * half : at(j, e);
+      if (!forms_.turn(at(k, e), u, k, 0)) break;
+      bool is_same = true;
+      for (std::size_t j = 0; j < u.size(); ++j)
+        is_same = is_same && std::abs(forms_.turned()[j].middle.c - at(j, e)) + 0.1 * curve[j].radius < curve[j].radius;
+      const int own = is_same ? forms_.orientation() : 0;
+      if (own == 0) break;
+      (own == sign ? near : far) = e;
+    }
+    const auto along = [&](double e) { return q.c + q.a[0] * e + (Form::products > 0 ? q.b[0] * e * e : 0); };
+    std::array<double, 2> range = {std::min(along(near), along(far)), std::max(along(near), along(far))};
+    if constexpr (Form::products > 0) {
+      const double turning = q.b[0] == 0 ? far : -0.5 * q.a[0] / q.b[0];
+      if (std::min(near, far) < turning && turning < std::max(near, far))
+        range = {std::min(range[0], along(turning)), std::max(range[1], along(turning))};
+    }
+    const double off = q.r + Form::slack(std::abs(q.c) + std::abs(q.a[0]));
+    farthest_ = {std::max(farthest_[0], range[0] - off), std::min(farthest_[1], range[1] + off)};
+    // Over so short a part alone less is left to rounding.
+    const double middle = 0.5 * (near + far);
+    BlockUnknowns u(start.begin(), start.end());
+    for (std::size_t j = 0; j < u.size(); ++j) u[j] = j == k ? start[k] + middle * half : at(j, middle);
+    if (!forms_.turn(at(k, middle), u, k, 0.51 * std::abs(near - far) * half)) return;
+    for (std::size_t j = 0; j < u.size(); ++j)
+      if (!(std::abs(forms_.turned()[j].middle.c - at(j, middle)) + 0.1 * curve[j].radius < curve[j].radius)) return;
+    farthest_ = {std::max(farthest_[0], forms_.turned_coordinate().lower()),
+                 std::min(farthest_[1], forms_.turned_coordinate().upper())};
   }
 
   bool cut(int index) {
@@ -379,7 +431,8 @@ class Growth {
   std::deque<int> queue_;
   long cells_ = 0;
   bool out_of_effort_ = false, differs_ = false;
-  std::array<double, 2> farthest_{};  ///< that the curve looked at last leads along q
+  std::array<double, 2> farthest_{};  ///< what q is where the curve looked at last has a dead centre
+  std::vector<SheetEnd> ends_;
 };
 
 /// The solution at the other end of the straight way between two poses, on which J is regular.

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "loci/curves/curves.hpp"
 #include "loci/search/search.hpp"
@@ -317,10 +318,11 @@ class Builder {
     effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
     if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
     for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));
-    if (first != second)
+    if (first != second && !share_a_curve(*first, *second))
       return add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
                                              {second->sheet, second->line}, lower, upper, effort));
-    // Curves of one factor are told apart in the plane; the tower knows where it is undefined.
+    // Curves of one factor, and of two that vanish on one curve besides, are told apart in the plane; the tower knows
+    // where it is undefined.
     const auto widened = [&](const core::Polynomial& p) { return core::with_variables(p, problem_.tower.variables()); };
     sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, widened(curve(a).implicit),
                                                  widened(curve(b).implicit), lower, upper, effort);
@@ -328,6 +330,18 @@ class Builder {
       return !passed_by(a, {zero.x, zero.y}) || !passed_by(b, {zero.x, zero.y});
     });
     return add_zeros(found);
+  }
+
+  /// Then their common zeros are not isolated, wherever other curves of theirs meet.
+  bool share_a_curve(const core::LocusFactor& first, const core::LocusFactor& second) {
+    const auto [known, is_new] = sharing_.try_emplace({&first, &second}, false);
+    if (!is_new) return known->second;
+    if (factors_of_curves_.empty())
+      for (const core::LocusCurve& own : map_.curves) factors_of_curves_.push_back(factor_of(problem_, own));
+    for (std::size_t i = 0; i < map_.curves.size(); ++i)
+      for (std::size_t k = 0; k < map_.curves.size() && factors_of_curves_[i] == &first; ++k)
+        if (factors_of_curves_[k] == &second && is_one_curve(map_.curves[i], map_.curves[k])) known->second = true;
+    return known->second;
   }
 
   /// Whether a curve has arcs there.
@@ -700,6 +714,8 @@ class Builder {
   std::map<const Strand*, BoxedPolyline> boxed_;
   std::map<int, BoxedPolyline> boxed_edges_;
   CurveProjections& projections_;
+  std::vector<const core::LocusFactor*> factors_of_curves_;
+  std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, bool> sharing_;
   std::unique_ptr<MarginNodes> margin_nodes_;     // made where two curves may meet
   std::unique_ptr<sheet::SheetProgram> factors_;  // made where a curve touches a side
   ZoneGraph result_;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -18,6 +19,7 @@
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
 #include "clearloci/verify.hpp"
+#include "clearloci/zones.hpp"
 #include "tests/texts.hpp"
 
 namespace clearloci {
@@ -323,6 +325,23 @@ TEST(Cables, AreRefusedInOneLineWhereTheyAreWrong) {
   EXPECT_THAT(complaint("K1: {cable: [ground, load], at: [A1, P]}"), testing::HasSubstr("tension"));
   EXPECT_THAT(complaint_of(with_part(point, "gravity:", "loads: [{link: load, couple: 1}]\ngravity:")),
               testing::HasSubstr("turns link load"));
+}
+
+/// Mirrored in x = 0, where K1 and K2 are at either of their bounds at once: two loci on one line.
+TEST(Cables, ZonesOfASymmetricRobotAreCertified) {
+  std::string text = example_text("cables/three_cables");
+  text = replaced(replaced(text, "A2: [1, 1.2]", "A2: [1, 1]"), "A3: [0.2, -1]", "A3: [0, -1]");
+  const Zones map = find_zones(Model::parse(text, "m.yaml"));
+  EXPECT_TRUE(map.loci.complete);
+  double area = 0;
+  for (const Zone& zone : map.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    area += zone.size;
+  }
+  EXPECT_NEAR(area, 1.8 * 1.7, 1e-5);
+  ASSERT_EQ(map.zones.size(), 4U);
+  EXPECT_NEAR(map.zones[1].size, map.zones[2].size, 1e-6);
+  EXPECT_LT(map.zones[1].sample[0] * map.zones[2].sample[0], 0);
 }
 
 }  // namespace

@@ -164,5 +164,18 @@ TEST(GroupOverOneCoordinate, EndsAtTheFlankOfAGear) {
   EXPECT_NEAR(map.reachable.front().to, teeth->at[0], 1e-7);
 }
 
+/// The dead centre is where an independent continuation of the closure turns back.
+TEST(GroupEnds, AShakyDeadCentreIsNotCertifiedElsewhere) {
+  constexpr double turns_back = -2.6008763961956, end = -2.1203762905;
+  const Model model = group_of_corpus("group_shaky_dead_centre");
+  const Zones map = find_zones(model);
+  EXPECT_GE(map.modes.front().workspace, end - turns_back);
+  EXPECT_LE(map.modes.front().workspace - map.modes.front().in_doubt, end - turns_back);
+  for (const Zone& zone : map.zones)
+    for (const ZoneEnd& own : zone.ends) EXPECT_TRUE(!own.certified || std::abs(own.at - turns_back) < 1e-7) << own.at;
+  for (const IsolatedPoint& own : trace_loci(model).isolated_points)
+    EXPECT_TRUE(own.kind != LocusKind::workspace_boundary || !own.certified || std::abs(own.at[0] - turns_back) < 1e-7);
+}
+
 }  // namespace
 }  // namespace clearloci

@@ -261,6 +261,26 @@ class FourMotors(InOwnFolder):
         answer = linprog([1, 1], A_ub=rows, b_ub=sides, bounds=[(0, None)] * 2, method="highs")
         return answer.fun if answer.status == 0 else math.inf
 
+    def expect_free(self, effort, patterns):
+        """At random poses of the task the couples keep the signs of one pattern, and have efforts by a linear program each."""
+        count = POSES if POSES > 2000 else 400
+        span = numpy.array([0.02, 0.02, math.radians(2)])
+        blocks, kept = [], set(patterns)
+        for at in numpy.random.default_rng(5).uniform(-span, span, (count, 3)):
+            rows = []
+            for offset, slope, along_x, along_y in self.lines(at):
+                rows.append((offset, slope, 20 * math.hypot(along_x, along_y)))
+            kept &= {
+                signs
+                for signs in patterns
+                if all(s * (offset + slope * effort) > push for s, (offset, slope, push) in zip(signs, rows))
+            }
+            blocks += [[(s * o - push, [s * b]) for s, (o, b, push) in zip(signs, rows)] for signs in patterns]
+        self.assertEqual(len(kept), 1)
+        deep = depths(blocks, [(-1000, 1000)]).reshape(-1, len(patterns))
+        self.assertTrue((deep[:, patterns.index(kept.pop())] > 0).all())
+        print(f"4-RRR: free at {count} random poses with {effort:.4f} N m, {len(blocks)} linear programs")
+
     def test_the_least_preload_is_that_of_linear_programs(self):
         (self.folder / "t.yaml").write_text(self.TASK, encoding="utf-8")
         start = time.monotonic()
@@ -282,6 +302,7 @@ class FourMotors(InOwnFolder):
                 self.assertGreaterEqual(pattern["size"][1], own * (1 - 1e-6))
             if pattern["verdict"] == "refuted":
                 self.assertEqual(own, math.inf)
+        self.expect_free(preload["value"]["A4"], SIGNS)
         print(f"4-RRR: least preload between {least:.4f} and {most:.4f} N m, linear programs {best:.4f}, {took:.1f} s")
 
 

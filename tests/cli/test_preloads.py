@@ -330,6 +330,13 @@ ANTAGONISTIC = SOURCE / "examples" / "studies" / "antagonistic.yaml"
 BOX = "format: 1\nbox: {x: [-0.05, 0.15], y: [0.45, 0.6]}\nmin_force: 1\n"
 
 
+# Random five-bars, and tasks that no effort of theirs cures.
+REFUTED = [
+    (3, "preload: constant\nmin_force: 2\nmin_couple: 0.3\nloads_within: [{load: 1, radius: 8}]\n"),
+    (8, "preload: constant\nloads_within: [{load: 1, radius: 8}]\n"),
+]
+
+
 class Certificates(InOwnFolder):
     """What was found, or given, is part of the claim: it is accepted, and rejected with another effort."""
 
@@ -402,6 +409,47 @@ class Certificates(InOwnFolder):
             cell[2] = [[str(turns), "0"]]
         (self.folder / "c.cert").write_text(json.dumps(certificate), encoding="utf-8")
         self.run_program("check", "m.yaml", "c.cert", status=1)
+
+    def refuted(self, mechanism, more):
+        (self.folder / "m.yaml").write_text(mechanism.text(), encoding="utf-8")
+        box = mechanism.box
+        (self.folder / "t.yaml").write_text(f"format: 1\nbox: {{x: {box[0]}, y: {box[1]}}}\n{more}", encoding="utf-8")
+        self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out", status=1)
+        return json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+
+    def expect(self, certificate, status, model="m.yaml"):
+        (self.folder / "c.cert").write_text(json.dumps(certificate), encoding="utf-8")
+        return self.run_program("check", model, "c.cert", status=status).stdout
+
+    def mutations(self, certificate):
+        """Each with what is wrong: a pattern less, multipliers, signs, poses, ranges."""
+        first = certificate["pose_task"]["refutation"]["patterns"][0]
+        yield "a pattern is missing", lambda own: own["patterns"].pop()
+        yield "multipliers", lambda own: own["patterns"][0]["rows"][0].update(multiplier="1000")
+        yield "negative", lambda own: own["patterns"][0]["rows"][0].update(multiplier="-1")
+        yield "a row is missing", lambda own: own["patterns"][0]["rows"].pop(0)
+        yield "another sign", lambda own: own["patterns"][0]["rows"][0].update(sign=-first["rows"][0]["sign"])
+        yield "not of the task", lambda own: own["patterns"][0]["rows"][0].update(at=["9/10", "1/10"])
+        yield "a load", lambda own: own["patterns"][0]["rows"][0].update(load=["1000", "0"])
+        yield "another reaction", lambda own: own["patterns"][0]["rows"][0].update(reaction="M_P")
+        yield "a smaller range", lambda own: own["ranges"][0].__setitem__(0, "0")
+        yield "no effort of the model", lambda own: own["joints"].__setitem__(0, "A1")
+
+    def test_refutations_are_certified_and_mutations_are_not(self):
+        """Multipliers that another program accepts, with statics and intervals of its own."""
+        seen = 0
+        for seed, more in REFUTED:
+            with self.subTest(seed=seed):
+                mechanism = FiveBar(random.Random(seed))
+                certificate = self.refuted(mechanism, more)
+                self.assertIn("no efforts keep the task clear", self.expect(certificate, 0))
+                for what, change in self.mutations(certificate):
+                    wrong = json.loads(json.dumps(certificate))
+                    change(wrong["pose_task"]["refutation"])
+                    with self.subTest(wrong=what):
+                        self.expect(wrong, 1)
+                        seen += 1
+        self.assertGreater(seen, 15)
 
 
 if __name__ == "__main__":

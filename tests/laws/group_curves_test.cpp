@@ -10,7 +10,6 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -186,103 +185,6 @@ TEST(GroupLaw, CurvesOverTwoMotorsAreThoseOfTheDyad) {
   EXPECT_LT(formulas.away, formulas.vertices / 50);
   EXPECT_LE(10 * formulas.missing, formulas.points);
 }
-
-// ---- A shipped five-bar over their motors' angles and over the place of their end effector
-
-/// Over the motors' angles near a posture, with the end effector's point as a group.
-std::string over_motors(std::string text, const Pose& posture, const std::array<double, 2>& angles, double half) {
-  /// The parts of what is found, which is replaced.
-  const auto cut = [&](const std::string& what, const std::string& by) {
-    std::smatch found;
-    if (!std::regex_search(text, found, std::regex(what))) throw std::logic_error("a five-bar of another form");
-    const std::vector<std::string> parts(found.begin(), found.end());
-    text = found.prefix().str() + by + found.suffix().str();
-    return parts;
-  };
-  cut("  x: .*\n  y: .*\n", fmt::format("  alpha: {{angle: [{:.6f}, {:.6f}]}}\n  beta: {{angle: [{:.6f}, {:.6f}]}}\n",
-                                        angles[0] - half, angles[0] + half, angles[1] - half, angles[1] + half));
-  cut("  P:  \\[x, y\\].*\n", "");
-  const std::string lengths = ", P\\], lengths: \\[([^,]*), ([^\\]]*)\\].*\n";
-  const std::vector<std::string> first = cut("  B1: \\{dyad: \\[A1" + lengths, "");
-  const std::vector<std::string> second = cut("  B2: \\{dyad: \\[A2" + lengths, "POINTS");
-  const Point2 tip = place(posture, "P");
-  const auto crank = [](int leg, const std::string& length, const char* angle) {
-    return fmt::format("  B{0}: {{from: A{0}, by: ['({1})*cos({2})', '({1})*sin({2})']}}\n", leg, length, angle);
-  };
-  return replaced(text, "POINTS",
-                  crank(1, first[1], "alpha") + crank(2, second[1], "beta") +
-                      fmt::format("  tip: {{group: [P], lengths: {{B1-P: {}, B2-P: {}}}, near: {{at: {{alpha: {:.12f}, "
-                                  "beta: {:.12f}}}, P: [{:.12f}, {:.12f}]}}}}\n",
-                                  first[2], second[2], angles[0], angles[1], tip[0], tip[1]));
-}
-
-double angle_of(const Pose& pose, const char* from, const char* to) {
-  const Point2 a = place(pose, from), b = place(pose, to);
-  return std::atan2(b[1] - a[1], b[0] - a[0]);
-}
-
-double turn_of(const Pose& pose, const char* base, const char* elbow) {
-  const Point2 a = place(pose, base), p = place(pose, "P"), b = place(pose, elbow);
-  return (p[0] - a[0]) * (b[1] - a[1]) - (p[1] - a[1]) * (b[0] - a[0]);
-}
-
-struct Image {
-  const char* example;
-  Point2 posture;
-};
-
-class ImagesOfLoci : public ::testing::TestWithParam<Image> {};
-
-TEST_P(ImagesOfLoci, AreTheSameOverTheMotorsAndOverTheEndEffector) {
-  const std::string text = example_text(GetParam().example);
-  const Model model = Model::parse(text, "place.yaml");
-  const Pose posture = solve_pose(model, {GetParam().posture[0], GetParam().posture[1]});
-  ASSERT_TRUE(posture.unreachable.empty());
-  constexpr double half = 0.4;
-  const std::array<double, 2> angles = {angle_of(posture, "A1", "B1"), angle_of(posture, "A2", "B2")};
-  const std::string other = over_motors(text, posture, angles, half);
-  SCOPED_TRACE(other);
-  const Model motors = Model::parse(other, "motors.yaml");
-  const LocusMap by_place = trace_loci(model), by_motors = trace_loci(motors);
-  int followed = 0, images = 0, away = 0;
-  // Every fourth vertex over the motors, as a place, in the working mode of the file.
-  for (const LocusCurve& curve : by_motors.curves)
-    for (const std::string& name : names_of(curve.vanishing))
-      for (const Arc& arc : curve.arcs)
-        for (std::size_t i = 0; i < arc.points.size(); i += 4) {
-          const Pose pose = solve_pose(motors, {arc.points[i][0], arc.points[i][1]});
-          if (!pose.unreachable.empty()) continue;
-          if (turn_of(pose, "A1", "B1") * turn_of(posture, "A1", "B1") < 1e-4 ||
-              turn_of(pose, "A2", "B2") * turn_of(posture, "A2", "B2") < 1e-4)
-            continue;
-          const Point2 at = place(pose, "P");
-          if (!solve_pose(model, {at[0], at[1]}).unreachable.empty()) continue;
-          ++followed;
-          EXPECT_LT(distance(at, name, by_place), 2e-4) << name << " at " << at[0] << ", " << at[1];
-        }
-  // And the other way round, where the same assembly is reached; strands nearer than a cell are not followed.
-  for (const LocusCurve& curve : by_place.curves)
-    for (const std::string& name : names_of(curve.vanishing))
-      for (const Arc& arc : curve.arcs)
-        for (std::size_t i = 0; i < arc.points.size(); i += 4) {
-          const Pose pose = solve_pose(model, {arc.points[i][0], arc.points[i][1]});
-          if (!pose.unreachable.empty()) continue;
-          const double alpha = angles[0] + std::remainder(angle_of(pose, "A1", "B1") - angles[0], 2 * std::numbers::pi),
-                       beta = angles[1] + std::remainder(angle_of(pose, "A2", "B2") - angles[1], 2 * std::numbers::pi);
-          if (std::abs(alpha - angles[0]) > half - 1e-3 || std::abs(beta - angles[1]) > half - 1e-3) continue;
-          const Pose same = solve_pose(motors, {alpha, beta});
-          if (!same.unreachable.empty() || apart(place(same, "P"), arc.points[i]) > 1e-6) continue;
-          ++images;
-          away += distance({alpha, beta}, name, by_motors) < 2 * 2 * half / 96 ? 0 : 1;
-        }
-  fmt::print("{}: {} vertices over the motors, {} images, {} away\n", GetParam().example, followed, images, away);
-  EXPECT_GT(followed, 50);
-  EXPECT_GT(images, 20);
-  EXPECT_LE(50 * away, images);
-}
-
-INSTANTIATE_TEST_SUITE_P(Shipped, ImagesOfLoci, ::testing::Values(Image{"five_bar_generic", {0.3, -0.4}}),
-                         [](const auto& own) { return std::string(own.param.example); });
 
 /// The actuator's effort of a joint at a pose, N or N m; nothing out of reach.
 std::optional<double> effort(const Model& model, const std::vector<double>& pose, const std::string& joint) {
