@@ -17,31 +17,31 @@ class Folding {
 
   void operator()(Expression& e) const { e = folded(e); }
   void operator()(std::vector<Expression>& all) const {
-    for (Expression& own : all) (*this)(own);
+    for (Expression& expression : all) (*this)(expression);
   }
   void operator()(mechanism::VectorExpression& vector) const {
     (*this)(vector.numbers);
-    for (mechanism::VectorExpression& own : vector.arguments) (*this)(own);
+    for (mechanism::VectorExpression& expression : vector.arguments) (*this)(expression);
   }
-  void operator()(mechanism::ExplicitPoint& own) const { (*this)(own.coordinates); }
-  void operator()(mechanism::DyadPoint& own) const {
-    (*this)(own.from_length);
-    (*this)(own.to_length);
-    if (own.axis) (*this)(*own.axis);
+  void operator()(mechanism::ExplicitPoint& point) const { (*this)(point.coordinates); }
+  void operator()(mechanism::DyadPoint& point) const {
+    (*this)(point.from_length);
+    (*this)(point.to_length);
+    if (point.axis) (*this)(*point.axis);
   }
-  void operator()(mechanism::OffsetPoint& own) const {
-    (*this)(own.along);
-    (*this)(own.left);
+  void operator()(mechanism::OffsetPoint& point) const {
+    (*this)(point.along);
+    (*this)(point.left);
   }
   void operator()(mechanism::MeanPoint& /*own*/) const {}
-  void operator()(mechanism::SliderPoint& own) const {
-    (*this)(own.along);
-    (*this)(own.length);
+  void operator()(mechanism::SliderPoint& point) const {
+    (*this)(point.along);
+    (*this)(point.length);
   }
-  void operator()(mechanism::ShiftedPoint& own) const { (*this)(own.by); }
-  void operator()(mechanism::CrossingPoint& own) const {
-    (*this)(own.along_first);
-    (*this)(own.along_second);
+  void operator()(mechanism::ShiftedPoint& point) const { (*this)(point.by); }
+  void operator()(mechanism::CrossingPoint& point) const {
+    (*this)(point.along_first);
+    (*this)(point.along_second);
   }
   void operator()(mechanism::GroupPoint& /*own*/) const {}
 
@@ -50,7 +50,7 @@ class Folding {
     if (!varies_(e)) return Expression::number(mechanism::value_of(e, m_));
     if (e.arguments().empty()) return e;
     std::vector<Expression> parts;
-    for (const Expression& own : e.arguments()) parts.push_back(folded(own));
+    for (const Expression& argument : e.arguments()) parts.push_back(folded(argument));
     return Expression::apply(e.kind(), std::move(parts));
   }
 
@@ -62,13 +62,14 @@ class Folding {
 
 Varying::Varying(const Mechanism& m, std::vector<std::string> names) : names_(names.begin(), names.end()) {
   // Parameters stand behind those that they are made of.
-  for (const mechanism::Parameter& own : m.parameters)
-    if ((*this)(own.expression)) names_.insert(own.name);
+  for (const mechanism::Parameter& parameter : m.parameters)
+    if ((*this)(parameter.expression)) names_.insert(parameter.name);
 }
 
 bool Varying::operator()(const Expression& e) const {
   if (e.kind() == Expression::Kind::symbol) return names_.contains(e.name());
-  return std::any_of(e.arguments().begin(), e.arguments().end(), [&](const Expression& own) { return (*this)(own); });
+  return std::any_of(e.arguments().begin(), e.arguments().end(),
+                     [&](const Expression& argument) { return (*this)(argument); });
 }
 
 void fold_constants(Mechanism& m, const Varying& varies) {
@@ -76,8 +77,8 @@ void fold_constants(Mechanism& m, const Varying& varies) {
   const Folding fold(whole, varies);
   for (mechanism::Point& point : m.points) std::visit(fold, point.form);
   for (mechanism::Group& group : m.groups) {
-    for (mechanism::Group::Distance& own : group.distances) fold(own.length);
-    for (mechanism::Group::Line& own : group.lines) fold(own.along);
+    for (mechanism::Group::Distance& distance : group.distances) fold(distance.length);
+    for (mechanism::Group::Line& line : group.lines) fold(line.along);
   }
 }
 

@@ -34,7 +34,7 @@ std::optional<Cell> common(const Cell& a, const Cell& b) {
 
 std::vector<double> doubles_of(const std::vector<Interval>& solution) {
   std::vector<double> all;
-  for (const Interval& own : solution) all.push_back(own.middle());
+  for (const Interval& interval : solution) all.push_back(interval.middle());
   return all;
 }
 
@@ -44,8 +44,8 @@ PoseVariables variables_over(const std::vector<std::string>& names, const Cell& 
   PoseVariables variables{names, {}};
   std::vector<Interval> ranges;
   offsets.clear();
-  for (const auto& own : cell) {
-    ranges.emplace_back(own[0], own[1], cell_bits);
+  for (const auto& side : cell) {
+    ranges.emplace_back(side[0], side[1], cell_bits);
     offsets.push_back(ranges.back() - middle_of(ranges.back()));
   }
   for (std::size_t c = 0; c < cell.size(); ++c) variables.values.emplace_back(ranges[c], offsets, c);
@@ -78,19 +78,20 @@ void GroupSheet::follow(const std::vector<double>& pose, GroupPlaces& shown) {
     if (!first) throw FalseClaim("groups: that they close in their postures is not shown");
     shown.emplace_back(near, first->at_middle);
   }
-  const auto off = [&](const auto& own) {
+  const auto off = [&](const auto& candidate) {
     double sum = 0;
-    for (std::size_t c = 0; c < pose.size(); ++c) sum += std::pow((own.first[c].middle() - pose[c]) / widths_[c], 2);
+    for (std::size_t c = 0; c < pose.size(); ++c)
+      sum += std::pow((candidate.first[c].middle() - pose[c]) / widths_[c], 2);
     return sum;
   };
   std::vector<Interval> end_pose;
-  for (const double own : pose) end_pose.emplace_back(own, cell_bits);
+  for (const double entry : pose) end_pose.emplace_back(entry, cell_bits);
   std::vector<std::size_t> starts = {0};
   const auto nearest =
       std::min_element(shown.begin(), shown.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
   if (nearest != shown.begin()) starts.insert(starts.begin(), static_cast<std::size_t>(nearest - shown.begin()));
-  for (const std::size_t own : starts) {
-    std::optional<std::vector<Interval>> end = followed(shown[own].first, end_pose, shown[own].second);
+  for (const std::size_t start : starts) {
+    std::optional<std::vector<Interval>> end = followed(shown[start].first, end_pose, shown[start].second);
     if (!end) continue;
     at_pose_ = std::move(*end);
     shown.emplace_back(std::move(end_pose), at_pose_);
@@ -137,9 +138,9 @@ std::optional<std::vector<Interval>> GroupSheet::followed(const std::vector<Inte
 }
 
 std::vector<double> GroupSheet::nearest(const std::vector<double>& at) const {
-  const auto off = [&](const auto& own) {
+  const auto off = [&](const auto& candidate) {
     double sum = 0;
-    for (std::size_t c = 0; c < at.size(); ++c) sum += std::pow((own.first[c] - at[c]) / widths_[c], 2);
+    for (std::size_t c = 0; c < at.size(); ++c) sum += std::pow((candidate.first[c] - at[c]) / widths_[c], 2);
     return sum;
   };
   return std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); })
@@ -169,15 +170,15 @@ void GroupSheet::cover(const Cell& whole, const std::function<bool(const Cell&)>
 void GroupSheet::reach(const std::vector<double>& pose) const {
   const bool found = std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
     for (std::size_t c = 0; c < names_.size(); ++c) {
-      std::array<double, 2> own;
+      std::array<double, 2> range;
       if (c < pose.size()) {
-        own = {pose[c], pose[c]};
+        range = {pose[c], pose[c]};
       } else {
-        own = around(std::find_if(m_.parameters.begin(), m_.parameters.end(), [&](const auto& parameter) {
-                       return parameter.name == names_[c];
-                     })->value);
+        range = around(std::find_if(m_.parameters.begin(), m_.parameters.end(), [&](const auto& parameter) {
+                         return parameter.name == names_[c];
+                       })->value);
       }
-      if (own[0] < part.cell[c][0] || own[1] > part.cell[c][1]) return false;
+      if (range[0] < part.cell[c][0] || range[1] > part.cell[c][1]) return false;
     }
     return lie_in(at_pose_, part.groups.alone);
   });
@@ -190,7 +191,7 @@ void GroupSheet::join(const std::function<bool(const Cell&)>& is_apart) const {
       const std::optional<Cell> both = common(parts_[i].cell, parts_[j].cell);
       if (!both || is_apart(*both)) continue;
       Cell place;
-      for (const double own : middle_of(*both)) place.push_back({own, own});
+      for (const double component : middle_of(*both)) place.push_back({component, component});
       Jet::Offsets offsets;
       const PoseVariables variables = variables_over(names_, place, offsets);
       std::vector<double> spreads(names_.size());
@@ -203,9 +204,9 @@ void GroupSheet::join(const std::function<bool(const Cell&)>& is_apart) const {
 
 std::optional<GroupCell> GroupSheet::over(const Part& part, const PoseVariables& variables, const Jet::Offsets& offsets,
                                           std::vector<double>& spreads) const {
-  std::optional<GroupCell> own = closed_over(m_, sides_, variables, offsets, part.groups.middle, spreads);
-  if (own && !lie_in(own->at_middle, part.groups.alone)) return std::nullopt;
-  return own;
+  std::optional<GroupCell> cell = closed_over(m_, sides_, variables, offsets, part.groups.middle, spreads);
+  if (cell && !lie_in(cell->at_middle, part.groups.alone)) return std::nullopt;
+  return cell;
 }
 
 }  // namespace clearloci::check

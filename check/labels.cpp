@@ -97,8 +97,8 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
         least = std::min(least, (*orders)[k]);
     const bool force = least > no_order && least != HUGE_VAL;
     const bool asked = std::find(c.joints.begin(), c.joints.end(), joint.name) != c.joints.end();
-    std::set<Quantity> own;
-    if (force) own.insert(Quantity::f);
+    std::set<Quantity> quantities;
+    if (force) quantities.insert(Quantity::f);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const Quantity quantity = unknowns[k].quantity;
       const double order = (*orders)[k];
@@ -108,9 +108,9 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
       if ((guide || is_part(quantity)) && !wants(quantity)) continue;
       any = any || (asked && wants(quantity));
       if (is_part(quantity) && !guide && force && order < least + no_order) continue;
-      own.insert(quantity);
+      quantities.insert(quantity);
     }
-    for (const Quantity quantity : own) {
+    for (const Quantity quantity : quantities) {
       label.insert({joint.name, quantity});
       any = any || (asked && wants(quantity));
     }

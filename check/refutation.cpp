@@ -61,36 +61,36 @@ class RefutationCheck {
 
   const Joint& joint_named(const std::string& name) const {
     const auto found =
-        std::find_if(m_.joints.begin(), m_.joints.end(), [&](const Joint& own) { return own.name == name; });
+        std::find_if(m_.joints.begin(), m_.joints.end(), [&](const Joint& joint) { return joint.name == name; });
     if (found == m_.joints.end()) throw FalseClaim("refutation: the model has no joint " + quoted(name));
     return *found;
   }
 
   const core::TaskDemand* demand_named(const std::string& name) const {
     const auto found = std::find_if(claim_.demands.begin(), claim_.demands.end(),
-                                    [&](const core::TaskDemand& own) { return name_of(own) == name; });
+                                    [&](const core::TaskDemand& demand) { return name_of(demand) == name; });
     return found == claim_.demands.end() ? nullptr : &*found;
   }
   bool is_demanded(const std::string& name) const { return demand_named(name) != nullptr; }
 
   /// Of an actuator of free effort that has play itself: its effort may not vanish.
   bool is_own_backlash(const std::string& name) const {
-    return std::any_of(own_.joints.begin(), own_.joints.end(), [&](const std::string& own) {
-      const Joint& joint = joint_named(own);
-      return joint.clearance && ((name == "M_" + own && !joint.clearance->angular.is_zero_literal()) ||
-                                 (name == "F_" + own && !joint.clearance->axial.is_zero_literal()));
+    return std::any_of(own_.joints.begin(), own_.joints.end(), [&](const std::string& candidate) {
+      const Joint& joint = joint_named(candidate);
+      return joint.clearance && ((name == "M_" + candidate && !joint.clearance->angular.is_zero_literal()) ||
+                                 (name == "F_" + candidate && !joint.clearance->axial.is_zero_literal()));
     });
   }
 
   /// Whatever signs reactions have, some pattern has them.
   void require_all(const std::map<std::string, int>& signs) const {
-    const auto has = [&](const auto& own) {
-      const auto found = signs.find(own.first);
-      return found != signs.end() && found->second == own.second;
+    const auto has = [&](const auto& candidate) {
+      const auto found = signs.find(candidate.first);
+      return found != signs.end() && found->second == candidate.second;
     };
-    const auto conflicts = [&](const auto& own) {
-      const auto found = signs.find(own.first);
-      return found != signs.end() && found->second != own.second;
+    const auto conflicts = [&](const auto& candidate) {
+      const auto found = signs.find(candidate.first);
+      return found != signs.end() && found->second != candidate.second;
     };
     for (const Refutation::Pattern& pattern : own_.patterns)
       if (std::all_of(pattern.signs.begin(), pattern.signs.end(), has)) return;
@@ -134,8 +134,8 @@ class RefutationCheck {
   }
 
   static void require_sign(const Refutation::Pattern& pattern, const Refutation::Row& row) {
-    const auto own = pattern.signs.find(row.reaction);
-    if (own == pattern.signs.end() || own->second != row.sign)
+    const auto sign = pattern.signs.find(row.reaction);
+    if (sign == pattern.signs.end() || sign->second != row.sign)
       throw FalseClaim("refutation: a row of " + quoted(row.reaction) + " is not of its pattern");
   }
 
@@ -152,10 +152,10 @@ class RefutationCheck {
       const Rational most = radius * Rational(1'000'000'000'001, 1'000'000'000'000);  // for its roundings
       if (square > most * most) throw FalseClaim("refutation: a load is not in its range");
     };
-    for (const PoseTaskClaim::LoadWithin& own : claim_.loads_within) {
-      if (own.load >= m_.loads.size()) throw FalseClaim("loads: the model has no such force");
-      if (own.force > 0) take(m_.loads[own.load].force.size(), own.force);
-      if (own.couple > 0) take(1, own.couple);
+    for (const PoseTaskClaim::LoadWithin& load_range : claim_.loads_within) {
+      if (load_range.load >= m_.loads.size()) throw FalseClaim("loads: the model has no such force");
+      if (load_range.force > 0) take(m_.loads[load_range.load].force.size(), load_range.force);
+      if (load_range.couple > 0) take(1, load_range.couple);
     }
     if (part != row.load.size()) throw FalseClaim("refutation: a load has too many parts");
   }
@@ -165,8 +165,8 @@ class RefutationCheck {
     const core::TaskDemand* const demand = demand_named(row.reaction);
     const Rational least = demand == nullptr ? Rational(0) : demand->least;
     if (row.at.empty()) {
-      const auto k = std::find_if(own_.joints.begin(), own_.joints.end(), [&](const std::string& own) {
-        return row.reaction == "M_" + own || row.reaction == "F_" + own;
+      const auto k = std::find_if(own_.joints.begin(), own_.joints.end(), [&](const std::string& joint) {
+        return row.reaction == "M_" + joint || row.reaction == "F_" + joint;
       });
       if (k == own_.joints.end() || !is_own_backlash(row.reaction))
         throw FalseClaim("refutation: a row of no effort with play");
@@ -188,12 +188,12 @@ class RefutationCheck {
   std::pair<core::TaskDemand, Rational> bounded(const Refutation::Row& row) const {
     for (const Joint& joint : m_.joints)
       for (const core::Quantity quantity : {core::Quantity::M, core::Quantity::F}) {
-        core::TaskDemand own;
-        own.joint = joint.name;
-        own.quantity = quantity;
-        if (name_of(own) != row.reaction) continue;
+        core::TaskDemand demand;
+        demand.joint = joint.name;
+        demand.quantity = quantity;
+        if (name_of(demand) != row.reaction) continue;
         const auto& within = joint.within;
-        if (joint.actuated && within) return {own, row.sign > 0 ? within->first : within->second};
+        if (joint.actuated && within) return {demand, row.sign > 0 ? within->first : within->second};
       }
     throw FalseClaim("refutation: " + quoted(row.reaction) + " has no bounds");
   }
@@ -202,13 +202,13 @@ class RefutationCheck {
   Interval reaction(const Refutation::Row& row, const core::TaskDemand& demand, std::optional<std::size_t> effort) {
     Mechanism m = m_;
     std::size_t part = 0;
-    const auto add_to = [&](Expression& own) {
-      own = Expression::apply(Expression::Kind::add, {own, Expression::number(row.load.at(part++))});
+    const auto add_to = [&](Expression& expression) {
+      expression = Expression::apply(Expression::Kind::add, {expression, Expression::number(row.load.at(part++))});
     };
-    for (const PoseTaskClaim::LoadWithin& own : claim_.loads_within) {
-      if (own.force > 0)
-        for (Expression& component : m.loads[own.load].force) add_to(component);
-      if (own.couple > 0) add_to(m.loads[own.load].couple);
+    for (const PoseTaskClaim::LoadWithin& load_range : claim_.loads_within) {
+      if (load_range.force > 0)
+        for (Expression& component : m.loads[load_range.load].force) add_to(component);
+      if (load_range.couple > 0) add_to(m.loads[load_range.load].couple);
     }
     for (std::size_t k = 0; k < own_.joints.size(); ++k)
       for (Joint& joint : m.joints)

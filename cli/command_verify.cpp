@@ -92,7 +92,7 @@ std::vector<Model::Value> efforts_of(const Model& model, const Verification& res
   std::vector<Model::Value> efforts;
   const auto joint_of = [&](const std::string& name) -> const mechanism::Joint& {
     const std::vector<mechanism::Joint>& all = model.content().mechanism.joints;
-    return *std::find_if(all.begin(), all.end(), [&](const mechanism::Joint& own) { return own.name == name; });
+    return *std::find_if(all.begin(), all.end(), [&](const mechanism::Joint& joint) { return joint.name == name; });
   };
   const auto add = [&](const mechanism::Joint& joint, const core::Rational& value) {
     const char* const unit = mechanism::actuator_quantity(joint) == core::Quantity::F ? " N" : " N m";
@@ -115,8 +115,8 @@ bool is_refuted_by_rows(const Verification& result) {
       std::holds_alternative<core::TaskMesh>(task.shape))
     return false;
   const auto& patterns = result.preload->patterns;
-  return std::all_of(patterns.begin(), patterns.end(), [](const core::PreloadPattern& own) {
-    return own.verdict == core::Verdict::refuted && !own.refutation.empty();
+  return std::all_of(patterns.begin(), patterns.end(), [](const core::PreloadPattern& pattern) {
+    return pattern.verdict == core::Verdict::refuted && !pattern.refutation.empty();
   });
 }
 
@@ -203,7 +203,8 @@ Command add_verify_command(CLI::App& program) {
   add_export_argument(*app, arguments->formats,
                       fmt::format("Pictures besides verify.json, comma-separated: {}",
                                   fmt::join(report::format_names<core::Verification>(), ", ")));
-  add_certificate_argument(*app, arguments->certificate, "only if the task is verified, or no free efforts are proven to cure it");
+  add_certificate_argument(*app, arguments->certificate,
+                           "only if the task is verified, or no free efforts are proven to cure it");
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
       "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a pose at which the\n"

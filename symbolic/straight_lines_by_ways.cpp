@@ -57,7 +57,7 @@ int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
       }
     }
   }
-  if (const auto own = value_by_lengths(best.scaled(scale), arms)) return *own;
+  if (const auto value = value_by_lengths(best.scaled(scale), arms)) return *value;
   if (best.length() >= natural.length()) return value(natural.scaled(scale).plain());
   return value_of_arms(best.scaled(scale), arms);
 }
@@ -68,14 +68,14 @@ int StraightLines::value_of_arms(const Poly& p, const std::vector<std::size_t>& 
   std::vector<int> variables(static_cast<std::size_t>(plain.variables), 0);
   for (int v = 0; v < plain.variables; ++v) {
     if (!core::depends_on(plain, v)) continue;
-    int& own = variables[static_cast<std::size_t>(v)];
+    int& this_variable = variables[static_cast<std::size_t>(v)];
     bool is_arm = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Place& step = points[i].arms[arms[i]].step;
       for (std::size_t k = 0; k < 3; ++k)
-        if (v == points[i].variables[k]) own = step[k], is_arm = true;
+        if (v == points[i].variables[k]) this_variable = step[k], is_arm = true;
     }
-    if (!is_arm) own = variable(v);
+    if (!is_arm) this_variable = variable(v);
   }
   return builder_.polynomial(plain, variables);
 }
@@ -98,11 +98,11 @@ std::optional<ByLengths> by_lengths(const Poly& p, int x, int y, const Poly& wx,
   }
   if (!(c[2][0] == c[0][2]) || !c[1][1].is_zero()) return std::nullopt;
   const Poly d = wx * wx + wy * wy;
-  ByLengths own{c[2][0], Poly(p.ring()), Poly(p.ring()), c[0][0]};
-  if (d.is_zero() || !(c[1][0] * wx + c[0][1] * wy).divides(d, own.along) ||
-      !(c[0][1] * wx - c[1][0] * wy).divides(d, own.across))
+  ByLengths lengths{c[2][0], Poly(p.ring()), Poly(p.ring()), c[0][0]};
+  if (d.is_zero() || !(c[1][0] * wx + c[0][1] * wy).divides(d, lengths.along) ||
+      !(c[0][1] * wx - c[1][0] * wy).divides(d, lengths.across))
     return std::nullopt;
-  return own;
+  return lengths;
 }
 
 }  // namespace
@@ -117,14 +117,14 @@ std::optional<int> StraightLines::value_by_lengths(const Poly& p, const std::vec
     const bool from = arms[i] == 0;
     std::array<Poly, 2> w = {point.arms[from ? 1 : 0].end[0] - point.arms[from ? 0 : 1].end[0],
                              point.arms[from ? 1 : 0].end[1] - point.arms[from ? 0 : 1].end[1]};
-    for (Poly& own : w)
+    for (Poly& poly : w)
       for (std::size_t j = i; j-- > 0;)
-        for (std::size_t k = 0; k < 3; ++k) own = moved(own, points[j].variables[k], points[j].arms[arms[j]].end[k]);
+        for (std::size_t k = 0; k < 3; ++k) poly = moved(poly, points[j].variables[k], points[j].arms[arms[j]].end[k]);
     const std::optional<ByLengths> parts = by_lengths(p, point.variables[0], point.variables[1], w[0], w[1]);
     if (!parts || parts->length() >= p.length()) continue;
     const auto of = [&](const Poly& part) {
-      const std::optional<int> own = value_by_lengths(part, arms);
-      return own ? *own : value_of_arms(part, arms);
+      const std::optional<int> value = value_by_lengths(part, arms);
+      return value ? *value : value_of_arms(part, arms);
     };
     const auto& [a2, along, across] = (*point.lengths)[from ? 0 : 1];
     int sum = of(parts->rest);
@@ -140,28 +140,28 @@ const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
   if (armed_points_) return *armed_points_;
   armed_points_.emplace();
   for (const ConstructedPoint& point : geometry_->constructed()) {
-    const std::optional<Dyad> known = dyad(point.point);
-    if (!known || known->axis.has_value() != (point.z >= 0)) continue;
+    const std::optional<Dyad> this_dyad = dyad(point.point);
+    if (!this_dyad || this_dyad->axis.has_value() != (point.z >= 0)) continue;
     const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                    [&](const TowerRoot& r) { return r.point == point.point; });
     const auto& form =
         std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
-    const std::array<Place, 2> steps = steps_to(*known, *root);
+    const std::array<Place, 2> steps = steps_to(*this_dyad, *root);
     const auto arm = [&](mechanism::PointIndex end, const Place& step) {
       const auto& natural = geometry_->natural(end);
       return Arm{{geometry_->poly(natural[0]), geometry_->poly(natural[1]), geometry_->poly(natural[2])}, step};
     };
     armed_points_->push_back({{point.x, point.y, point.z},
                               {arm(form.from, steps[0]), arm(form.to, steps[1])},
-                              known->axis ? std::nullopt : std::optional(lengths_of(*known, *root))});
+                              this_dyad->axis ? std::nullopt : std::optional(lengths_of(*this_dyad, *root))});
   }
   return *armed_points_;
 }
 
 std::array<std::array<int, 3>, 2> StraightLines::lengths_of(const Dyad& dyad, const TowerRoot& root) {
-  const int own = root.value ? value(root.value->plain()) : known_.at(root.variable);
+  const int this_root = root.value ? value(root.value->plain()) : known_.at(root.variable);
   const int half = builder_.constant(Rational(1, 2));
-  const int across = builder_.multiply(half, builder_.multiply(own, builder_.inverse(dyad.scale)));
+  const int across = builder_.multiply(half, builder_.multiply(this_root, builder_.inverse(dyad.scale)));
   const int product = builder_.multiply(dyad.sum, dyad.difference);
   const int a = builder_.multiply(half, builder_.add(dyad.sum, dyad.difference)),
             b = builder_.multiply(half, builder_.subtract(dyad.sum, dyad.difference));

@@ -149,10 +149,10 @@ class OtherConjugates {
     const std::size_t k = chosen_.size();
     if (k == squares_.size())
       return mode || p_.value_in_doubles(chosen_).excludes_zero() || p_.value(chosen_).excludes_zero();
-    std::optional<ConjugateRoot>& known = fixed_[k];
-    std::optional<ConjugateRoot> root = known ? known : root_of(k);
+    std::optional<ConjugateRoot>& conjugate_root = fixed_[k];
+    std::optional<ConjugateRoot> root = conjugate_root ? conjugate_root : root_of(k);
     if (!root) return false;
-    if (squares_[k].is_plain()) known = root;
+    if (squares_[k].is_plain()) conjugate_root = root;
     for (const bool same : {true, false}) {
       chosen_.push_back(same ? *root : ConjugateRoot{-root->value, -root->nearly, root->imaginary});
       const bool nonzero = nonzero_from(mode && same);

@@ -75,17 +75,17 @@ constexpr std::array<Distance, 10> distances = {{
 std::vector<Row> closure(const DoubleButterfly& design, const Assembly& at) {
   const Places now = places(design, at);
   std::vector<Row> rows;
-  for (const Distance& own : distances) {
-    const Place &p = now.*own.first, &q = now.*own.second;
-    const double length = apart(design.*own.first_drawn, design.*own.second_drawn);
+  for (const Distance& distance : distances) {
+    const Place &p = now.*distance.first, &q = now.*distance.second;
+    const double length = apart(design.*distance.first_drawn, design.*distance.second_drawn);
     Row row(12, 0);
     const Place way = {q[0] - p[0], q[1] - p[1]};
     for (std::size_t k = 0; k < 2; ++k) {
-      row[static_cast<std::size_t>(own.second_unknown) + k] = way[k];
-      if (own.first_unknown > 0) row[static_cast<std::size_t>(own.first_unknown) + k] = -way[k];
+      row[static_cast<std::size_t>(distance.second_unknown) + k] = way[k];
+      if (distance.first_unknown > 0) row[static_cast<std::size_t>(distance.first_unknown) + k] = -way[k];
     }
     // The crank's points turn about the origin.
-    if (own.first == &Places::a || own.first == &Places::b) row[0] = way[0] * p[1] - way[1] * p[0];
+    if (distance.first == &Places::a || distance.first == &Places::b) row[0] = way[0] * p[1] - way[1] * p[0];
     row[11] = (length * length - way[0] * way[0] - way[1] * way[1]) / 2;
     rows.push_back(row);
   }
@@ -261,8 +261,8 @@ class HalfWalk {
     const auto now = signed_values(borne(design_, at)), then = signed_values(borne(design_, on_curve(at, along, step)));
     for (std::size_t k = 0; k < now.size(); ++k) {
       if ((now[k] < 0) == (then[k] < 0)) continue;
-      const double part = changing(step, [&](double own) {
-        return (signed_values(borne(design_, on_curve(at, along, own)))[k] < 0) != (now[k] < 0);
+      const double part = changing(step, [&](double candidate) {
+        return (signed_values(borne(design_, on_curve(at, along, candidate)))[k] < 0) != (now[k] < 0);
       });
       walk_.along.push_back(on_curve(at, along, part));
       walk_.changes.push_back({k, walk_.along.back()[0]});
@@ -319,53 +319,56 @@ loads:
 
 DoubleButterfly double_butterfly(std::mt19937& random, bool lattice) {
   const auto number = [&](double low, double high) {
-    const double own = std::uniform_real_distribution<double>(low, high)(random);
-    return lattice ? std::round(4 * own) / 4 : std::round(1000 * own) / 1000;
+    const double this_uniform_real_distribution = std::uniform_real_distribution<double>(low, high)(random);
+    return lattice ? std::round(4 * this_uniform_real_distribution) / 4
+                   : std::round(1000 * this_uniform_real_distribution) / 1000;
   };
   const auto near = [&](double x, double y) -> Place { return {number(x - 0.7, x + 0.7), number(y - 0.7, y + 0.7)}; };
-  DoubleButterfly own;
-  own.o2 = near(-2.5, 0);
-  own.o3 = near(4, 0);
-  own.a = near(-0.5, 1);
-  own.b = near(1.2, 0.8);
-  own.c = near(-0.5, 2.5);
-  own.d = near(-2.5, 2);
-  own.e = near(0.5, 3.5);
-  own.f = near(2, 2.2);
-  own.h = near(3.5, 2.5);
-  const std::array<Place, 10> all = {Place{0, 0}, own.o2, own.o3, own.a, own.b, own.c, own.d, own.e, own.f, own.h};
+  DoubleButterfly butterfly;
+  butterfly.o2 = near(-2.5, 0);
+  butterfly.o3 = near(4, 0);
+  butterfly.a = near(-0.5, 1);
+  butterfly.b = near(1.2, 0.8);
+  butterfly.c = near(-0.5, 2.5);
+  butterfly.d = near(-2.5, 2);
+  butterfly.e = near(0.5, 3.5);
+  butterfly.f = near(2, 2.2);
+  butterfly.h = near(3.5, 2.5);
+  const std::array<Place, 10> all = {Place{0, 0}, butterfly.o2, butterfly.o3, butterfly.a, butterfly.b,
+                                     butterfly.c, butterfly.d,  butterfly.e,  butterfly.f, butterfly.h};
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (apart(all[i], all[k]) < 0.1) return double_butterfly(random, lattice);
-  own.left = {number(-50, 50), number(-100, -10)};
+  butterfly.left = {number(-50, 50), number(-100, -10)};
   if (random() % 2 == 0) {
-    own.right = {number(-50, 50), number(-80, 20)};
-    own.couple = number(5, 40);
+    butterfly.right = {number(-50, 50), number(-80, 20)};
+    butterfly.couple = number(5, 40);
   }
-  return own;
+  return butterfly;
 }
 
 double crank_angle(const DoubleButterfly& design) { return std::atan2(design.a[1], design.a[0]); }
 
-std::string drawn_text(const DoubleButterfly& own, double reach) {
+std::string drawn_text(const DoubleButterfly& butterfly, double reach) {
   return "drawn:\n  O1: [0, 0]\n" +
          fmt::format("  O2: {}\n  O3: {}\n  A: {}\n  B: {}\n  C: {}\n  D: {}\n  E: {}\n  F: {}\n  H: {}\n",
-                     pair_of(own.o2), pair_of(own.o3), pair_of(own.a), pair_of(own.b), pair_of(own.c), pair_of(own.d),
-                     pair_of(own.e), pair_of(own.f), pair_of(own.h)) +
-         head(own, reach, true) + rest(own);
+                     pair_of(butterfly.o2), pair_of(butterfly.o3), pair_of(butterfly.a), pair_of(butterfly.b),
+                     pair_of(butterfly.c), pair_of(butterfly.d), pair_of(butterfly.e), pair_of(butterfly.f),
+                     pair_of(butterfly.h)) +
+         head(butterfly, reach, true) + rest(butterfly);
 }
 
-std::string group_text(const DoubleButterfly& own, double reach) {
+std::string group_text(const DoubleButterfly& butterfly, double reach) {
   const auto length = [](const Place& p, const Place& q) {
     return fmt::format("'sqrt(({} - ({}))^2 + ({} - ({}))^2)'", q[0], p[0], q[1], p[1]);
   };
-  const double square = own.a[0] * own.a[0] + own.a[1] * own.a[1];
-  const double along = (own.b[0] * own.a[0] + own.b[1] * own.a[1]) / std::sqrt(square),
-               beside = (own.a[0] * own.b[1] - own.a[1] * own.b[0]) / std::sqrt(square);
-  const std::string crank = length({0, 0}, own.a);
+  const double square = butterfly.a[0] * butterfly.a[0] + butterfly.a[1] * butterfly.a[1];
+  const double along = (butterfly.b[0] * butterfly.a[0] + butterfly.b[1] * butterfly.a[1]) / std::sqrt(square),
+               beside = (butterfly.a[0] * butterfly.b[1] - butterfly.a[1] * butterfly.b[0]) / std::sqrt(square);
+  const std::string crank = length({0, 0}, butterfly.a);
   const std::string radius = crank.substr(1, crank.size() - 2);
-  return head(own, reach, false) +
-         fmt::format("points:\n  O1: [0, 0]\n  O2: {}\n  O3: {}\n", pair_of(own.o2), pair_of(own.o3)) +
+  return head(butterfly, reach, false) +
+         fmt::format("points:\n  O1: [0, 0]\n  O2: {}\n  O3: {}\n", pair_of(butterfly.o2), pair_of(butterfly.o3)) +
          fmt::format("  A: ['{0}*cos(theta)', '{0}*sin(theta)']\n", radius) +
          fmt::format(
              "  B: ['{0:.15f}*cos(theta) - ({1:.15f})*sin(theta)', '{0:.15f}*sin(theta) + ({1:.15f})*cos(theta)']\n",
@@ -373,12 +376,14 @@ std::string group_text(const DoubleButterfly& own, double reach) {
          fmt::format(
              "  links:\n    group: [C, D, E, F, H]\n    lengths: {{A-C: {}, B-F: {}, O2-D: {}, O3-H: {}, C-D: {}, "
              "D-E: {}, C-E: {}, E-F: {}, F-H: {}, E-H: {}}}\n",
-             length(own.a, own.c), length(own.b, own.f), length(own.o2, own.d), length(own.o3, own.h),
-             length(own.c, own.d), length(own.d, own.e), length(own.c, own.e), length(own.e, own.f),
-             length(own.f, own.h), length(own.e, own.h)) +
-         fmt::format("    near: {{at: {{theta: {:.15f}}}, C: {}, D: {}, E: {}, F: {}, H: {}}}\n", crank_angle(own),
-                     pair_of(own.c), pair_of(own.d), pair_of(own.e), pair_of(own.f), pair_of(own.h)) +
-         rest(own);
+             length(butterfly.a, butterfly.c), length(butterfly.b, butterfly.f), length(butterfly.o2, butterfly.d),
+             length(butterfly.o3, butterfly.h), length(butterfly.c, butterfly.d), length(butterfly.d, butterfly.e),
+             length(butterfly.c, butterfly.e), length(butterfly.e, butterfly.f), length(butterfly.f, butterfly.h),
+             length(butterfly.e, butterfly.h)) +
+         fmt::format("    near: {{at: {{theta: {:.15f}}}, C: {}, D: {}, E: {}, F: {}, H: {}}}\n",
+                     crank_angle(butterfly), pair_of(butterfly.c), pair_of(butterfly.d), pair_of(butterfly.e),
+                     pair_of(butterfly.f), pair_of(butterfly.h)) +
+         rest(butterfly);
 }
 
 std::optional<Walk> walk(const DoubleButterfly& design, double reach) try {

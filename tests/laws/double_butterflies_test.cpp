@@ -25,13 +25,14 @@ struct Tally {
 
 constexpr double near = 1e-6;
 
-bool is_loss(const IsolatedPoint& own) {
-  return own.kind == LocusKind::contact_loss || own.kind == LocusKind::backlash;
+bool is_loss(const IsolatedPoint& point) {
+  return point.kind == LocusKind::contact_loss || point.kind == LocusKind::backlash;
 }
 
 bool is_open_at(const LocusMap& map, double theta) {
-  return std::any_of(map.open.begin(), map.open.end(),
-                     [&](const OpenRegion& own) { return theta > own.lower[0] - near && theta < own.upper[0] + near; });
+  return std::any_of(map.open.begin(), map.open.end(), [&](const OpenRegion& region) {
+    return theta > region.lower[0] - near && theta < region.upper[0] + near;
+  });
 }
 
 /// What vanishes at an angle: names of pins, and "M" for the motor. A loss is told only of what vanishes by itself.
@@ -46,21 +47,21 @@ std::set<std::string> zeros_at(const Borne& all) {
 
 std::set<std::string> told_at(const LocusMap& map, double theta) {
   std::set<std::string> names;
-  for (const IsolatedPoint& own : map.isolated_points)
-    if (is_loss(own) && std::abs(own.at[0] - theta) < near)
-      for (const Vanishing& what : own.vanishing) names.insert(what.quantity == Quantity::M ? "M" : what.joint);
+  for (const IsolatedPoint& point : map.isolated_points)
+    if (is_loss(point) && std::abs(point.at[0] - theta) < near)
+      for (const Vanishing& what : point.vanishing) names.insert(what.quantity == Quantity::M ? "M" : what.joint);
   return names;
 }
 
-void hold_range(const LocusMap& map, const Walk& own, Tally& tally) {
+void hold_range(const LocusMap& map, const Walk& walk, Tally& tally) {
   ASSERT_FALSE(map.reachable.empty());
   const auto range = std::find_if(map.reachable.begin(), map.reachable.end(), [&](const ReachableInterval& interval) {
-    return interval.from < own.to && interval.to > own.from;
+    return interval.from < walk.to && interval.to > walk.from;
   });
   ASSERT_NE(range, map.reachable.end());
   EXPECT_EQ(map.reachable.size(), 1U);
   for (const auto& [is_dead, told, at] :
-       {std::tuple(own.dead_from, range->from, own.from), std::tuple(own.dead_to, range->to, own.to)}) {
+       {std::tuple(walk.dead_from, range->from, walk.from), std::tuple(walk.dead_to, range->to, walk.to)}) {
     if (!is_dead) {
       EXPECT_NEAR(told, at, near);
       continue;
@@ -79,14 +80,14 @@ void hold_range(const LocusMap& map, const Walk& own, Tally& tally) {
   }
 }
 
-void hold(const DoubleButterfly& design, const LocusMap& map, const Walk& own, Tally& tally) {
+void hold(const DoubleButterfly& design, const LocusMap& map, const Walk& walk, Tally& tally) {
   ++tally.designs;
   tally.incomplete += map.complete ? 0 : 1;
-  hold_range(map, own, tally);
-  for (const SignChange& change : own.changes) {
+  hold_range(map, walk, tally);
+  for (const SignChange& change : walk.changes) {
     ++tally.changes;
-    if (is_open_at(map, change.theta) || change.theta - own.from < near || own.to - change.theta < near) continue;
-    const std::optional<Borne> all = borne_at(design, own, change.theta);
+    if (is_open_at(map, change.theta) || change.theta - walk.from < near || walk.to - change.theta < near) continue;
+    const std::optional<Borne> all = borne_at(design, walk, change.theta);
     ASSERT_TRUE(all) << "at " << change.theta;
     EXPECT_EQ(told_at(map, change.theta), zeros_at(*all)) << "at " << change.theta;
   }
@@ -94,7 +95,7 @@ void hold(const DoubleButterfly& design, const LocusMap& map, const Walk& own, T
     if (!is_loss(point)) continue;
     ++tally.points;
     tally.uncertified += point.certified ? 0 : 1;
-    const std::optional<Borne> all = borne_at(design, own, point.at[0]);
+    const std::optional<Borne> all = borne_at(design, walk, point.at[0]);
     ASSERT_TRUE(all) << "nothing closes at " << point.at[0];
     const std::set<std::string> zeros = zeros_at(*all);
     for (const std::string& name : told_at(map, point.at[0]))
@@ -126,10 +127,10 @@ TEST(GroupLaw, DoubleButterfliesAreThoseOfAContinuation) {
           << what;
       continue;
     }
-    const std::optional<Walk> own = walk(design, reach);
+    const std::optional<Walk> this_walk = walk(design, reach);
     const LocusMap map = trace_loci(*model);
-    if (own) {
-      hold(design, map, *own, tally);
+    if (this_walk) {
+      hold(design, map, *this_walk, tally);
       continue;
     }
     // Where assembly curves meet there is no way on: then that end of the range is not proven.

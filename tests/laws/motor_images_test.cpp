@@ -30,8 +30,8 @@ using Vector = std::array<double, 2>;
 using mechanism::VectorExpression;
 
 Vector place_of(const Pose& pose, const std::string& name) {
-  for (const PosePoint& own : pose.points)
-    if (own.name == name) return {own.at[0], own.at[1]};
+  for (const PosePoint& point : pose.points)
+    if (point.name == name) return {point.at[0], point.at[1]};
   ADD_FAILURE() << name;
   return {};
 }
@@ -151,7 +151,7 @@ std::string over_motors(const std::string& text, const Motors& motors, const Pos
 
 std::set<std::string> names_in(const std::vector<Vanishing>& all) {
   std::set<std::string> names;
-  for (const Vanishing& own : all) names.insert(to_string(own.quantity) + own.joint);
+  for (const Vanishing& vanishing : all) names.insert(to_string(vanishing.quantity) + vanishing.joint);
   return names;
 }
 
@@ -159,9 +159,9 @@ std::set<std::string> names_in(const std::vector<Vanishing>& all) {
 double distance_to(const Vector& at, const std::string& name, const LocusMap& map, const std::vector<double>& half) {
   double least = std::numeric_limits<double>::infinity();
   const auto scaled = [&](const Point2& p) -> Vector { return {(p[0] - at[0]) / half[0], (p[1] - at[1]) / half[1]}; };
-  for (const LocusCurve& own : map.curves) {
-    if (names_in(own.vanishing).count(name) == 0) continue;
-    for (const Arc& arc : own.arcs)
+  for (const LocusCurve& curve : map.curves) {
+    if (names_in(curve.vanishing).count(name) == 0) continue;
+    for (const Arc& arc : curve.arcs)
       for (std::size_t i = 1; i < arc.points.size(); ++i) {
         const Vector a = scaled(arc.points[i - 1]), b = scaled(arc.points[i]), way = {b[0] - a[0], b[1] - a[1]};
         const double square = way[0] * way[0] + way[1] * way[1];
@@ -174,10 +174,11 @@ double distance_to(const Vector& at, const std::string& name, const LocusMap& ma
 
 /// The same places of all points of the drawing.
 bool is_same(const Pose& one, const Pose& other, double within) {
-  return std::all_of(one.points.begin(), one.points.end(), [&](const PosePoint& own) {
+  return std::all_of(one.points.begin(), one.points.end(), [&](const PosePoint& pose_point) {
     const auto same = std::find_if(other.points.begin(), other.points.end(),
-                                   [&](const PosePoint& point) { return point.name == own.name; });
-    return same == other.points.end() || std::hypot(same->at[0] - own.at[0], same->at[1] - own.at[1]) < within;
+                                   [&](const PosePoint& point) { return point.name == pose_point.name; });
+    return same == other.points.end() ||
+           std::hypot(same->at[0] - pose_point.at[0], same->at[1] - pose_point.at[1]) < within;
   });
 }
 
@@ -207,8 +208,9 @@ std::vector<Sample> samples_of(const LocusMap& map, double size, std::size_t wan
 
 /// Points that are apart in a posture coincide: a leg may turn about them, so that the place does not tell the posture.
 bool is_folded(const Pose& pose, const Pose& posture, double size) {
-  const auto apart = [](const Pose& own, std::size_t i, std::size_t k) {
-    return std::hypot(own.points[i].at[0] - own.points[k].at[0], own.points[i].at[1] - own.points[k].at[1]);
+  const auto apart = [](const Pose& candidate, std::size_t i, std::size_t k) {
+    return std::hypot(candidate.points[i].at[0] - candidate.points[k].at[0],
+                      candidate.points[i].at[1] - candidate.points[k].at[1]);
   };
   for (std::size_t i = 0; i < pose.points.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
@@ -229,9 +231,9 @@ TEST_P(MotorImages, LociAreThoseOverTheEndEffector) {
   std::string text = example_text(GetParam());
   // A drawing moves the points of links alone.
   for (const char* const leg : {"1", "2"}) {
-    const std::string own = fmt::format("points: [A{0}], mass: 1, com: G{0}", leg);
-    if (text.find(own) != std::string::npos)
-      text = replaced(text, own, fmt::format("points: [A{0}, G{0}], mass: 1, com: G{0}", leg));
+    const std::string format = fmt::format("points: [A{0}], mass: 1, com: G{0}", leg);
+    if (text.find(format) != std::string::npos)
+      text = replaced(text, format, fmt::format("points: [A{0}, G{0}], mass: 1, com: G{0}", leg));
   }
   const Model model = Model::parse(text, "place.yaml");
   const Motors motors(model);
@@ -241,8 +243,8 @@ TEST_P(MotorImages, LociAreThoseOverTheEndEffector) {
   const std::string end = end_point(model);
   std::vector<double> half, places;
   double size = 0;
-  for (const auto& own : model.coordinates()) {
-    places.push_back((own.upper - own.lower) / 2);
+  for (const auto& coordinate : model.coordinates()) {
+    places.push_back((coordinate.upper - coordinate.lower) / 2);
     size = std::max(size, places.back());
   }
   for (std::size_t k = 0; k < 2; ++k) half.push_back(motors.slides(k) ? 0.5 * size : 0.8);
@@ -291,7 +293,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, MotorImages,
                                            "five_bar_horizontal", "five_bar_inclined", "five_bar_isolated",
                                            "five_bar_preloaded", "five_bar_weights", "minitaur_leg", "planar_delta",
                                            "prrrp", "rprpr"),
-                         [](const auto& own) { return std::string(own.param); });
+                         [](const auto& candidate) { return std::string(candidate.param); });
 
 }  // namespace
 }  // namespace clearloci::test

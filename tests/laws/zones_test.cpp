@@ -349,8 +349,8 @@ TEST(Zones, HaveNoSignOfWhatChangesInsideThem) {
     ASSERT_GE(map.zones.size(), 3u);
     for (const core::Zone& zone : map.zones) {
       const auto told = [&](core::Quantity quantity) {
-        return std::count_if(zone.signs.begin(), zone.signs.end(), [&](const auto& own) {
-          return own.first.joint == "S2" && own.first.quantity == quantity;
+        return std::count_if(zone.signs.begin(), zone.signs.end(), [&](const auto& sign) {
+          return sign.first.joint == "S2" && sign.first.quantity == quantity;
         });
       };
       EXPECT_EQ(told(core::Quantity::N), 0) << zone.id;
@@ -372,14 +372,15 @@ TEST(Zones, HaveNoSignOfWhatWasNotAskedFor) {
       request.quantities = asked;
       const core::Zones map = find_zones(mechanism, {request});
       expect_one_sign_a_zone(mechanism, map, random);
-      const auto is_asked = [&](core::Quantity own) {
-        return std::find(asked.begin(), asked.end(), own) != asked.end();
+      const auto is_asked = [&](core::Quantity quantity) {
+        return std::find(asked.begin(), asked.end(), quantity) != asked.end();
       };
       for (const core::Zone& zone : map.zones)
         for (const auto& [what, sign] : zone.signs) {
-          const core::Quantity own = what.quantity;
-          EXPECT_TRUE(is_asked(own) || (own == F && is_asked(M)) || (core::is_guide_end(own) && is_asked(f)))
-              << name << " " << zone.id << " " << core::to_string(own) << "_" << what.joint;
+          const core::Quantity quantity = what.quantity;
+          EXPECT_TRUE(is_asked(quantity) || (quantity == F && is_asked(M)) ||
+                      (core::is_guide_end(quantity) && is_asked(f)))
+              << name << " " << zone.id << " " << core::to_string(quantity) << "_" << what.joint;
         }
     }
   }
