@@ -203,7 +203,8 @@ Command add_verify_command(CLI::App& program) {
   add_export_argument(*app, arguments->formats,
                       fmt::format("Pictures besides verify.json, comma-separated: {}",
                                   fmt::join(report::format_names<core::Verification>(), ", ")));
-  add_certificate_argument(*app, arguments->certificate, "only if the task is verified, or no free efforts are proven to cure it");
+  add_certificate_argument(*app, arguments->certificate,
+                           "only if the task is verified, or no free efforts are proven to cure it");
   app->footer(
       "Example: clearloci verify examples/five_bar.yaml examples/tasks/pick_and_place.yaml\n"
       "Exit status: 0 verified: proven for every pose of the task and every load; 1 refuted: a pose at which the\n"
