@@ -58,8 +58,8 @@ class Hoist {
     read.at("points") = Node::map(std::move(found_), part("points").where());
     std::vector<Node::Pair> pairs;
     for (const auto& [key, content] : document_.node.pairs()) {
-      const auto own = key.IsScalar() ? read.find(key.Scalar()) : read.end();
-      pairs.emplace_back(key, own == read.end() ? content : own->second);
+      const auto found = key.IsScalar() ? read.find(key.Scalar()) : read.end();
+      pairs.emplace_back(key, found == read.end() ? content : found->second);
     }
     return {Node::map(std::move(pairs), document_.node.where()), document_.what, document_.where};
   }

@@ -45,7 +45,7 @@ class WrittenGear {
                        "write the mechanism in a plane, or actuate the joint that the gear turns");
     const bool rack = mapping_.find("along").has_value();
     for (const char* key : {"centre", "radius", "along"})
-      if (const auto own = mapping_.find(key); own && mapping_.find("teeth")) refuse_both(*own, key);
+      if (const auto value = mapping_.find(key); value && mapping_.find("teeth")) refuse_both(*value, key);
     if (!rack) read_teeth();
   }
 
@@ -101,18 +101,18 @@ class WrittenGear {
   }
 
  private:
-  [[noreturn]] void refuse_both(const Value& own, const std::string& key) const {
-    throw InputError(own.where, what_ + " has teeth and a " + key,
+  [[noreturn]] void refuse_both(const Value& value, const std::string& key) const {
+    throw InputError(value.where, what_ + " has teeth and a " + key,
                      "write centres and teeth, or centre, radius and along");
   }
 
   void read_teeth() {
     const Value written = mapping_.at("teeth");
     std::size_t i = 0;
-    for (const Value& own : elements(written, 2)) {
-      teeth_.at(i) = read_number(m_, part_of(own, "the teeth of " + what_, ""), Sign::any).value;
+    for (const Value& element : elements(written, 2)) {
+      teeth_.at(i) = read_number(m_, part_of(element, "the teeth of " + what_, ""), Sign::any).value;
       if (teeth_.at(i).get_den() != 1 || teeth_.at(i) == 0)
-        throw InputError(own.where, "the teeth of " + what_ + " are no whole number", "write such as [20, 40]");
+        throw InputError(element.where, "the teeth of " + what_ + " are no whole number", "write such as [20, 40]");
       ++i;
     }
     if (teeth_[0] < 0 || (teeth_[1] < 0 && -teeth_[1] <= teeth_[0]))
@@ -170,8 +170,9 @@ const BodyFrame* frame_of(const Mechanism& mechanism, const std::string& link) {
 }
 
 bool is_known(const Mechanism& mechanism, const Value& point) {
-  return point.is_scalar() && std::any_of(mechanism.points.begin(), mechanism.points.end(),
-                                          [&](const Point& own) { return own.name == point.node.Scalar(); });
+  return point.is_scalar() &&
+         std::any_of(mechanism.points.begin(), mechanism.points.end(),
+                     [&](const Point& candidate) { return candidate.name == point.node.Scalar(); });
 }
 
 /// The frame of the wheel `second`, which turns by `ratio` of the angle of the first.
@@ -211,11 +212,11 @@ Number centre_distance(const Mechanism& mechanism, const Mapping& mapping, const
   const std::vector<Value> centres = elements(mapping.at("centres"), 2);
   const auto place = [&](std::size_t wheel) -> const std::vector<Expression>& {
     const PointIndex point = read_point_name(mechanism, centres[wheel]);
-    const auto* own = std::get_if<ExplicitPoint>(&mechanism.points[static_cast<std::size_t>(point)].form);
-    if (own == nullptr || !coordinates_of(mechanism, point).empty())
+    const auto* explicit_point = std::get_if<ExplicitPoint>(&mechanism.points[static_cast<std::size_t>(point)].form);
+    if (explicit_point == nullptr || !coordinates_of(mechanism, point).empty())
       throw InputError(mapping.at("centres").where, what + " has centres that move, on a carrier",
                        "add distance: and the distance between them");
-    return own->coordinates;
+    return explicit_point->coordinates;
   };
   const std::vector<Expression>&a = place(0), &b = place(1);
   const Expression apart = hypotenuse(difference_of(b[0], a[0]), difference_of(b[1], a[1]));
@@ -349,8 +350,8 @@ void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints)
     if (known == 1) phase = product_of(Expression::number(-ratio), phase);
     if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(at[1 - known])].form))
       continue;
-    BodyFrame own = turned_with(*frames[known], ratio, phase, at[1 - known], names[1 - known]);
-    mechanism.body_frames.push_back(std::move(own));
+    BodyFrame frame = turned_with(*frames[known], ratio, phase, at[1 - known], names[1 - known]);
+    mechanism.body_frames.push_back(std::move(frame));
   }
 }
 

@@ -219,7 +219,7 @@ void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint)
   const auto range = read_within(mechanism, *within, effort.field);
   const std::set<std::string> names = symbols(*joint.effort);
   if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
-                  [&](const Coordinate& own) { return names.contains(own.name); }))
+                  [&](const Coordinate& coordinate) { return names.contains(coordinate.name); }))
     joint.law_within = range;
   if (!names.empty()) return;
   if (const Rational given = value_of(*joint.effort, mechanism); given < range.first || given > range.second)

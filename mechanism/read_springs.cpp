@@ -81,18 +81,19 @@ void read_torsion(const Mechanism& mechanism, const Mapping& mapping, Spring& sp
   Value joint = mapping.at("joint");
   const std::string name = text_of(joint);
   std::vector<std::string> known;
-  for (const Joint& own : mechanism.joints) known.push_back(own.name);
+  for (const Joint& entry : mechanism.joints) known.push_back(entry.name);
   const auto found = std::find(known.begin(), known.end(), name);
   if (found == known.end())
     throw InputError(joint.where, "spring " + spring.name + ": there is no joint '" + name + "'",
                      suggest(name, known, "joints"));
   spring.joint = static_cast<JointIndex>(found - known.begin());
-  const Joint& own = mechanism.joints[static_cast<std::size_t>(spring.joint)];
-  if (own.type != JointType::revolute)
-    throw InputError(joint.where, "spring " + spring.name + " is in the " + to_string(own.type) + " joint " + name,
+  const Joint& spring_joint = mechanism.joints[static_cast<std::size_t>(spring.joint)];
+  if (spring_joint.type != JointType::revolute)
+    throw InputError(joint.where,
+                     "spring " + spring.name + " is in the " + to_string(spring_joint.type) + " joint " + name,
                      "torsion springs are in revolute joints; elsewhere write links: [..., ...], at: [..., ...]");
-  spring.from = own.from;
-  spring.to = own.to;
+  spring.from = spring_joint.from;
+  spring.to = spring_joint.to;
   spring.stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring).expression;
   if (mapping.find("rest")) spring.rest = part(mechanism, mapping, "rest", Sign::any, spring).expression;
   for (const LinkIndex link : {spring.from, spring.to}) check_direction(mechanism, spring, link);

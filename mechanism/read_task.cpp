@@ -56,21 +56,21 @@ std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const V
                        known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
     const Parameter& parameter = *parameter_named(mechanism, entry.key);
     entry.value.what = "the tolerance of " + entry.key;
-    core::Tolerance own{entry.key, 0, 0};
+    core::Tolerance tolerance{entry.key, 0, 0};
     if (entry.value.is_sequence()) {
       const std::vector<Value> ends = elements(entry.value, 2);
-      own.below = read_parameter_value(mechanism, parameter, ends[0]);
-      own.above = read_parameter_value(mechanism, parameter, ends[1]);
+      tolerance.below = read_parameter_value(mechanism, parameter, ends[0]);
+      tolerance.above = read_parameter_value(mechanism, parameter, ends[1]);
     } else {
-      own.above = read_parameter_value(mechanism, parameter, entry.value);
-      if (own.above < 0)
+      tolerance.above = read_parameter_value(mechanism, parameter, entry.value);
+      if (tolerance.above < 0)
         throw InputError(entry.value.where, entry.value.what + " is negative", "write 0 or a value above 0");
-      own.below = -own.above;
+      tolerance.below = -tolerance.above;
     }
-    if (own.below > 0 || own.above < 0)
+    if (tolerance.below > 0 || tolerance.above < 0)
       throw InputError(entry.value.where, entry.value.what + " does not contain the value of the parameter",
                        "write a number, or [below, above] with below <= 0 <= above");
-    tolerances.push_back(std::move(own));
+    tolerances.push_back(std::move(tolerance));
   }
   return tolerances;
 }
@@ -78,9 +78,9 @@ std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const V
 /// [{load: 1, radius: 20, couple: 2}], loads counted from 1.
 std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, const Value& value) {
   std::vector<core::LoadWithin> all;
-  for (Value own : elements(value)) {
-    own.what = "entry " + std::to_string(all.size() + 1) + " of " + value.what;
-    const Mapping keys(own, {"load", "radius", "couple"});
+  for (Value element : elements(value)) {
+    element.what = "entry " + std::to_string(all.size() + 1) + " of " + value.what;
+    const Mapping keys(element, {"load", "radius", "couple"});
     const Value which = keys.at("load");
     const Rational number = read_number(mechanism, which, Sign::positive).value;
     if (number.get_den() != 1 || number > static_cast<long>(mechanism.loads.size()))
@@ -96,7 +96,7 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
     if (const auto couple = keys.find("couple"))
       within.couple = read_number(mechanism, *couple, Sign::not_negative).value;
     if (within.force > 0 && !mechanism.loads[within.load].at)
-      throw InputError(own.where, own.what + " varies the force of a load that is a couple alone",
+      throw InputError(element.where, element.what + " varies the force of a load that is a couple alone",
                        "give the load a point and a force, or leave out the radius");
     all.push_back(within);
   }

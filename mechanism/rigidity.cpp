@@ -56,7 +56,7 @@ bool is_constant(const Mechanism& mechanism, const VectorExpression& vector) {
   return std::none_of(numbers.begin(), numbers.end(), [&](const Expression& number) {
     const std::set<std::string> names = symbols(number);
     return std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
-                       [&](const Coordinate& own) { return names.contains(own.name); });
+                       [&](const Coordinate& coordinate) { return names.contains(coordinate.name); });
   });
 }
 
@@ -65,18 +65,18 @@ class Construction {
  public:
   explicit Construction(const Mechanism& mechanism) : m_(mechanism) {
     for (std::size_t i = 0; i < m_.points.size(); ++i) {
-      const auto own = static_cast<PointIndex>(i);
+      const auto index = static_cast<PointIndex>(i);
       if (const auto* dyad = std::get_if<DyadPoint>(&m_.points[i].form)) {
-        held_.insert(pair_of(own, dyad->from));
-        if (!dyad->right_angle) held_.insert(pair_of(own, dyad->to));
+        held_.insert(pair_of(index, dyad->from));
+        if (!dyad->right_angle) held_.insert(pair_of(index, dyad->to));
       } else if (const auto* slider = std::get_if<SliderPoint>(&m_.points[i].form)) {
-        held_.insert(pair_of(own, slider->from));
+        held_.insert(pair_of(index, slider->from));
       } else if (const auto* shifted = std::get_if<ShiftedPoint>(&m_.points[i].form)) {
-        if (is_constant(m_, shifted->by)) held_.insert(pair_of(own, shifted->from));
+        if (is_constant(m_, shifted->by)) held_.insert(pair_of(index, shifted->from));
       }
     }
     for (const Group& group : m_.groups)
-      for (const Group::Distance& own : group.distances) held_.insert(pair_of(own.first, own.second));
+      for (const Group::Distance& distance : group.distances) held_.insert(pair_of(distance.first, distance.second));
   }
 
   /// A distance between a point on the way between two points and another one follows from those of the two.
@@ -90,7 +90,7 @@ class Construction {
     if (const auto* shifted = std::get_if<ShiftedPoint>(&form)) {
       const std::set<PointIndex> used = points_of(shifted->by);
       return is_built_by_roots(shifted->from) ||
-             std::any_of(used.begin(), used.end(), [&](PointIndex own) { return is_built_by_roots(own); });
+             std::any_of(used.begin(), used.end(), [&](PointIndex candidate) { return is_built_by_roots(candidate); });
     }
     return true;
   }
@@ -100,8 +100,8 @@ class Construction {
     constexpr int deepest = 6;
     if (a == b || held_.contains(pair_of(a, b))) return true;
     if (depth == deepest) return false;
-    for (const auto& [own, other] : {std::pair(a, b), std::pair(b, a)}) {
-      const PointForm& form = form_of(m_, own);
+    for (const auto& [near_end, other] : {std::pair(a, b), std::pair(b, a)}) {
+      const PointForm& form = form_of(m_, near_end);
       std::optional<Pair> ends;
       bool beside = false;
       if (const auto* mean = std::get_if<MeanPoint>(&form)) ends = {mean->first, mean->second};
@@ -172,17 +172,17 @@ std::vector<Sampled> sampled_distances(const Mechanism& mechanism, const std::ve
         const PointIndex a = points[j], b = points[i];
         const bool by_sides = construction.is_built_by_roots(a) || construction.is_built_by_roots(b);
         if (construction.holds(a, b) || (by_sides_alone && !by_sides)) continue;
-        Sampled& own = all.emplace_back(Sampled{{static_cast<LinkIndex>(l), a, b, 0, by_sides}, {}, 0, {}});
+        Sampled& sampled = all.emplace_back(Sampled{{static_cast<LinkIndex>(l), a, b, 0, by_sides}, {}, 0, {}});
         double farthest = 0;
         for (const SampledPosture& posture : postures) {
           const Vector &p = posture.points[static_cast<std::size_t>(a)],
                        &q = posture.points[static_cast<std::size_t>(b)];
-          own.lengths.push_back(distance(p, q));
+          sampled.lengths.push_back(distance(p, q));
           farthest = std::max({farthest, distance(p, {}), distance(q, {})});
         }
-        own.tolerance = bending * size + rounding * farthest;
-        own.usual = usual_value(own.lengths, own.tolerance);
-        own.held.length = own.usual.value_or(0);
+        sampled.tolerance = bending * size + rounding * farthest;
+        sampled.usual = usual_value(sampled.lengths, sampled.tolerance);
+        sampled.held.length = sampled.usual.value_or(0);
       }
   }
   return all;
@@ -234,8 +234,8 @@ double turn_of(const std::vector<PointIndex>& points, const PosturePoints& postu
 
 /// Whether a sampled posture keeps the distances.
 bool keeps(const std::vector<Sampled>& distances, std::size_t posture) {
-  return std::all_of(distances.begin(), distances.end(), [&](const Sampled& own) {
-    return !own.usual || std::abs(own.lengths[posture] - *own.usual) <= own.tolerance;
+  return std::all_of(distances.begin(), distances.end(), [&](const Sampled& sampled) {
+    return !sampled.usual || std::abs(sampled.lengths[posture] - *sampled.usual) <= sampled.tolerance;
   });
 }
 
@@ -252,15 +252,16 @@ void add_turns(const Mechanism& mechanism, LinkIndex index, const std::vector<Sa
   const double powers = static_cast<double>(corners) - 1;  // of a length in a turn
   const double least = std::pow(flat, powers - 1) * std::pow(size, powers);
   for (std::size_t i = corners - 1; i < points.size(); ++i) {
-    std::vector<PointIndex> own(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(corners) - 1);
-    own.push_back(points[i]);
-    if (std::none_of(own.begin(), own.end(), [&](PointIndex p) { return construction.is_built_by_roots(p); })) continue;
+    std::vector<PointIndex> chosen(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(corners) - 1);
+    chosen.push_back(points[i]);
+    if (std::none_of(chosen.begin(), chosen.end(), [&](PointIndex p) { return construction.is_built_by_roots(p); }))
+      continue;
     std::vector<double> sizes;
     for (std::size_t p = 0; p < postures.size(); ++p)
-      if (kept[p]) sizes.push_back(turn_of(own, postures[p].points));
+      if (kept[p]) sizes.push_back(turn_of(chosen, postures[p].points));
     if (sizes.empty()) continue;
     const auto usual = usual_value(sizes, bending * std::pow(size, powers));
-    if (usual && std::abs(*usual) > least) result.turns.push_back({index, own, *usual});
+    if (usual && std::abs(*usual) > least) result.turns.push_back({index, chosen, *usual});
   }
 }
 
@@ -282,8 +283,9 @@ HeldByLinks held_by_links(const Mechanism& mechanism) {
   const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), enough_postures);
   if (postures.size() < 2) return result;
   const std::vector<Sampled> distances = sampled_distances(mechanism, postures, true);
-  for (const Sampled& own : distances)  // of points in one place there is no ratio, nor a side to be on
-    if (own.usual && *own.usual > own.tolerance / bending * least_part) result.distances.push_back(own.held);
+  for (const Sampled& sampled : distances)  // of points in one place there is no ratio, nor a side to be on
+    if (sampled.usual && *sampled.usual > sampled.tolerance / bending * least_part)
+      result.distances.push_back(sampled.held);
   std::vector<bool> kept;
   for (std::size_t p = 0; p < postures.size(); ++p) kept.push_back(keeps(distances, p));
   for (std::size_t l = 0; l < mechanism.links.size(); ++l)
@@ -294,9 +296,10 @@ HeldByLinks held_by_links(const Mechanism& mechanism) {
 void check_rigidity(const Mechanism& mechanism) {
   const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), enough_postures);
   if (postures.size() < 2) return;
-  for (const Sampled& own : sampled_distances(mechanism, postures, false)) {
-    const auto [least, greatest] = std::minmax_element(own.lengths.begin(), own.lengths.end());
-    if (!own.usual || (!own.held.by_sides && *greatest - *least > own.tolerance)) refuse(mechanism, own, postures);
+  for (const Sampled& sampled : sampled_distances(mechanism, postures, false)) {
+    const auto [least, greatest] = std::minmax_element(sampled.lengths.begin(), sampled.lengths.end());
+    if (!sampled.usual || (!sampled.held.by_sides && *greatest - *least > sampled.tolerance))
+      refuse(mechanism, sampled, postures);
   }
 }
 
@@ -309,7 +312,7 @@ bool keeps(const HeldDistance& held, const PosturePoints& points) {
 bool keeps(const HeldTurn& held, const PosturePoints& points) { return turn_of(held.points, points) / held.size > 0; }
 
 bool keeps(const HeldByLinks& held, const PosturePoints& points) {
-  const auto kept = [&](const auto& own) { return keeps(own, points); };
+  const auto kept = [&](const auto& candidate) { return keeps(candidate, points); };
   return std::all_of(held.distances.begin(), held.distances.end(), kept) &&
          std::all_of(held.turns.begin(), held.turns.end(), kept);
 }

@@ -317,21 +317,21 @@ void hang(Source& source, const SourceJoint& joint, bool to_is_placed, double si
 
 /// Link after link from the ground outwards: of what is planar a planar posture, though loops are open.
 Source spread_out(const Source& source, Spread& spread) {
-  Source own = source;
+  Source spread_source = source;
   const double size = size_of(source);
-  std::vector<bool> placed(own.links.size());
+  std::vector<bool> placed(spread_source.links.size());
   const auto is_placed = [&](int link) { return link == ground_link || placed[static_cast<std::size_t>(link)]; };
   for (bool more = true; more;) {
     more = false;
-    for (std::size_t j = 0; j < own.joints.size(); ++j) {
-      const SourceJoint joint = own.joints[j];
+    for (std::size_t j = 0; j < spread_source.joints.size(); ++j) {
+      const SourceJoint joint = spread_source.joints[j];
       if (joint.dropped || is_placed(joint.from) == is_placed(joint.to)) continue;
-      hang(own, joint, is_placed(joint.to), size, spread);
+      hang(spread_source, joint, is_placed(joint.to), size, spread);
       placed[static_cast<std::size_t>(is_placed(joint.to) ? joint.from : joint.to)] = true;
       more = true;
     }
   }
-  return own;
+  return spread_source;
 }
 
 /// Two joints without a link in common are in one place: a posture in which a loop is folded, at a branching of its
@@ -370,8 +370,8 @@ bool within_ranges(Source& source) {
 void move_link(Source& source, int link, const Vec& centre, const Vec& shift, const Rotation& r) {
   const auto place_of = [&](Vec& at) { at = centre + shift + r * (at - centre); };
   for (SourceJoint& joint : source.joints) {
-    for (auto [own, side] : {std::pair{joint.from, &joint.on_from}, std::pair{joint.to, &joint.on_to}}) {
-      if (own != link) continue;
+    for (auto [end, side] : {std::pair{joint.from, &joint.on_from}, std::pair{joint.to, &joint.on_to}}) {
+      if (end != link) continue;
       place_of(side->at);
       side->frame = r * side->frame;
     }
@@ -393,9 +393,9 @@ void move_link(Source& source, int link, const Vec& centre, const Vec& shift, co
   for (SourceMesh& mesh : source.meshes)
     for (std::size_t i = 0; i < 2; ++i)
       if (mesh.links[i] == link) place_of(mesh.at[i]);
-  SourceLink& own = source.links[static_cast<std::size_t>(link)];
-  if (own.centre) place_of(*own.centre);
-  if (own.inertia) own.inertia = imports::turned(r, *own.inertia);
+  SourceLink& source_link = source.links[static_cast<std::size_t>(link)];
+  if (source_link.centre) place_of(*source_link.centre);
+  if (source_link.inertia) source_link.inertia = imports::turned(r, *source_link.inertia);
 }
 
 double size_of(const Source& source) {
