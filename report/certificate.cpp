@@ -119,8 +119,8 @@ Json vanishing_list(const std::vector<core::Vanishing>& vanishing) {
 
 Json demands_list(const std::vector<core::TaskDemand>& demands) {
   Json list = Json::array();
-  for (const core::TaskDemand& own : demands)
-    list.push_back({own.joint, core::to_string(own.quantity), core::to_string(own.least)});
+  for (const core::TaskDemand& demand : demands)
+    list.push_back({demand.joint, core::to_string(demand.quantity), core::to_string(demand.least)});
   return list;
 }
 
@@ -182,11 +182,11 @@ Json exact_list(const std::vector<double>& values) {
 
 Json law_of(const std::vector<core::PreloadLawCell>& law) {
   Json cells = Json::array();
-  for (const core::PreloadLawCell& own : law) {
+  for (const core::PreloadLawCell& cell : law) {
     Json efforts = Json::array(), gains = Json::array();
-    for (const std::vector<double>& values : own.efforts) efforts.push_back(exact_list(values));
-    for (const std::vector<double>& values : own.gains) gains.push_back(exact_list(values));
-    cells.push_back({exact_list(own.lower), exact_list(own.upper), std::move(efforts), std::move(gains)});
+    for (const std::vector<double>& values : cell.efforts) efforts.push_back(exact_list(values));
+    for (const std::vector<double>& values : cell.gains) gains.push_back(exact_list(values));
+    cells.push_back({exact_list(cell.lower), exact_list(cell.upper), std::move(efforts), std::move(gains)});
   }
   return {{"joints", law.front().joints}, {"cells", std::move(cells)}};
 }
@@ -211,12 +211,13 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
   root["quantities"] = Json::array();
   for (const core::Quantity quantity : problem.quantities) root["quantities"].push_back(core::to_string(quantity));
   root["roots"] = Json::array();
-  for (const core::Root& own : problem.tower.roots)
-    root["roots"].push_back({{"point", own.point},
-                             {"role", own.name == core::limit_name         ? "limit"
-                                      : own.role == core::RootRole::length ? "length"
-                                                                           : "working-mode"},
-                             {"square", program_text(own.line.empty() ? line_of(own.square) : own.line)}});
+  for (const core::Root& tower_root : problem.tower.roots)
+    root["roots"].push_back(
+        {{"point", tower_root.point},
+         {"role", tower_root.name == core::limit_name         ? "limit"
+                  : tower_root.role == core::RootRole::length ? "length"
+                                                              : "working-mode"},
+         {"square", program_text(tower_root.line.empty() ? line_of(tower_root.square) : tower_root.line)}});
   root["modes"] = problem.modes;
 
   Functions functions;
@@ -313,8 +314,8 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
       points.push_back(pose_list(pose));
   }
   Json parameters = Json::array();
-  for (const core::TaskCertificate::Range& own : certificate.parameters)
-    parameters.push_back({own.parameter, core::to_string(own.lower), core::to_string(own.upper)});
+  for (const core::TaskCertificate::Range& parameter : certificate.parameters)
+    parameters.push_back({parameter.parameter, core::to_string(parameter.lower), core::to_string(parameter.upper)});
   std::string shape = core::kind_of(task.shape);
   if (shape == "circle") shape = "ball";
   root["pose_task"] = {{"shape", shape},
@@ -332,8 +333,9 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
   }
   if (task.loads)
     root["pose_task"]["loads_from"] = Json::array({pose_list(task.loads->first), pose_list(task.loads->second)});
-  for (const core::LoadWithin& own : task.loads_within)
-    root["pose_task"]["loads_within"].push_back({own.load, core::to_string(own.force), core::to_string(own.couple)});
+  for (const core::LoadWithin& load_range : task.loads_within)
+    root["pose_task"]["loads_within"].push_back(
+        {load_range.load, core::to_string(load_range.force), core::to_string(load_range.couple)});
   if (!law.empty()) root["pose_task"]["law"] = law_of(law);
   return text_of(root);
 }
@@ -344,20 +346,20 @@ std::string certificate_text(const CertificateSource& source, const core::RangeC
   Json modes = Json::array();
   for (const core::RangeCertificate::Mode& mode : certificate.modes) {
     Json free = Json::array(), points = Json::array(), open = Json::array();
-    for (const core::RangeCertificate::Free& own : mode.free) {
+    for (const core::RangeCertificate::Free& entry : mode.free) {
       Json signs = Json::array();
-      for (const auto& [what, sign] : own.signs) signs.push_back({what.joint, core::to_string(what.quantity), sign});
-      free.push_back({{"zone", own.zone},
-                      {"from", core::to_string(own.from)},
-                      {"to", core::to_string(own.to)},
-                      {"assembly_mode", own.assembly_mode},
+      for (const auto& [what, sign] : entry.signs) signs.push_back({what.joint, core::to_string(what.quantity), sign});
+      free.push_back({{"zone", entry.zone},
+                      {"from", core::to_string(entry.from)},
+                      {"to", core::to_string(entry.to)},
+                      {"assembly_mode", entry.assembly_mode},
                       {"signs", std::move(signs)}});
     }
-    for (const core::IsolatedPoint& own : mode.points)
-      points.push_back({{"at", core::to_string(core::Rational(own.at.front()))},
-                        {"kind", core::to_string(own.kind)},
-                        {"vanishing", vanishing_list(own.vanishing)},
-                        {"certified", own.certified}});
+    for (const core::IsolatedPoint& point : mode.points)
+      points.push_back({{"at", core::to_string(core::Rational(point.at.front()))},
+                        {"kind", core::to_string(point.kind)},
+                        {"vanishing", vanishing_list(point.vanishing)},
+                        {"certified", point.certified}});
     for (const auto& [from, to] : mode.open) open.push_back({core::to_string(from), core::to_string(to)});
     modes.push_back({{"sides", mode.sides},
                      {"demands", demands_list(mode.demands)},

@@ -151,8 +151,8 @@ void find_shared_reasons(Groups& groups) {
     for (const core::Vanishing& one : group.vanishing) {
       const std::string common = without_joint(group.why, one.joint);
       if (common.empty()) continue;
-      const auto known =
-          std::find_if(sentences.begin(), sentences.end(), [&](const auto& own) { return own.first == common; });
+      const auto known = std::find_if(sentences.begin(), sentences.end(),
+                                      [&](const auto& sentence) { return sentence.first == common; });
       if (known == sentences.end())
         sentences.push_back({common, {&group}});
       else if (known->second.back() != &group)
@@ -172,8 +172,8 @@ void tell_shared_reasons(Groups& groups) {
   std::vector<std::pair<std::string, std::string>> remarks;
   for (const CurveGroup& group : groups.curves) {
     if (group.shared_why.empty()) continue;
-    const auto known =
-        std::find_if(remarks.begin(), remarks.end(), [&](const auto& own) { return own.first == group.shared_why; });
+    const auto known = std::find_if(remarks.begin(), remarks.end(),
+                                    [&](const auto& remark) { return remark.first == group.shared_why; });
     if (known == remarks.end())
       remarks.emplace_back(group.shared_why, ids_of(group));
     else

@@ -86,8 +86,8 @@ std::vector<ExportedFile> files_checked(const Answer& answer, const std::set<std
                                         const std::vector<std::string>& known = report::format_names<Answer>()) {
   check(formats, known);
   std::vector<ExportedFile> files;
-  for (report::File& own : report::files_of(answer, formats))
-    files.push_back({std::move(own.name), std::move(own.bytes)});
+  for (report::File& file : report::files_of(answer, formats))
+    files.push_back({std::move(file.name), std::move(file.bytes)});
   return files;
 }
 
