@@ -92,7 +92,7 @@ std::vector<Model::Value> efforts_of(const Model& model, const Verification& res
   std::vector<Model::Value> efforts;
   const auto joint_of = [&](const std::string& name) -> const mechanism::Joint& {
     const std::vector<mechanism::Joint>& all = model.content().mechanism.joints;
-    return *std::find_if(all.begin(), all.end(), [&](const mechanism::Joint& own) { return own.name == name; });
+    return *std::find_if(all.begin(), all.end(), [&](const mechanism::Joint& joint) { return joint.name == name; });
   };
   const auto add = [&](const mechanism::Joint& joint, const core::Rational& value) {
     const char* const unit = mechanism::actuator_quantity(joint) == core::Quantity::F ? " N" : " N m";
