@@ -218,8 +218,8 @@ class InstantEquations {
     return between(points.at(0), points.at(1));
   }
 
-  PointSeries series_of(const BodyDirection& own) const {
-    return own.axis ? vector(*own.axis) : between(own.from, own.to);
+  PointSeries series_of(const BodyDirection& direction) const {
+    return direction.axis ? vector(*direction.axis) : between(direction.from, direction.to);
   }
 
   /// The first two that are well apart, else those that are farthest apart.
@@ -254,9 +254,9 @@ class InstantEquations {
 std::string place_words(const Motion& motion, const Instant& at) {
   std::string text;
   for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
-    const mechanism::Coordinate& own = motion.model.mechanism.coordinates[c];
-    text += (c == 0 ? "" : ", ") + own.name + " = " +
-            core::told(at.coordinates[c].value(), own.angle ? "rad" : "m", motion.model.mechanism.units);
+    const mechanism::Coordinate& coordinate = motion.model.mechanism.coordinates[c];
+    text += (c == 0 ? "" : ", ") + coordinate.name + " = " +
+            core::told(at.coordinates[c].value(), coordinate.angle ? "rad" : "m", motion.model.mechanism.units);
   }
   return text;
 }
@@ -311,11 +311,11 @@ namespace {
 /// The guide in which a link with a single point turns: an axis of a prismatic joint is fixed in both of its links.
 mechanism::JointIndex guide_of(const mechanism::Mechanism& mechanism, mechanism::LinkIndex link) {
   if (mechanism.links[static_cast<std::size_t>(link)].points.size() > 1) return -1;
-  const auto own = std::find_if(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
+  const auto found = std::find_if(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
     return mechanism::traits(joint).slides && !mechanism::is_slot(mechanism, joint) && !mechanism::is_cable(joint) &&
            (joint.from == link || joint.to == link);
   });
-  return own == mechanism.joints.end() ? -1 : static_cast<mechanism::JointIndex>(own - mechanism.joints.begin());
+  return found == mechanism.joints.end() ? -1 : static_cast<mechanism::JointIndex>(found - mechanism.joints.begin());
 }
 
 /// The links that turn with a link, which guides hold to it; itself first.
@@ -477,14 +477,14 @@ PressingForce pressing_force(const Motion& motion, const Instant& at, mechanism:
     return {values(c.normal) * across, rates(c.normal) * across + values(c.normal) * across_rate};
   }
   const auto force = [&](const Eigen::VectorXd& w) { return Vector3d(w(c.fx), w(c.fy), c.fz < 0 ? 0.0 : w(c.fz)); };
-  PressingForce own{force(values), force(rates)};
-  if (c.fz < 0 || !mechanism::traits(motion.model.mechanism.joints[j]).turns_about_axis()) return own;
+  PressingForce pressing_force{force(values), force(rates)};
+  if (c.fz < 0 || !mechanism::traits(motion.model.mechanism.joints[j]).turns_about_axis()) return pressing_force;
   // f - u (u·f), differentiated
   const Vector3d &u = at.axes[j], &turn = at.axes_rate[j];
-  const double along = u.dot(own.value);
-  own.rate -= turn * along + u * (turn.dot(own.value) + u.dot(own.rate));
-  own.value -= u * along;
-  return own;
+  const double along = u.dot(pressing_force.value);
+  pressing_force.rate -= turn * along + u * (turn.dot(pressing_force.value) + u.dot(pressing_force.rate));
+  pressing_force.value -= u * along;
+  return pressing_force;
 }
 
 InstantError instant_error(const Motion& motion, const Instant& at, double period) {

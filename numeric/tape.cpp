@@ -151,7 +151,7 @@ struct Compiling {
   const std::function<Register(const std::string&)>& name;
 
   Register number(const core::Rational& value) const { return tape.constant(from_rational(value)); }
-  Register symbol(const std::string& own) const { return name(own); }
+  Register symbol(const std::string& symbol_name) const { return name(symbol_name); }
   Register pi() const { return tape.constant({std::numbers::pi, unit_roundoff * std::numbers::pi}); }
   Register negate(Register a) const { return tape.negate(a); }
   Register add(Register a, Register b) const { return tape.add(a, b); }

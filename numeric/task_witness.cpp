@@ -93,8 +93,8 @@ std::vector<Bounded> demanded_parts(const NumericModel& model, const core::TaskD
   for (const Quantity quantity : quantities)
     if (column_of(model, index, quantity) >= 0) parts.push_back(value(quantity));
   if (demand.quantity == Quantity::f && mechanism::presses_across_axis(model.mechanism, *joint)) {
-    const std::array<Bounded, 3> own = across(numerators.axes[static_cast<std::size_t>(index)], parts);
-    return {own.begin(), own.end()};
+    const std::array<Bounded, 3> values = across(numerators.axes[static_cast<std::size_t>(index)], parts);
+    return {values.begin(), values.end()};
   }
   return parts;
 }
@@ -111,7 +111,7 @@ double TaskWitness::rounding_at(std::span<const Bounded> at, std::size_t c) cons
 
 std::pair<int, int> TaskWitness::reached_around(std::span<const Bounded> at, double many) const {
   std::vector<double> pose;
-  for (const Bounded& own : at) pose.push_back(own.value);
+  for (const Bounded& value : at) pose.push_back(value.value);
   int reached = 0, all = 0;
   const auto look = [&] {
     ++all;
@@ -151,7 +151,7 @@ std::optional<TaskFailure> TaskWitness::failure_of_pose(std::span<const Bounded>
                                                         std::optional<Solved>& solved) const {
   using Kind = TaskFailure::Kind;
   std::vector<double> pose;
-  for (const Bounded& own : at) pose.push_back(own.value);
+  for (const Bounded& value : at) pose.push_back(value.value);
   const NumericModel& model = *loads_.ends.front();
   const auto& groups = model.mechanism.groups;
   if (!reachable(model, pose, mode_)) {
@@ -163,30 +163,31 @@ std::optional<TaskFailure> TaskWitness::failure_of_pose(std::span<const Bounded>
   if (closely && groups.empty())
     if (const auto [reached, all] = reached_around(at, boundary_spacings); reached < all)
       return TaskFailure{Kind::boundary};
-  Solved own{numerators(loads_.ends, at, spacings), numerators(loads_.directions, at, spacings)};
-  if (!own.ends.front().reachable) return std::nullopt;
-  const Bounded& determinant = own.ends.front().determinant;
+  Solved solution{numerators(loads_.ends, at, spacings), numerators(loads_.directions, at, spacings)};
+  if (!solution.ends.front().reachable) return std::nullopt;
+  const Bounded& determinant = solution.ends.front().determinant;
   if (is_zero(determinant)) {
     if (determinant.error <= known_zero * usual_determinant_) return TaskFailure{Kind::singular};
     return std::nullopt;
   }
-  solved = std::move(own);
+  solved = std::move(solution);
   return std::nullopt;
 }
 
 std::optional<TaskFailure> TaskWitness::judged(int demand, const Solved& solved) const {
-  const core::TaskDemand& own = demands_[static_cast<std::size_t>(demand)];
+  const core::TaskDemand& task_demand = demands_[static_cast<std::size_t>(demand)];
   const NumericModel& model = *loads_.ends.front();
   LoadedParts parts;
-  for (const BoundedNumerators& end : solved.ends) parts.ends.push_back(demanded_parts(model, own, end));
-  for (const BoundedNumerators& way : solved.directions) parts.directions.push_back(demanded_parts(model, own, way));
-  if (own.bound)
-    if (auto found = failure_beyond_bound(own, parts.ends, solved.ends)) return found;
-  auto failure =
-      failure_under_least_load(own, parts, loads_.balls, solved.ends.front().determinant, usual_numerator(solved.ends));
-  if (failure && own.bound) {
+  for (const BoundedNumerators& end : solved.ends) parts.ends.push_back(demanded_parts(model, task_demand, end));
+  for (const BoundedNumerators& way : solved.directions)
+    parts.directions.push_back(demanded_parts(model, task_demand, way));
+  if (task_demand.bound)
+    if (auto found = failure_beyond_bound(task_demand, parts.ends, solved.ends)) return found;
+  auto failure = failure_under_least_load(task_demand, parts, loads_.balls, solved.ends.front().determinant,
+                                          usual_numerator(solved.ends));
+  if (failure && task_demand.bound) {
     failure->kind = TaskFailure::Kind::beyond_bound;
-    failure->size = core::to_double(own.bound->at);
+    failure->size = core::to_double(task_demand.bound->at);
   }
   return failure;
 }
@@ -236,11 +237,11 @@ bool TaskWitness::differs(std::span<const double> a, std::span<const double> b, 
     return !is_zero(x) && !is_zero(y) && (x.value > 0) != (y.value > 0);
   };
   if (demand < 0) return opposite(one.front().determinant, two.front().determinant);
-  const core::TaskDemand& own = demands_[static_cast<std::size_t>(demand)];
-  const auto line = lines_of_force(own, a, b);
+  const core::TaskDemand& task_demand = demands_[static_cast<std::size_t>(demand)];
+  const auto line = lines_of_force(task_demand, a, b);
   for (std::size_t load = 0; load < one.size(); ++load) {
-    const std::vector<Bounded> x = demanded_parts(*loads_.ends.front(), own, one[load]),
-                               y = demanded_parts(*loads_.ends.front(), own, two[load]);
+    const std::vector<Bounded> x = demanded_parts(*loads_.ends.front(), task_demand, one[load]),
+                               y = demanded_parts(*loads_.ends.front(), task_demand, two[load]);
     if (x.size() == 1 && opposite(x[0], y[0])) return true;
     if (line && opposite(along(x, (*line)[0]), along(y, (*line)[1]))) return true;
   }
