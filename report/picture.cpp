@@ -114,8 +114,4 @@ std::string task_picture(const core::Zones& map, const core::WorkingMode& mode, 
   return drawn({&map.loci, mode, groups_beside_zones(map, mode), nullptr, nullptr, &map, &task}, format);
 }
 
-std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode) {
-  return legend_of(groups_of_mode(group_loci(map), mode));
-}
-
 }  // namespace clearloci::report
