@@ -5,6 +5,7 @@
 // the latter a foot (DyadPoint::right_angle) whose side is part of the working mode, and a joint with the axis K -> W.
 // Teeth push and never pull: F > 0 where K is on the side of the flank that bears.
 #include <algorithm>
+#include <tuple>
 
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
@@ -251,11 +252,7 @@ Joint read_gear(const Mechanism& mechanism, const Entry& entry) {
   joint.type = JointType::gear;
   joint.name = entry.key;
   joint.where = entry.where;
-  const std::vector<Value> names = elements(gear.mapping().at("gear"), 2);
-  joint.from = read_link_name(mechanism, names[0], true);
-  joint.to = read_link_name(mechanism, names[1], true);
-  if (joint.from == joint.to)
-    throw InputError(names[1].where, "gear " + entry.key + " joins a wheel to itself", "name two different links");
+  std::tie(joint.from, joint.to) = read_two_links(mechanism, gear.mapping().at("gear"), "gear " + entry.key);
   joint.at = pitch_point(mechanism, entry.key);
   const PointIndex flank = pitch_point(mechanism, flank_name(entry.key));
   joint.axes = {way(flank, joint.at)};
@@ -327,17 +324,17 @@ void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints)
     const std::array<std::string, 2> names = {wheels[0].node.Scalar(), wheels[1].node.Scalar()};
     const std::array<const BodyFrame*, 2> frames = {frame_of(mechanism, names[0]), frame_of(mechanism, names[1])};
     if ((frames[0] == nullptr) == (frames[1] == nullptr)) continue;
-    const std::size_t known = frames[0] != nullptr ? 0 : 1;
-    if (!frames[known]->angle || names[1 - known] == "ground") continue;
+    const std::size_t wheel = frames[0] != nullptr ? 0 : 1;
+    if (!frames[wheel]->angle || names[1 - wheel] == "ground") continue;
     const std::array<PointIndex, 2> at = {read_point_name(mechanism, centres[0]),
                                           read_point_name(mechanism, centres[1])};
     if (!coordinates_of(mechanism, at[0]).empty() || !coordinates_of(mechanism, at[1]).empty())
       continue;  // relative to a carrier that turns
-    const Rational forward = ratio_of(mechanism, entry), ratio = known == 0 ? forward : 1 / forward;
+    const Rational forward = ratio_of(mechanism, entry), ratio = wheel == 0 ? forward : 1 / forward;
     if (ratio.get_den() != 1)
       throw InputError(entry.where,
-                       kind + " " + entry.key + " turns " + names[1 - known] + " by " + ratio.get_str() +
-                           " of the angle of " + names[known] +
+                       kind + " " + entry.key + " turns " + names[1 - wheel] + " by " + ratio.get_str() +
+                           " of the angle of " + names[wheel] +
                            ", whose cos and sin are no polynomials of those of the angle",
                        "make the angle of the wheel that turns less the coordinate: its frame under frames");
     Expression phase;
@@ -347,10 +344,10 @@ void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints)
             read_number(mechanism, part_of(part.value, "the phase of " + kind + " " + entry.key, "turned"), Sign::any)
                 .expression;
     // phase: of the second wheel where the first has not turned.
-    if (known == 1) phase = product_of(Expression::number(-ratio), phase);
-    if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(at[1 - known])].form))
+    if (wheel == 1) phase = product_of(Expression::number(-ratio), phase);
+    if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(at[1 - wheel])].form))
       continue;
-    BodyFrame frame = turned_with(*frames[known], ratio, phase, at[1 - known], names[1 - known]);
+    BodyFrame frame = turned_with(*frames[wheel], ratio, phase, at[1 - wheel], names[1 - wheel]);
     mechanism.body_frames.push_back(std::move(frame));
   }
 }
