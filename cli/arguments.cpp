@@ -286,25 +286,25 @@ std::pair<std::size_t, double> parse_slice(const std::string& text, const mechan
 }
 
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism) {
-  std::vector<std::string> known;
-  for (const mechanism::Joint& joint : mechanism.joints) known.push_back(joint.name);
+  std::vector<std::string> allowed;
+  for (const mechanism::Joint& joint : mechanism.joints) allowed.push_back(joint.name);
   std::vector<std::string> joints;
   for (const std::string& word : words)
     for (const std::string& name : split(word)) {
-      if (std::find(known.begin(), known.end(), name) == known.end())
+      if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
         refuse("--joint", fmt::format("the mechanism has no joint '{}'", name),
-               fmt::format("choose from {}", fmt::join(known, ", ")));
+               fmt::format("choose from {}", fmt::join(allowed, ", ")));
       if (std::find(joints.begin(), joints.end(), name) == joints.end()) joints.push_back(name);
     }
   return joints;
 }
 
-std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& known) {
+std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& allowed) {
   std::set<std::string> formats;
   for (const std::string& word : split(text)) {
-    if (std::find(known.begin(), known.end(), word) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
       throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
-                             fmt::format("choose from {}", fmt::join(known, ", ")));
+                             fmt::format("choose from {}", fmt::join(allowed, ", ")));
     formats.insert(word);
   }
   return formats;

@@ -147,11 +147,11 @@ std::string count_unknowns(const Mechanism& mechanism) {
     if (is_cable(joint) && unknowns == 0) continue;
     const bool alike = mechanism.space == Space::planar && !meshes && !is_slot(mechanism, joint);  // these bear two
     const std::string name = is_cable(joint) ? "point mass" : alike ? "joint" : to_string(joint.type) + " joint";
-    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
-    if (known == kinds.end())
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
+    if (found == kinds.end())
       kinds.push_back({unknowns, name, 1});
     else
-      ++known->count;
+      ++found->count;
   }
   std::string text;
   for (const Kind& kind : kinds)

@@ -19,9 +19,9 @@ struct Balances {
 };
 
 /// `known`: cables whose tension is given, and which are none.
-std::optional<Balances> balances_at(Mechanism m, const std::vector<JointIndex>& known,
+std::optional<Balances> balances_at(Mechanism m, const std::vector<JointIndex>& chosen,
                                     const std::vector<double>& pose) {
-  set_free_cables(m, known);
+  set_free_cables(m, chosen);
   const auto columns = reactions_at(m, pose);
   if (!columns) return std::nullopt;
   std::vector<std::array<double, 3>> places;
@@ -106,18 +106,18 @@ void set_free_cables(Mechanism& mechanism, const std::vector<JointIndex>& free) 
 }
 
 std::optional<std::vector<JointIndex>> best_free_cables(const Mechanism& mechanism, const std::vector<double>& pose) {
-  std::vector<JointIndex> known;
+  std::vector<JointIndex> chosen;
   for (const JointIndex j : cables_of(mechanism))
     if (const Joint& joint = mechanism.joints[static_cast<std::size_t>(j)];
         joint.effort && (!joint.free_effort || joint.free_effort->given))
-      known.push_back(j);
-  const auto balances = balances_at(mechanism, known, pose);
+      chosen.push_back(j);
+  const auto balances = balances_at(mechanism, chosen, pose);
   if (!balances) return std::nullopt;
   Pivots pivots(balances->matrix);
   pivots.take([&](std::size_t column) { return balances->cable[column] < 0; });
   pivots.take([](std::size_t) { return true; });
   if (!pivots.complete()) return std::nullopt;
-  std::vector<JointIndex> free = known;
+  std::vector<JointIndex> free = chosen;
   for (std::size_t c = 0; c < balances->cable.size(); ++c)
     if (!pivots.is_taken(c) && balances->cable[c] >= 0) free.push_back(balances->cable[c]);
   return free;

@@ -93,16 +93,16 @@ std::vector<Entry> free_effort_parameters(const Value& joints, const GivenEffort
 
 void check_given_efforts(const Value& joints, const std::optional<Value>& parameters, const GivenEfforts& efforts) {
   if (!joints.is_map()) return;
-  std::vector<std::string> known;
-  for (const Entry& entry : written_free_efforts(joints)) known.push_back(*joint_of_free_effort(entry.key));
+  std::vector<std::string> allowed;
+  for (const Entry& entry : written_free_efforts(joints)) allowed.push_back(*joint_of_free_effort(entry.key));
   for (const Entry& joint : entries(joints))
-    if (joint.value.is_map() && joint.value.node.has(to_string(JointType::cable))) known.push_back(joint.key);
+    if (joint.value.is_map() && joint.value.node.has(to_string(JointType::cable))) allowed.push_back(joint.key);
   for (const std::string& name : names_of_efforts(efforts)) {
     const std::optional<std::string> joint = joint_of_free_effort(name);
     if (!joint || (parameters && parameters->is_map() && parameters->node.has(name))) continue;
-    if (std::find(known.begin(), known.end(), *joint) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), *joint) == allowed.end())
       throw InputError({.file = "--preload"}, "there is no joint of free effort called '" + *joint + "'",
-                       suggest(*joint, known, "joints of free effort"));
+                       suggest(*joint, allowed, "joints of free effort"));
   }
 }
 

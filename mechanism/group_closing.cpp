@@ -93,7 +93,7 @@ std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& m
   Mechanism before = mechanism;
   before.groups.pop_back();
   before.points.resize(static_cast<std::size_t>(group.first));
-  const auto known = sample_points(before, pose, sides);
+  const auto sampled = sample_points(before, pose, sides);
   GroupClosing closing(mechanism, sides);
   const std::optional<std::vector<double>> lengths = closing.lengths(pose);
   if (!lengths) return std::nullopt;
@@ -111,7 +111,7 @@ std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& m
         a = low[static_cast<std::size_t>(from - group.first)][c];
         b = high[static_cast<std::size_t>(from - group.first)][c];
       } else {
-        const auto& at = known[static_cast<std::size_t>(from)];
+        const auto& at = sampled[static_cast<std::size_t>(from)];
         if (!at) return false;
         a = b = (*at)[c];
       }

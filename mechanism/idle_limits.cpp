@@ -33,8 +33,8 @@ std::vector<std::vector<int>> modes_of(const Mechanism& mechanism) {
   const std::vector<int> mode = working_mode(mechanism);
   std::vector<std::vector<int>> modes = {mode};
   for (std::size_t j = 0; j < mode.size(); ++j) {
-    const std::size_t known = mode.size() <= most_dyads ? modes.size() : 1;
-    for (std::size_t i = 0; i < known; ++i) {
+    const std::size_t tried = mode.size() <= most_dyads ? modes.size() : 1;
+    for (std::size_t i = 0; i < tried; ++i) {
       modes.push_back(modes[i]);
       modes.back()[j] = -modes.back()[j];
     }

@@ -17,7 +17,7 @@ PoseSteps::PoseSteps(const Mechanism& mechanism) : m_(mechanism) {
 }
 
 int PoseSteps::symbol(const std::string& name) {
-  if (const auto known = symbols_.find(name); known != symbols_.end()) return known->second;
+  if (const auto found = symbols_.find(name); found != symbols_.end()) return found->second;
   const auto parameter =
       std::find_if(m_.parameters.begin(), m_.parameters.end(), [&](const Parameter& p) { return p.name == name; });
   core::ensure(parameter != m_.parameters.end(), "a symbol is a coordinate or a parameter");

@@ -133,7 +133,7 @@ struct CornerHash {
 core::TaskMesh joined(const std::vector<Corner>& corners, const std::string& file, double unit) {
   core::TaskMesh mesh;
   mesh.file = file;
-  std::unordered_map<Corner, int, CornerHash> known;
+  std::unordered_map<Corner, int, CornerHash> index_of_corner;
   std::array<int, 3> triangle{};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     Corner corner = corners[i];
@@ -142,7 +142,7 @@ core::TaskMesh joined(const std::vector<Corner>& corners, const std::string& fil
         throw InputError({file, 0, 0}, "a corner of the STL file is not finite", "export the part as STL once more");
       if (value == 0) value = 0;  // of both signs
     }
-    const auto [place, fresh] = known.try_emplace(corner, static_cast<int>(mesh.corners.size()));
+    const auto [place, fresh] = index_of_corner.try_emplace(corner, static_cast<int>(mesh.corners.size()));
     if (fresh) mesh.corners.push_back({unit * corner[0], unit * corner[1], unit * corner[2]});
     triangle[i % 3] = place->second;
     if (i % 3 == 2 && triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])

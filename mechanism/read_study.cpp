@@ -29,11 +29,11 @@ std::vector<std::string> parameter_names(const Mechanism& mechanism) {
 }
 
 void read_vary(Study& study, const Mechanism& mechanism, const Value& value) {
-  const std::vector<std::string> known = parameter_names(mechanism);
+  const std::vector<std::string> allowed = parameter_names(mechanism);
   for (Entry& entry : entries(value)) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
       throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
-                       known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
+                       allowed.empty() ? "the file has no parameters" : suggest(entry.key, allowed, "parameters"));
     const Parameter& parameter = *parameter_named(mechanism, entry.key);
     Value& range = entry.value;
     range.what = "the range of " + entry.key;
@@ -54,14 +54,14 @@ void read_vary(Study& study, const Mechanism& mechanism, const Value& value) {
 }
 
 void read_keep(Study& study, const Mechanism& mechanism, const Value& value) {
-  const std::vector<std::string> known = parameter_names(mechanism);
+  const std::vector<std::string> allowed = parameter_names(mechanism);
   for (const Value& element : elements(value)) {
     const Keep keep = parse_keep(text_of(element), element.where, mechanism);
     for (const Expression& side : {keep.left, keep.right})
       for (const std::string& name : core::symbols(side))
-        if (std::find(known.begin(), known.end(), name) == known.end())
+        if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
           throw InputError(element.where, "'" + name + "' is no parameter of " + mechanism.file,
-                           suggest(name, known, "parameters"));
+                           suggest(name, allowed, "parameters"));
     study.keep.push_back(text_of(element));
   }
 }

@@ -47,13 +47,13 @@ core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) 
 
 /// {L1: 0.1e-3, d: [-0.2e-3, 0.1e-3]}
 std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const Value& value) {
-  std::vector<std::string> known;
-  for (const Parameter& parameter : mechanism.parameters) known.push_back(parameter.name);
+  std::vector<std::string> allowed;
+  for (const Parameter& parameter : mechanism.parameters) allowed.push_back(parameter.name);
   std::vector<core::Tolerance> tolerances;
   for (Entry& entry : entries(value)) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
       throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
-                       known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
+                       allowed.empty() ? "the file has no parameters" : suggest(entry.key, allowed, "parameters"));
     const Parameter& parameter = *parameter_named(mechanism, entry.key);
     entry.value.what = "the tolerance of " + entry.key;
     core::Tolerance tolerance{entry.key, 0, 0};
@@ -105,10 +105,10 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
 
 /// constant, controlled, or {A4: 3.5}: what joints of free effort exert.
 void read_preload(const Mechanism& mechanism, const Value& value, core::Task& task) {
-  std::vector<std::string> known;
+  std::vector<std::string> allowed;
   for (const JointIndex j : preloaded_joints(mechanism))
-    known.push_back(mechanism.joints[static_cast<std::size_t>(j)].name);
-  if (known.empty())
+    allowed.push_back(mechanism.joints[static_cast<std::size_t>(j)].name);
+  if (allowed.empty())
     throw InputError(value.where, "no joint of " + mechanism.file + " has a free effort",
                      "write actuated: {effort: free} at a motor more than the mechanism needs");
   if (value.is_scalar()) {
@@ -117,12 +117,12 @@ void read_preload(const Mechanism& mechanism, const Value& value, core::Task& ta
     throw InputError(
         value.where, "the preload is '" + text_of(value) + "'",
         "write constant, one choice for the whole task, controlled, a law over it, or an effort for each joint: {" +
-            known.front() + ": 3.5}");
+            allowed.front() + ": 3.5}");
   }
   for (Entry& entry : entries(value)) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
       throw InputError(entry.where, "no joint of free effort is called " + entry.key,
-                       suggest(entry.key, known, "joints of free effort"));
+                       suggest(entry.key, allowed, "joints of free effort"));
     for (const Joint& joint : mechanism.joints)
       if (joint.name == entry.key) {
         entry.value.what = "the effort of " + entry.key;

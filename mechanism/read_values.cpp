@@ -131,13 +131,13 @@ Value parameter_value(const Entry& entry, const std::vector<Override>& overrides
 }
 
 void check_known_overrides(const std::vector<Entry>& parameters, const std::vector<Override>& overrides) {
-  std::vector<std::string> known;
-  for (const Entry& entry : parameters) known.push_back(entry.key);
+  std::vector<std::string> allowed;
+  for (const Entry& entry : parameters) allowed.push_back(entry.key);
   for (const Override& override : overrides) {
     const std::string& name = override.first;
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
     throw InputError(place_of(override), "there is no parameter '" + name + "' in the file",
-                     known.empty() ? "the file has no parameters" : "the parameters are " + join(known));
+                     allowed.empty() ? "the file has no parameters" : "the parameters are " + join(allowed));
   }
 }
 
@@ -157,9 +157,9 @@ Expression parse_written(const Mechanism& mechanism, const Value& value) {
 
 InSi read_in_si(const Mechanism& mechanism, const Value& value, Scope scope) {
   const Expression written = parse_written(mechanism, value);
-  const std::vector<std::string> known = names_in(mechanism, scope);
+  const std::vector<std::string> allowed = names_in(mechanism, scope);
   for (const std::string& name : symbols(with_si_units(written)))
-    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name(mechanism, value, scope, name);
+    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) refuse_name(mechanism, value, scope, name);
   return in_si(written, mechanism, value);
 }
 

@@ -131,9 +131,9 @@ class VectorReader {
     for (const Piece& piece : pieces) {
       const std::string name = piece.text.substr(0, piece.text.find('^'));
       const auto is_named = [&](const auto& one) { return one.name == name; };
-      const bool known = std::any_of(mechanism_.parameters.begin(), mechanism_.parameters.end(), is_named) ||
-                         std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), is_named);
-      if (!joined.empty() && is_unit(name) && !known && !is_vector(joined.back().text))
+      const bool is_name = std::any_of(mechanism_.parameters.begin(), mechanism_.parameters.end(), is_named) ||
+                           std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), is_named);
+      if (!joined.empty() && is_unit(name) && !is_name && !is_vector(joined.back().text))
         joined.back().text += piece.before + piece.text;
       else
         joined.push_back(piece);

@@ -357,7 +357,7 @@ ParameterUnit coherent_unit(const Units& units, const Dimension& d) {
 }
 
 std::string words_of(const Dimension& dimension) {
-  const std::vector<std::pair<Dimension, const char*>> known = {{length, "a length"},
+  const std::vector<std::pair<Dimension, const char*>> names = {{length, "a length"},
                                                                 {angle, "an angle"},
                                                                 {force, "a force"},
                                                                 {mass, "a mass"},
@@ -367,7 +367,7 @@ std::string words_of(const Dimension& dimension) {
                                                                 {stiffness, "a stiffness"},
                                                                 {acceleration, "an acceleration"},
                                                                 {angular_speed, "a rotational speed"}};
-  for (const auto& [known_dimension, words] : known)
+  for (const auto& [known_dimension, words] : names)
     if (alike(known_dimension, dimension) && (known_dimension.angle == dimension.angle || known_dimension != angle))
       return words;
   return "in " + coherent_words({}, dimension);
@@ -385,15 +385,15 @@ Units read_units(const std::optional<Value>& value) {
     const auto written = mapping.find(key);
     if (!written) return;
     const std::string& name = text_of(*written);
-    const NamedUnit* const known = unit_named(name);
-    if (known == nullptr || known->dimension != dimension) {
+    const NamedUnit* const named_unit = unit_named(name);
+    if (named_unit == nullptr || named_unit->dimension != dimension) {
       std::vector<std::string> names;
       for (const NamedUnit& one : named_units())
         if (one.dimension == dimension) names.emplace_back(one.name);
       throw InputError(written->where, "'" + name + "' is no unit of " + key, "write one of " + join(names));
     }
     constexpr double pi = 3.14159265358979323846;
-    unit = {name, core::to_double(known->size.factor) * (known->size.pi == 1 ? pi : 1)};
+    unit = {name, core::to_double(named_unit->size.factor) * (named_unit->size.pi == 1 ? pi : 1)};
   };
   read("length", length, units.length);
   read("angle", angle, units.angle);

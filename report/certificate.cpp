@@ -100,9 +100,9 @@ class Functions {
  public:
   int add(core::FactorRole role, const std::string& name, const StraightLine& line) {
     std::string program = program_text(line);
-    const auto [known, fresh] = known_.try_emplace(program, static_cast<int>(list.size()));
+    const auto [found, fresh] = known_.try_emplace(program, static_cast<int>(list.size()));
     if (fresh) list.push_back({{"role", role_text(role)}, {"name", name}, {"program", std::move(program)}});
-    return known->second;
+    return found->second;
   }
 
   Json list = Json::array();

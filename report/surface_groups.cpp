@@ -112,9 +112,9 @@ std::vector<std::string> tell_shared_reasons(std::vector<SurfaceGroup>& groups) 
 std::vector<LineGroup> group_lines(const core::LocusMap& map, const std::vector<SurfaceGroup>& surfaces) {
   std::vector<LineGroup> groups;
   const auto of = [&](core::LocusKind kind, const std::vector<core::Vanishing>& vanishing) -> LineGroup& {
-    const auto known = std::find_if(groups.begin(), groups.end(),
+    const auto found = std::find_if(groups.begin(), groups.end(),
                                     [&](const LineGroup& group) { return group.vanishing == vanishing; });
-    if (known != groups.end()) return *known;
+    if (found != groups.end()) return *found;
     groups.push_back({kind, vanishing, printable(vanishing_words(kind, vanishing)), 0, {}, {}, {}});
     return groups.back();
   };

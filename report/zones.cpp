@@ -103,8 +103,8 @@ std::vector<std::string> joints_lost_at(const core::Zone& zone) {
   for (const core::ZoneBorder& border : zone.borders) {
     if (border.kind != core::LocusKind::contact_loss) continue;
     for (const core::Vanishing& v : border.vanishing) {
-      const bool known = std::find(joints.begin(), joints.end(), v.joint) != joints.end();
-      if (v.quantity == core::Quantity::f && !known) joints.push_back(v.joint);
+      const bool found = std::find(joints.begin(), joints.end(), v.joint) != joints.end();
+      if (v.quantity == core::Quantity::f && !found) joints.push_back(v.joint);
     }
   }
   return joints;

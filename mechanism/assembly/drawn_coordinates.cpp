@@ -169,15 +169,15 @@ void CoordinateReader::resolve(DrawnCoordinate& coordinate, const Value& written
 }
 
 JointIndex CoordinateReader::joint_named(const Value& of, const DrawnCoordinate& coordinate) const {
-  std::vector<std::string> known;
+  std::vector<std::string> allowed;
   for (std::size_t j = 0; j < drawing_.mechanism.joints.size(); ++j) {
     const Joint& joint = drawing_.mechanism.joints[j];
     if (joint.type != JointType::prismatic && joint.type != JointType::cylindrical) continue;
     if (joint.name == text_of(of)) return static_cast<JointIndex>(j);
-    known.push_back(joint.name);
+    allowed.push_back(joint.name);
   }
   throw InputError(of.where, "coordinate " + coordinate.name + ": there is no prismatic joint '" + text_of(of) + "'",
-                   suggest(text_of(of), known, "prismatic joints"));
+                   suggest(text_of(of), allowed, "prismatic joints"));
 }
 
 void CoordinateReader::read_turn(const Value& turn, DrawnCoordinate& coordinate) {

@@ -53,8 +53,8 @@ void Shape::place_by_lengths(const Drawing& d, LinkIndex index) {
     for (const PointIndex point : link.points) {
       if (at_.contains(point)) continue;
       std::vector<PointIndex> bases;
-      for (const PointIndex known : link.points)
-        if (at_.contains(known) && given_between(given_, known, point) != nullptr) bases.push_back(known);
+      for (const PointIndex other : link.points)
+        if (at_.contains(other) && given_between(given_, other, point) != nullptr) bases.push_back(other);
       if (const auto place = place_from(d, link, point, bases)) {
         at_.emplace(point, *place);
         more = true;

@@ -251,9 +251,10 @@ class Reader : private MjcfSettings {
       return;
     }
     if (from_shapes_ == "false") return;
-    bool known = false;
-    for (const auto& [element, frame] : parts.shapes) known = shape(*element, frame.first, frame.second, link) || known;
-    if (!known) without_mass_.push_back(body.name);
+    bool is_named = false;
+    for (const auto& [element, frame] : parts.shapes)
+      is_named = shape(*element, frame.first, frame.second, link) || is_named;
+    if (!is_named) without_mass_.push_back(body.name);
     (void)at;
   }
 

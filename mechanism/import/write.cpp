@@ -301,9 +301,9 @@ class Writer : private Drawing {
         const double forward =
             (mesh.belt ? 1 : -1) * static_cast<double>(mesh.teeth[0]) / static_cast<double>(mesh.teeth[1]);
         for (const std::size_t i : {0U, 1U}) {
-          const auto known = turns.find(mesh.links[i]);
-          if (known == turns.end() || turns.contains(mesh.links[1 - i])) continue;
-          turns[mesh.links[1 - i]] = known->second * (i == 0 ? forward : 1 / forward);
+          const auto found = turns.find(mesh.links[i]);
+          if (found == turns.end() || turns.contains(mesh.links[1 - i])) continue;
+          turns[mesh.links[1 - i]] = found->second * (i == 0 ? forward : 1 / forward);
           more = true;
         }
       }

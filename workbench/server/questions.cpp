@@ -107,19 +107,19 @@ void check(const Watch& watch) {
 }
 
 Question question_named(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, Question>, 12> known = {{{"model", answer_model},
-                                                                            {"loci", answer_loci},
-                                                                            {"zones", answer_zones},
-                                                                            {"verify", answer_verify},
-                                                                            {"pose", answer_pose},
-                                                                            {"sweep", answer_sweep},
-                                                                            {"cycle", answer_cycle},
-                                                                            {"modes", answer_modes},
-                                                                            {"trajectory", answer_trajectory},
-                                                                            {"normalize", answer_normalize},
-                                                                            {"import", answer_import},
-                                                                            {"export", answer_export}}};
-  for (const auto& [question_name, question] : known)
+  constexpr std::array<std::pair<std::string_view, Question>, 12> questions = {{{"model", answer_model},
+                                                                                {"loci", answer_loci},
+                                                                                {"zones", answer_zones},
+                                                                                {"verify", answer_verify},
+                                                                                {"pose", answer_pose},
+                                                                                {"sweep", answer_sweep},
+                                                                                {"cycle", answer_cycle},
+                                                                                {"modes", answer_modes},
+                                                                                {"trajectory", answer_trajectory},
+                                                                                {"normalize", answer_normalize},
+                                                                                {"import", answer_import},
+                                                                                {"export", answer_export}}};
+  for (const auto& [question_name, question] : questions)
     if (question_name == name) return question;
   return nullptr;
 }
