@@ -17,7 +17,7 @@ std::optional<std::vector<double>> GroupStarts::at(std::span<const double> pose,
   constexpr std::size_t most_known = 1 << 14;
   std::pair<std::vector<int>, std::vector<double>> key{{sides.begin(), sides.end()}, {pose.begin(), pose.end()}};
   const std::lock_guard lock(mutex_);
-  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  if (const auto found = known_.find(key); found != known_.end()) return found->second;
   auto closing = closings_.find(key.first);
   if (closing == closings_.end())
     closing = closings_.emplace(key.first, mechanism::GroupClosing(mechanism_, key.first)).first;

@@ -105,7 +105,7 @@ Register TapeBuilder::power(Register base, int exponent) {
 
 Register TapeBuilder::derivative(Register of, Register by) {
   if (of == by) return constant(1.0);
-  if (const auto known = derivatives_.find({of, by}); known != derivatives_.end()) return known->second;
+  if (const auto found = derivatives_.find({of, by}); found != derivatives_.end()) return found->second;
   const Instruction step = tape_.code[static_cast<std::size_t>(of)];
   const auto inner = [&](Register operand) { return derivative(operand, by); };
   Register result = constant(0.0);
