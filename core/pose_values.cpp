@@ -54,32 +54,32 @@ bool solve_dense(std::vector<double>& a, std::span<double> b, int* sign) {
 
 double size_of(const PoseProgram& program, std::span<const double> unknowns) {
   double size = 0;
-  for (const PoseProgram::Block& own : program.blocks) size = std::max(size, own.size);
-  for (const double own : unknowns) size = std::max(size, std::abs(own));
+  for (const PoseProgram::Block& block : program.blocks) size = std::max(size, block.size);
+  for (const double unknown : unknowns) size = std::max(size, std::abs(unknown));
   return size;
 }
 
 PoseValues::PoseValues(const PoseProgram& program) : program_(program), registers_(program.steps.size(), 0.0) {
   for (std::size_t i = 0; i < registers_.size(); ++i) {
-    const PoseProgram::Step& own = program.steps[i];
-    if (own.operation == Operation::constant) registers_[i] = to_double(own.value);
-    if (own.operation == Operation::pi) registers_[i] = std::numbers::pi;
+    const PoseProgram::Step& step = program.steps[i];
+    if (step.operation == Operation::constant) registers_[i] = to_double(step.value);
+    if (step.operation == Operation::pi) registers_[i] = std::numbers::pi;
   }
 }
 
 bool PoseValues::run_steps(std::size_t from, std::size_t to, std::span<const double> pose) {
   for (std::size_t i = from; i < to; ++i) {
-    const PoseProgram::Step& own = program_.steps[i];
-    const double x = registers_[static_cast<std::size_t>(own.first)],
-                 y = registers_[static_cast<std::size_t>(own.second)];
+    const PoseProgram::Step& step = program_.steps[i];
+    const double x = registers_[static_cast<std::size_t>(step.first)],
+                 y = registers_[static_cast<std::size_t>(step.second)];
     double& result = registers_[i];
-    switch (own.operation) {
+    switch (step.operation) {
       case Operation::constant:
       case Operation::pi:
       case Operation::unknown:
         break;
       case Operation::coordinate:
-        result = pose[static_cast<std::size_t>(own.first)];
+        result = pose[static_cast<std::size_t>(step.first)];
         break;
       case Operation::add:
         result = x + y;
@@ -117,15 +117,16 @@ bool PoseValues::run_steps(std::size_t from, std::size_t to, std::span<const dou
 }
 
 bool PoseValues::close(std::size_t block, std::span<const double> pose, std::span<double> unknowns) {
-  const PoseProgram::Block& own = program_.blocks[block];
+  const PoseProgram::Block& block_data = program_.blocks[block];
   const std::size_t n = unknowns.size();
   std::vector<double> matrix(n * n), step(n);
   double size = 1e-300, before = 0, first = 0;
   for (int count = 0; count < most_steps; ++count) {
-    for (std::size_t k = 0; k < n; ++k) registers_[static_cast<std::size_t>(own.unknowns[k])] = unknowns[k];
-    if (!run_steps(static_cast<std::size_t>(own.begin), static_cast<std::size_t>(own.end), pose)) return false;
-    for (std::size_t i = 0; i < n * n; ++i) matrix[i] = (*this)[own.jacobian[i]];
-    for (std::size_t i = 0; i < n; ++i) step[i] = (*this)[own.equations[i]];
+    for (std::size_t k = 0; k < n; ++k) registers_[static_cast<std::size_t>(block_data.unknowns[k])] = unknowns[k];
+    if (!run_steps(static_cast<std::size_t>(block_data.begin), static_cast<std::size_t>(block_data.end), pose))
+      return false;
+    for (std::size_t i = 0; i < n * n; ++i) matrix[i] = (*this)[block_data.jacobian[i]];
+    for (std::size_t i = 0; i < n; ++i) step[i] = (*this)[block_data.equations[i]];
     int sign = 1;
     if (!solve_dense(matrix, step, &sign)) return false;
     double most = 0;
@@ -139,8 +140,8 @@ bool PoseValues::close(std::size_t block, std::span<const double> pose, std::spa
     if (most <= rounding * size || (count > 2 && most < settled * size && most >= 0.5 * before)) {
       moved_ = std::max(moved_, first);
       orientation_ *= sign;
-      for (std::size_t k = 0; k < n; ++k) registers_[static_cast<std::size_t>(own.unknowns[k])] = unknowns[k];
-      return run_steps(static_cast<std::size_t>(own.begin), static_cast<std::size_t>(own.end), pose);
+      for (std::size_t k = 0; k < n; ++k) registers_[static_cast<std::size_t>(block_data.unknowns[k])] = unknowns[k];
+      return run_steps(static_cast<std::size_t>(block_data.begin), static_cast<std::size_t>(block_data.end), pose);
     }
     before = most;
   }
@@ -152,19 +153,19 @@ bool PoseValues::close(std::span<const double> pose, BlockUnknowns& unknowns) {
   moved_ = contraction_ = 0;
   std::size_t done = 0, first = 0;
   for (std::size_t b = 0; b < program_.blocks.size(); ++b) {
-    const PoseProgram::Block& own = program_.blocks[b];
-    if (!run_steps(done, static_cast<std::size_t>(own.begin), pose)) return false;
-    if (!close(b, pose, {unknowns.data() + first, own.unknowns.size()})) return false;
-    done = static_cast<std::size_t>(own.end);
-    first += own.unknowns.size();
+    const PoseProgram::Block& block_data = program_.blocks[b];
+    if (!run_steps(done, static_cast<std::size_t>(block_data.begin), pose)) return false;
+    if (!close(b, pose, {unknowns.data() + first, block_data.unknowns.size()})) return false;
+    done = static_cast<std::size_t>(block_data.end);
+    first += block_data.unknowns.size();
   }
   return run_steps(done, registers_.size(), pose);
 }
 
 bool PoseValues::put(std::span<const double> pose, const BlockUnknowns& unknowns) {
   std::size_t k = 0;
-  for (const PoseProgram::Block& own : program_.blocks)
-    for (const int step : own.unknowns) registers_[static_cast<std::size_t>(step)] = unknowns[k++];
+  for (const PoseProgram::Block& block : program_.blocks)
+    for (const int step : block.unknowns) registers_[static_cast<std::size_t>(step)] = unknowns[k++];
   return run_steps(0, registers_.size(), pose);
 }
 
@@ -182,7 +183,7 @@ std::optional<BlockUnknowns> PoseValues::followed(std::span<const double> from, 
   if (!close(from, unknowns)) return std::nullopt;
   const int sign = orientation_;
   double size = 0;
-  for (const double own : unknowns) size = std::max(size, std::abs(own));
+  for (const double unknown : unknowns) size = std::max(size, std::abs(unknown));
   BlockUnknowns rates(unknowns.size(), 0.0), next;
   std::vector<double> pose(to.size());
   double at = 0, step = largest;
@@ -221,7 +222,7 @@ std::optional<BlockUnknowns> PoseValues::followed_round(BlockUnknowns near, std:
 
 std::optional<BlockUnknowns> PoseValues::followed(std::span<const double> pose) {
   BlockUnknowns near;
-  for (const PoseProgram::Block& own : program_.blocks) near.insert(near.end(), own.near.begin(), own.near.end());
+  for (const PoseProgram::Block& block : program_.blocks) near.insert(near.end(), block.near.begin(), block.near.end());
   if (auto found = followed(program_.near, near, pose)) return found;
   if (auto found = followed_round(near, pose)) return found;
   if (pose.size() < 2) return std::nullopt;

@@ -31,13 +31,13 @@ CellTree::CellTree(const core::Study& study) : study_(study) {
 
 std::vector<ExactRange> CellTree::ranges(std::uint64_t path) const {
   std::vector<ExactRange> ranges;
-  for (const core::StudyParameter& own : study_.vary) ranges.emplace_back(own.lower, own.upper);
+  for (const core::StudyParameter& parameter : study_.vary) ranges.emplace_back(parameter.lower, parameter.upper);
   const int bits = 63 - std::countl_zero(path);
   for (int level = 0; level < bits; ++level) {
     // All are halved in turn.
-    ExactRange& own = ranges[static_cast<std::size_t>(level) % ranges.size()];
-    const Rational middle = (own.first + own.second) / 2;
-    ((path >> (bits - 1 - level)) & 1U ? own.first : own.second) = middle;
+    ExactRange& range = ranges[static_cast<std::size_t>(level) % ranges.size()];
+    const Rational middle = (range.first + range.second) / 2;
+    ((path >> (bits - 1 - level)) & 1U ? range.first : range.second) = middle;
   }
   return ranges;
 }
@@ -101,7 +101,7 @@ double BestProven::bound(const std::vector<ExactRange>& ranges) const {
 
 double BestProven::value(const std::vector<Rational>& design) const {
   std::vector<ExactRange> point;
-  for (const Rational& own : design) point.emplace_back(own, own);
+  for (const Rational& value : design) point.emplace_back(value, value);
   const core::Interval values = problem_.goal_over(goal_, point);
   return goal_.maximise ? -values.lower() : values.upper();
 }
@@ -110,20 +110,21 @@ void BestProven::add_feasible(const std::vector<ExactRange>& ranges) {
   std::vector<std::vector<Rational>> designs(1);
   for (const auto& [low, high] : ranges) designs.front().push_back((low + high) / 2);
   for (std::size_t corner = 0; corner < std::size_t{1} << ranges.size(); ++corner) {
-    std::vector<Rational>& own = designs.emplace_back();
+    std::vector<Rational>& design = designs.emplace_back();
     for (std::size_t i = 0; i < ranges.size(); ++i)
-      own.push_back((corner >> i & 1) != 0 ? ranges[i].second : ranges[i].first);
+      design.push_back((corner >> i & 1) != 0 ? ranges[i].second : ranges[i].first);
   }
-  for (std::vector<Rational>& own : designs)
-    if (const double found = value(own); found < found_) {
+  for (std::vector<Rational>& design : designs)
+    if (const double found = value(design); found < found_) {
       found_ = found;
-      best_ = std::move(own);
+      best_ = std::move(design);
     }
 }
 
 bool BestProven::may_be_better(const std::vector<ExactRange>& ranges) const {
   std::vector<ExactRange> all;
-  for (const core::StudyParameter& own : problem_.study().vary) all.emplace_back(own.lower, own.upper);
+  for (const core::StudyParameter& parameter : problem_.study().vary)
+    all.emplace_back(parameter.lower, parameter.upper);
   const core::Interval whole = problem_.goal_over(goal_, all);
   const double tolerance = core::to_double(problem_.study().method.finest) * (whole.upper() - whole.lower());
   return bound(ranges) < found_ - tolerance;
@@ -135,7 +136,7 @@ void BestProven::tell(core::StudyResult& result) const {
   if (best_.empty()) return;
   core::StudyDesign best;
   best.status = Status::feasible;
-  for (const Rational& own : best_) best.values.push_back(core::to_double(own));
+  for (const Rational& value : best_) best.values.push_back(core::to_double(value));
   result.designs = {best};
   result.best = 0;
   const double least = std::min(least_, found_);
@@ -145,9 +146,9 @@ void BestProven::tell(core::StudyResult& result) const {
 std::optional<core::StudyCell> proven_tolerances(const StudyProblem& problem) {
   const core::Study& study = problem.study();
   std::vector<Rational> centre;
-  for (const core::StudyParameter& own : study.vary)
+  for (const core::StudyParameter& study_parameter : study.vary)
     for (const mechanism::Parameter& parameter : problem.model().content().mechanism.parameters)
-      if (parameter.name == own.name) centre.push_back(parameter.value);
+      if (parameter.name == study_parameter.name) centre.push_back(parameter.value);
   for (std::size_t i = 0; i < centre.size(); ++i)
     if (centre[i] < study.vary[i].lower || centre[i] > study.vary[i].upper) return std::nullopt;
   // Parts of the ways to the ends of the ranges, in 256ths.
@@ -167,21 +168,21 @@ std::optional<core::StudyCell> proven_tolerances(const StudyProblem& problem) {
     int low = *sides.front(), high = parts + 1;
     while (high - low > 1) {
       const int middle = (low + high) / 2;
-      for (int* own : sides) *own = middle;
+      for (int* side : sides) *side = middle;
       (judge.proven(ranges()) ? low : high) = middle;
     }
-    for (int* own : sides) *own = low;
+    for (int* side : sides) *side = low;
   };
   std::vector<int*> all;
-  for (auto& own : grown)
-    for (int& side : own) all.push_back(&side);
+  for (auto& range : grown)
+    for (int& side : range) all.push_back(&side);
   grow(all);
-  for (int* own : all) grow({own});
+  for (int* side : all) grow({side});
   core::StudyCell cell;
   cell.status = Status::feasible;
-  for (const ExactRange& own : ranges()) {
-    cell.lower.push_back(core::to_double(own.first));
-    cell.upper.push_back(core::to_double(own.second));
+  for (const ExactRange& range : ranges()) {
+    cell.lower.push_back(core::to_double(range.first));
+    cell.upper.push_back(core::to_double(range.second));
   }
   return cell;
 }

@@ -49,9 +49,9 @@ void with_ranks(const Work& work, const StudyOptions& options, const Lead& lead)
 void complete(const StudyProblem& problem, const Designs& designs, StudyResult& result) {
   std::sort(result.designs.begin(), result.designs.end(),
             [](const StudyDesign& a, const StudyDesign& b) { return a.index < b.index; });
-  for (StudyDesign& own : result.designs)
-    if (own.values.empty())
-      for (const core::Rational& value : designs.values(own.index)) own.values.push_back(core::to_double(value));
+  for (StudyDesign& design : result.designs)
+    if (design.values.empty())
+      for (const core::Rational& value : designs.values(design.index)) design.values.push_back(core::to_double(value));
   choose(problem, result);
 }
 
@@ -59,7 +59,7 @@ StudyResult begun(const Model& model, const core::Study& study) {
   StudyResult result;
   result.mechanism = model.name();
   result.study = study;
-  for (const core::StudyParameter& own : study.vary) result.parameters.push_back(own.name);
+  for (const core::StudyParameter& parameter : study.vary) result.parameters.push_back(parameter.name);
   return result;
 }
 
@@ -81,10 +81,10 @@ void judge_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
   };
   with_ranks(work, options, [&] {
     Collection found(problem, designs.count(), options);
-    const std::vector<bool> known = found.known(designs.count());
+    const std::vector<bool> done = found.known(designs.count());
     std::uint64_t next = 0;
     work.next = [&]() -> std::optional<std::uint64_t> {
-      while (next < designs.count() && known[next]) ++next;
+      while (next < designs.count() && done[next]) ++next;
       return next < designs.count() ? std::optional(next++) : std::nullopt;
     };
     work.found = [&](std::vector<StudyDesign> some) { found.add(std::move(some)); };
@@ -98,18 +98,19 @@ core::StudyCell cell_of(const StudyDesign& design, const CellTree& tree) {
   core::StudyCell cell;
   cell.status = design.status;
   cell.reason = design.reason;
-  for (const ExactRange& own : tree.ranges(design.index)) {
-    cell.lower.push_back(core::to_double(own.first));
-    cell.upper.push_back(core::to_double(own.second));
+  for (const ExactRange& range : tree.ranges(design.index)) {
+    cell.lower.push_back(core::to_double(range.first));
+    cell.upper.push_back(core::to_double(range.second));
   }
   return cell;
 }
 
 void require_provable(const core::Study& study) {
   using core::Figure;
-  for (const core::StudyRequirement& own : study.require)
-    if (own.figure != Figure::margin && own.figure != Figure::min_force && own.figure != Figure::pose_error)
-      throw core::InputError({study.file}, core::to_string(own.figure) + " is not proven for boxes of designs",
+  for (const core::StudyRequirement& requirement : study.require)
+    if (requirement.figure != Figure::margin && requirement.figure != Figure::min_force &&
+        requirement.figure != Figure::pose_error)
+      throw core::InputError({study.file}, core::to_string(requirement.figure) + " is not proven for boxes of designs",
                              "require margin, min_force or pose_error, or choose another method");
   if (study.goals.empty()) return;
   const bool of_parameters = study.goals.size() == 1 && !study.goals.front().figure;
@@ -125,9 +126,9 @@ void require_provable(const core::Study& study) {
 void choose_end(const core::Study& study, StudyResult& result) {
   if (study.goals.empty() || result.ranges.empty()) return;
   const bool most = study.goals.front().maximise;
-  const core::ProvenRange& own = most ? result.ranges.back() : result.ranges.front();
-  const core::Rational low(own.from[1]), high(own.to[0]);
-  const int exponent = static_cast<int>(std::floor(std::log10(own.to[0] - own.from[1]))) - 3;
+  const core::ProvenRange& range = most ? result.ranges.back() : result.ranges.front();
+  const core::Rational low(range.from[1]), high(range.to[0]);
+  const int exponent = static_cast<int>(std::floor(std::log10(range.to[0] - range.from[1]))) - 3;
   const core::Rational unit = core::rational_from_decimal("1e" + std::to_string(exponent));
   const core::Rational steps = (most ? high : low) / unit;
   core::Integer whole;
@@ -146,11 +147,11 @@ void leave_what_is_no_better(BestProven& best, const CellTree& tree, std::vector
     const std::vector<ExactRange> ranges = tree.ranges(path);
     if (best.may_be_better(ranges)) return false;
     best.add_left(ranges);
-    StudyDesign own;
-    own.index = path;
-    own.status = Status::left_out;
-    own.reason = "no better";
-    leaves.push_back(std::move(own));
+    StudyDesign design;
+    design.index = path;
+    design.status = Status::left_out;
+    design.reason = "no better";
+    leaves.push_back(std::move(design));
     return true;
   });
 }
@@ -165,8 +166,8 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
   };
   with_ranks(work, options, [&] {
     Collection found(problem, 0, options);
-    std::map<std::uint64_t, StudyDesign> known;
-    for (const StudyDesign& own : found.designs()) known.emplace(own.index, own);
+    std::map<std::uint64_t, StudyDesign> judged_designs;
+    for (const StudyDesign& design : found.designs()) judged_designs.emplace(design.index, design);
     std::vector<std::uint64_t> level = {1};
     std::vector<StudyDesign> leaves;
     std::optional<BestProven> best;
@@ -174,25 +175,25 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
     while (!level.empty() && result.complete) {
       std::size_t next = 0;
       work.next = [&]() -> std::optional<std::uint64_t> {
-        while (next < level.size() && known.contains(level[next])) ++next;
+        while (next < level.size() && judged_designs.contains(level[next])) ++next;
         return next < level.size() ? std::optional(level[next++]) : std::nullopt;
       };
       work.found = [&](std::vector<StudyDesign> some) {
-        for (const StudyDesign& own : some) known.insert_or_assign(own.index, own);
+        for (const StudyDesign& design : some) judged_designs.insert_or_assign(design.index, design);
         found.add(std::move(some));
       };
       result.complete = do_work(work, options);
       std::vector<std::uint64_t> finer;
       for (const std::uint64_t path : level) {
-        const auto own = known.find(path);
-        if (own == known.end()) continue;
-        if (best && own->second.status == Status::feasible) best->add_feasible(tree.ranges(path));
-        if (own->second.status == Status::undecided && !tree.is_finest(path)) {
+        const auto judged = judged_designs.find(path);
+        if (judged == judged_designs.end()) continue;
+        if (best && judged->second.status == Status::feasible) best->add_feasible(tree.ranges(path));
+        if (judged->second.status == Status::undecided && !tree.is_finest(path)) {
           finer.push_back(2 * path);
           finer.push_back(2 * path + 1);
         } else {
-          leaves.push_back(own->second);
-          if (best && own->second.status == Status::undecided) best->add_left(tree.ranges(path));
+          leaves.push_back(judged->second);
+          if (best && judged->second.status == Status::undecided) best->add_left(tree.ranges(path));
         }
       }
       if (best) leave_what_is_no_better(*best, tree, finer, leaves);
@@ -200,7 +201,7 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
       level = std::move(finer);
     }
     (void)found.take();
-    for (const StudyDesign& own : leaves) result.cells.push_back(cell_of(own, tree));
+    for (const StudyDesign& design : leaves) result.cells.push_back(cell_of(design, tree));
     if (result.complete && problem.study().vary.size() == 1) {
       result.ranges = joined_ranges(result.cells);
       choose_end(problem.study(), result);
@@ -232,8 +233,8 @@ std::string written(const core::Rational& value) {
 
 /// As the mechanism file says it, with the unit of the parameter.
 std::string value_words(const Model& model, const std::string& parameter, const core::Rational& value) {
-  const mechanism::Mechanism& own = model.content().mechanism;
-  const auto unit = mechanism::unit_of(*mechanism::parameter_named(own, parameter), own.units);
+  const mechanism::Mechanism& current = model.content().mechanism;
+  const auto unit = mechanism::unit_of(*mechanism::parameter_named(current, parameter), current.units);
   return written(value) + (unit ? " " + mechanism::words_of(*unit) : "");
 }
 
@@ -250,9 +251,9 @@ std::vector<Model::Value> values_of(const Model& model, const StudyResult& resul
     const core::Rational value = numbered ? exact[i] : core::rational_from_decimal(std::string(text.data(), end));
     values.emplace_back(study.vary[i].name, value_words(model, study.vary[i].name, value));
   }
-  for (const Model::Value& own : model.values())
-    if (std::none_of(values.begin(), values.end(), [&](const Model::Value& v) { return v.first == own.first; }))
-      values.push_back(own);
+  for (const Model::Value& value : model.values())
+    if (std::none_of(values.begin(), values.end(), [&](const Model::Value& v) { return v.first == value.first; }))
+      values.push_back(value);
   return values;
 }
 
@@ -283,7 +284,7 @@ std::string judge_designs(const Model& model, const core::Study& study, std::uin
   (void)do_work(work, {.threads = std::max(1, threads)});
   std::sort(found.begin(), found.end(), [](const StudyDesign& a, const StudyDesign& b) { return a.index < b.index; });
   std::string lines;
-  for (const StudyDesign& own : found) lines += table_line(own);
+  for (const StudyDesign& design : found) lines += table_line(design);
   return lines;
 }
 
@@ -293,16 +294,16 @@ StudyResult study_result(const Model& model, const core::Study& study, const std
   const StudyProblem problem(model, study);
   StudyResult result = begun(model, study);
   result.figures = problem.figures();
-  std::vector<bool> known(designs.count(), false);
+  std::vector<bool> done(designs.count(), false);
   for (std::size_t at = 0; at < lines.size();) {
     const std::size_t end = std::min(lines.find('\n', at), lines.size());
-    StudyDesign own;
-    if (!read_table_line(std::string_view(lines).substr(at, end - at), result.figures.size(), own) ||
-        own.index >= known.size())
+    StudyDesign design;
+    if (!read_table_line(std::string_view(lines).substr(at, end - at), result.figures.size(), design) ||
+        design.index >= done.size())
       throw core::InputError({"lines"}, "a line of designs is damaged or of another study",
                              "pass all results of judge_designs");
-    if (!known[own.index]) result.designs.push_back(own);
-    known[own.index] = true;
+    if (!done[design.index]) result.designs.push_back(design);
+    done[design.index] = true;
     at = end + 1;
   }
   result.complete = result.designs.size() == designs.count();
