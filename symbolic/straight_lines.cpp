@@ -14,10 +14,11 @@ using core::StraightLine;
 
 StraightLines::StraightLines(const Geometry& geometry) : geometry_(&geometry) {
   // Free coordinates and roots are the tower's own variables, in its order.
-  const std::vector<int> own = geometry.tower_variables();
+  const std::vector<int> tower_variables = geometry.tower_variables();
   for (const TowerRoot& root : geometry.roots())
     for (const TowerRoot& below : geometry.roots()) is_nested_ = is_nested_ || root.square.depends_on(below.variable);
-  for (std::size_t i = 0; i < own.size(); ++i) known_[own[i]] = builder_.variable(static_cast<int>(i));
+  for (std::size_t i = 0; i < tower_variables.size(); ++i)
+    known_[tower_variables[i]] = builder_.variable(static_cast<int>(i));
 }
 
 void StraightLines::know(const std::vector<DeterminantForm>& forms) {
@@ -90,14 +91,14 @@ int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
   std::vector<int> variables(static_cast<std::size_t>(plain.variables), 0);
   for (int v = 0; v < plain.variables; ++v) {
     if (!core::depends_on(plain, v)) continue;
-    int& own = variables[static_cast<std::size_t>(v)];
+    int& variable_step = variables[static_cast<std::size_t>(v)];
     bool is_arm = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Place& step = points[i].arms[arms[i]].step;
       for (std::size_t k = 0; k < 3; ++k)
-        if (v == points[i].variables[k]) own = step[k], is_arm = true;
+        if (v == points[i].variables[k]) variable_step = step[k], is_arm = true;
     }
-    if (!is_arm) own = variable(v);
+    if (!is_arm) variable_step = variable(v);
   }
   return builder_.polynomial(plain, variables);
 }
@@ -106,13 +107,13 @@ const std::vector<StraightLines::ArmedPoint>& StraightLines::armed_points() {
   if (armed_points_) return *armed_points_;
   armed_points_.emplace();
   for (const ConstructedPoint& point : geometry_->constructed()) {
-    const std::optional<Dyad> known = dyad(point.point);
-    if (!known || known->axis.has_value() != (point.z >= 0)) continue;
+    const std::optional<Dyad> dyad_steps = dyad(point.point);
+    if (!dyad_steps || dyad_steps->axis.has_value() != (point.z >= 0)) continue;
     const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                    [&](const TowerRoot& r) { return r.point == point.point; });
     const auto& form =
         std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
-    const std::array<Place, 2> steps = steps_to(*known, *root);
+    const std::array<Place, 2> steps = steps_to(*dyad_steps, *root);
     const auto arm = [&](mechanism::PointIndex end, const Place& step) {
       const auto& natural = geometry_->natural(end);
       return Arm{{geometry_->poly(natural[0]), geometry_->poly(natural[1]), geometry_->poly(natural[2])}, step};
@@ -223,10 +224,10 @@ core::RootTower StraightLines::tower() {
   core::RootTower tower = geometry_->plain_tower();
   for (std::size_t j = 0; j < tower.roots.size(); ++j) tower.roots[j].line = square(j);
   const std::vector<int> variables = geometry_->tower_variables();
-  for (const Geometry::Way& own : geometry_->dyad_ways())
-    if (auto lines = way(own.point))
+  for (const Geometry::Way& dyad_way : geometry_->dyad_ways())
+    if (auto lines = way(dyad_way.point))
       tower.bases.push_back(
-          {own.x.plain(variables), own.y.plain(variables), std::move((*lines)[0]), std::move((*lines)[1])});
+          {dyad_way.x.plain(variables), dyad_way.y.plain(variables), std::move((*lines)[0]), std::move((*lines)[1])});
   return tower;
 }
 
@@ -235,26 +236,26 @@ StraightLine StraightLines::square(std::size_t root) {
     if (length.root == static_cast<int>(root)) return squared_length(length);
   for (const TorsionAngle& angle : geometry_->torsion_angles())
     if (angle.root == static_cast<int>(root)) return shifted_angle(angle);
-  const std::optional<Dyad> known = dyad(geometry_->roots()[root].point);
-  const TowerRoot& own = geometry_->roots()[root];
-  if (!known || own.role != core::RootRole::working_mode || own.value) return {};
-  const int scale = builder_.power(known->scale, 2);
-  if (known->axis) {
-    const int k = excess(*known), twice_a = builder_.add(known->sum, known->difference);
-    const int reach = builder_.multiply(builder_.power(twice_a, 2), known->axis->d);
-    const int q = builder_.subtract(reach, builder_.multiply(known->axis->n2, builder_.power(k, 2)));
+  const std::optional<Dyad> dyad_steps = dyad(geometry_->roots()[root].point);
+  const TowerRoot& tower_root = geometry_->roots()[root];
+  if (!dyad_steps || tower_root.role != core::RootRole::working_mode || tower_root.value) return {};
+  const int scale = builder_.power(dyad_steps->scale, 2);
+  if (dyad_steps->axis) {
+    const int k = excess(*dyad_steps), twice_a = builder_.add(dyad_steps->sum, dyad_steps->difference);
+    const int reach = builder_.multiply(builder_.power(twice_a, 2), dyad_steps->axis->d);
+    const int q = builder_.subtract(reach, builder_.multiply(dyad_steps->axis->n2, builder_.power(k, 2)));
     return builder_.line(builder_.multiply(scale, q));
   }
-  const int outer = builder_.subtract(builder_.power(known->sum, 2), known->distance2);
-  const int inner = builder_.subtract(known->distance2, builder_.power(known->difference, 2));
+  const int outer = builder_.subtract(builder_.power(dyad_steps->sum, 2), dyad_steps->distance2);
+  const int inner = builder_.subtract(dyad_steps->distance2, builder_.power(dyad_steps->difference, 2));
   return builder_.line(builder_.multiply(scale, builder_.multiply(outer, inner)));
 }
 
 std::optional<std::array<StraightLine, 2>> StraightLines::rims(mechanism::PointIndex point) {
-  const std::optional<Dyad> known = dyad(point);
-  if (!known || known->axis) return std::nullopt;
-  return std::array{builder_.line(builder_.subtract(builder_.power(known->sum, 2), known->distance2)),
-                    builder_.line(builder_.subtract(known->distance2, builder_.power(known->difference, 2)))};
+  const std::optional<Dyad> dyad_steps = dyad(point);
+  if (!dyad_steps || dyad_steps->axis) return std::nullopt;
+  return std::array{builder_.line(builder_.subtract(builder_.power(dyad_steps->sum, 2), dyad_steps->distance2)),
+                    builder_.line(builder_.subtract(dyad_steps->distance2, builder_.power(dyad_steps->difference, 2)))};
 }
 
 /// |v|^2 in the unit of the root.
@@ -282,9 +283,9 @@ int StraightLines::inverse_of(const InverseLength& length) {
 }
 
 std::optional<std::array<StraightLine, 2>> StraightLines::way(mechanism::PointIndex point) {
-  const std::optional<Dyad> known = dyad(point);
-  if (!known || known->axis) return std::nullopt;
-  return std::array{builder_.line(known->way[0]), builder_.line(known->way[1])};
+  const std::optional<Dyad> dyad_steps = dyad(point);
+  if (!dyad_steps || dyad_steps->axis) return std::nullopt;
+  return std::array{builder_.line(dyad_steps->way[0]), builder_.line(dyad_steps->way[1])};
 }
 
 int StraightLines::value(const Polynomial& p) {
@@ -330,8 +331,8 @@ StraightLines::Place StraightLines::way_between(mechanism::PointIndex from, mech
   }
   const auto &a = geometry_->natural(from), &p = geometry_->natural(to);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Poly own = geometry_->poly((p[i] - a[i]).expand());
-    way[i] = own.is_zero() ? builder_.constant(0) : value_by_ways(own, 1);
+    const Poly poly = geometry_->poly((p[i] - a[i]).expand());
+    way[i] = poly.is_zero() ? builder_.constant(0) : value_by_ways(poly, 1);
   }
   return way;
 }
@@ -361,22 +362,22 @@ int StraightLines::excess(const Dyad& dyad) {
 
 std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex point) {
   const mechanism::PointForm& form = geometry_->mechanism().points[static_cast<std::size_t>(point)].form;
-  const auto* own = std::get_if<mechanism::DyadPoint>(&form);
-  if (own == nullptr || own->right_angle) return std::nullopt;
-  const Poly from_length = geometry_->poly(geometry_->expression(own->from_length).expand());
-  const Poly to_length = geometry_->poly(geometry_->expression(own->to_length).expand());
+  const auto* dyad_point = std::get_if<mechanism::DyadPoint>(&form);
+  if (dyad_point == nullptr || dyad_point->right_angle) return std::nullopt;
+  const Poly from_length = geometry_->poly(geometry_->expression(dyad_point->from_length).expand());
+  const Poly to_length = geometry_->poly(geometry_->expression(dyad_point->to_length).expand());
   const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                  [&](const TowerRoot& r) { return r.point == point; });
   if (root == geometry_->roots().end()) return std::nullopt;
-  const Place way = way_between(own->from, own->to);
+  const Place way = way_between(dyad_point->from, dyad_point->to);
   const int from = value(from_length.plain()), to = value(to_length.plain());
   const int distance2 = dot(way, way);
   if (is_nested_)
     for (const Geometry::Way& over_tower : geometry_->dyad_ways())
       if (over_tower.point == point) know_divisors(over_tower, distance2);
   Dyad dyad{way, distance2, scale(*root), builder_.add(from, to), builder_.subtract(from, to)};
-  if (!own->axis) return dyad;
-  const Place n = vector(*own->axis);
+  if (!dyad_point->axis) return dyad;
+  const Place n = vector(*dyad_point->axis);
   const int n2 = dot(n, n), h = dot(n, way);
   const int d = builder_.subtract(builder_.multiply(n2, dyad.distance2), builder_.power(h, 2));
   dyad.axis = {n, n2, h, d};
@@ -385,8 +386,8 @@ std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex poi
 
 int StraightLines::scale(const TowerRoot& root) {
   const auto part = [&](const Poly& p) {
-    const std::optional<int> known = is_nested_ ? positive_value(p) : std::nullopt;
-    return known ? *known : value(p.plain());
+    const std::optional<int> positive = is_nested_ ? positive_value(p) : std::nullopt;
+    return positive ? *positive : value(p.plain());
   };
   const int above = part(root.scale);
   return builder_.multiply(above, builder_.inverse(part(root.scale_divisor)));
@@ -396,19 +397,19 @@ std::optional<int> StraightLines::positive_value(const Poly& p) {
   if (const std::optional<int> product = product_of_divisors(p)) return product;
   // What was divided by a common factor.
   Poly rest(p.ring());
-  for (const auto& [whole, own] : divisors_)
+  for (const auto& [whole, divisors] : divisors_)
     if (whole.divides(p, rest))
       if (const std::optional<int> below = product_of_divisors(rest))
-        return builder_.multiply(own, builder_.inverse(*below));
+        return builder_.multiply(divisors, builder_.inverse(*below));
   return std::nullopt;
 }
 
 std::optional<int> StraightLines::product_of_divisors(Poly p) {
   int product = builder_.constant(1);
   Poly rest(p.ring());
-  for (auto known = divisors_.rbegin(); known != divisors_.rend() && !p.is_constant(); ++known)
-    while (p.divides(known->first, rest)) {
-      product = builder_.multiply(product, known->second);
+  for (auto found = divisors_.rbegin(); found != divisors_.rend() && !p.is_constant(); ++found)
+    while (p.divides(found->first, rest)) {
+      product = builder_.multiply(product, found->second);
       std::swap(p, rest);
     }
   if (!p.is_constant()) return std::nullopt;
@@ -416,15 +417,15 @@ std::optional<int> StraightLines::product_of_divisors(Poly p) {
 }
 
 void StraightLines::know_divisors(const Geometry::Way& way, int distance2) {
-  const auto is = [&](const auto& own) { return own.first == way.twice_dw; };
+  const auto is = [&](const auto& candidate) { return candidate.first == way.twice_dw; };
   if (std::any_of(divisors_.begin(), divisors_.end(), is)) return;
   const std::optional<int> w = positive_value(way.w);
   if (!w) return;
   const std::optional<int> below = way.is_squared ? builder_.power(*w, 2) : positive_value(way.w2);
   if (!below) return;
   const int w2 = *below, d = builder_.multiply(distance2, w2);
-  const auto add = [&](const Poly& p, int own) {
-    if (!p.is_constant()) divisors_.emplace_back(p, own);
+  const auto add = [&](const Poly& p, int step) {
+    if (!p.is_constant()) divisors_.emplace_back(p, step);
   };
   add(way.w2, w2);
   add(way.d, d);
@@ -453,8 +454,8 @@ std::array<StraightLines::Place, 2> StraightLines::steps_in_space(const Dyad& dy
 }
 
 std::array<StraightLines::Place, 2> StraightLines::steps_to(const Dyad& dyad, const TowerRoot& root) {
-  const int own = root.value ? value(root.value->plain()) : known_.at(root.variable);
-  const int s = builder_.multiply(own, builder_.inverse(dyad.scale));
+  const int root_step = root.value ? value(root.value->plain()) : known_.at(root.variable);
+  const int s = builder_.multiply(root_step, builder_.inverse(dyad.scale));
   if (dyad.axis) return steps_in_space(dyad, s);
   const int half = builder_.constant(Rational(1, 2)), inverse = builder_.inverse(dyad.distance2);
   const int shift = builder_.multiply(builder_.multiply(half, builder_.multiply(dyad.sum, dyad.difference)), inverse);
@@ -470,11 +471,11 @@ std::array<StraightLines::Place, 2> StraightLines::steps_to(const Dyad& dyad, co
 StraightLines::Place StraightLines::constructed_place(const ConstructedPoint& point) {
   const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                  [&](const TowerRoot& r) { return r.point == point.point; });
-  const std::optional<Dyad> known = dyad(point.point);
-  if (!known || root == geometry_->roots().end()) return over_tower(geometry_->tower(point.point));
+  const std::optional<Dyad> dyad_steps = dyad(point.point);
+  if (!dyad_steps || root == geometry_->roots().end()) return over_tower(geometry_->tower(point.point));
   const auto& form =
       std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point.point)].form);
-  const Place a = natural_place(form.from), step = steps_to(*known, *root)[0];
+  const Place a = natural_place(form.from), step = steps_to(*dyad_steps, *root)[0];
   return {builder_.add(a[0], step[0]), builder_.add(a[1], step[1]), builder_.add(a[2], step[2])};
 }
 
