@@ -32,11 +32,11 @@ std::string describe(const Rectangle& cell) {
   return fmt::format("cell [{}, {}] x [{}, {}]", cell.x0, cell.x1, cell.y0, cell.y1);
 }
 
-Curve::Curve(const CertificateFile& certificate, const SheetCells& own)
+Curve::Curve(const CertificateFile& certificate, const SheetCells& sheet_cells)
     : c(certificate),
-      claim(own),
-      program(certificate.functions[static_cast<std::size_t>(own.function)].program),
-      sheet(parts_of(certificate, own.mode, own.at_zero), {&program}) {
+      claim(sheet_cells),
+      program(certificate.functions[static_cast<std::size_t>(sheet_cells.function)].program),
+      sheet(parts_of(certificate, sheet_cells.mode, sheet_cells.at_zero), {&program}) {
   size = std::max(core::Rational(c.box[1] - c.box[0]).get_d(), core::Rational(c.box[3] - c.box[2]).get_d());
   variables_ = {0, 1};
   for (int j = 0; j < static_cast<int>(c.squares.size()); ++j)
@@ -76,7 +76,7 @@ void Curve::plant() {
     fail("its cells do not cover the box");
   area = area_of({d[0], d[1], d[2], d[3]});
   std::vector<std::pair<int, int>> missing = {{-1, 0}};  // parent, child still to be made
-  for (const CellNode& own : claim.cells) {
+  for (const CellNode& cell_node : claim.cells) {
     const auto [parent, side] = missing.back();
     missing.pop_back();
     Node node{{d[0], d[1], d[2], d[3]}};
@@ -88,17 +88,18 @@ void Curve::plant() {
       (above.axis == 0 ? (side == 0 ? node.cell.x1 : node.cell.x0) : (side == 0 ? node.cell.y1 : node.cell.y0)) =
           above.at;
     }
-    if (own.kind == CellNode::Kind::cut) {
-      node.axis = own.axis;
-      node.at = own.at;
+    if (cell_node.kind == CellNode::Kind::cut) {
+      node.axis = cell_node.axis;
+      node.at = cell_node.at;
       const Rectangle& cell = node.cell;
-      if (!(own.axis == 0 ? cell.x0 < own.at && own.at < cell.x1 : cell.y0 < own.at && own.at < cell.y1))
+      if (!(cell_node.axis == 0 ? cell.x0 < cell_node.at && cell_node.at < cell.x1
+                                : cell.y0 < cell_node.at && cell_node.at < cell.y1))
         fail("a cut lies outside of its " + describe(cell));
       missing.emplace_back(index, 1);
       missing.emplace_back(index, 0);
     } else {
       node.leaf = static_cast<int>(leaves_.size());
-      leaves_.push_back({node.cell, own, node.leaf, own.kind == CellNode::Kind::open});
+      leaves_.push_back({node.cell, cell_node, node.leaf, cell_node.kind == CellNode::Kind::open});
     }
     nodes_.push_back(node);
   }
@@ -115,10 +116,10 @@ bool Curve::is_free(const Rectangle& cell, int cuts) {
 
 /// Over the cell that the sheet has entered; its slopes are known.
 bool Curve::is_graph_here(int variable) const {
-  int own = variable < 2 ? variable : -1;
+  int axis = variable < 2 ? variable : -1;
   for (std::size_t l = 0; l < sheet.lifted().size(); ++l)
-    if (sheet.lifted()[l] == variable - 2) own = 2 + static_cast<int>(l);
-  return own >= 0 && sheet.tangent(0, own).sign() != 0;
+    if (sheet.lifted()[l] == variable - 2) axis = 2 + static_cast<int>(l);
+  return axis >= 0 && sheet.tangent(0, axis).sign() != 0;
 }
 
 bool Curve::is_graph(const Rectangle& cell, int variable) {
@@ -227,11 +228,11 @@ int Curve::region(int leaf) const {
 }
 
 Rectangle Curve::region_at(int j) const {
-  const int own = region(junction(j).beyond);
-  Rectangle hull = leaves_[static_cast<std::size_t>(own)].cell;
+  const int region_behind = region(junction(j).beyond);
+  Rectangle hull = leaves_[static_cast<std::size_t>(region_behind)].cell;
   for (std::size_t l = 0; l < leaves_.size(); ++l) {
     const Rectangle& cell = leaves_[l].cell;
-    if (leaves_[l].claim.kind != CellNode::Kind::open || region(static_cast<int>(l)) != own) continue;
+    if (leaves_[l].claim.kind != CellNode::Kind::open || region(static_cast<int>(l)) != region_behind) continue;
     hull = {std::min(hull.x0, cell.x0), std::max(hull.x1, cell.x1), std::min(hull.y0, cell.y0),
             std::max(hull.y1, cell.y1)};
   }
@@ -266,22 +267,23 @@ void Curve::meet_along(int a_index, int b_index, int axis, double at) {
   if (of_a == Kind::open && of_b == Kind::open) region_[static_cast<std::size_t>(region(b.leaf))] = region(a.leaf);
   if (of_a == Kind::free || of_b == Kind::free || (of_a == Kind::open && of_b == Kind::open)) return;
   // A leaf of the checker's own comes first: it may be opened.
-  const bool a_first = of_b == Kind::open || (of_a == Kind::graph && leaves_[static_cast<std::size_t>(a.leaf)].own);
+  const bool a_first =
+      of_b == Kind::open || (of_a == Kind::graph && leaves_[static_cast<std::size_t>(a.leaf)].unclaimed);
   const int one = a_first ? a.leaf : b.leaf, other = a_first ? b.leaf : a.leaf;
   meet_side(one, other, axis, at, from, to, of_a == of_b ? Junction::Kind::seam : Junction::Kind::open);
 }
 
 /// The zeros on a part of a leaf's side, as ends there, and of the leaf beyond if there is one.
 void Curve::meet_side(int leaf, int beyond, int axis, double at, double from, double to, Junction::Kind kind_of_end) {
-  const auto [known, fresh] = known_.try_emplace({static_cast<double>(axis), at, from, to});
+  const auto [entry, fresh] = known_.try_emplace({static_cast<double>(axis), at, from, to});
   if (fresh)
-    known->second = common_zeros(sheet, {axis == 0 ? Rectangle{at, at, from, to} : Rectangle{from, to, at, at}}, size,
+    entry->second = common_zeros(sheet, {axis == 0 ? Rectangle{at, at, from, to} : Rectangle{from, to, at, at}}, size,
                                  most_cells_of_side);
-  const CommonZeros& found = known->second;
+  const CommonZeros& found = entry->second;
   if (!found.complete || !found.undecided.empty()) return open(leaf);
   for (const Place& place : found.zeros) {
-    const Interval& own = axis == 0 ? place.y : place.x;
-    if (own.upper() < from || to < own.lower()) continue;
+    const Interval& interval = axis == 0 ? place.y : place.x;
+    if (interval.upper() < from || to < interval.lower()) continue;
     junctions_.push_back({kind_of_end, place, -1, false});
     const int junction = static_cast<int>(junctions_.size()) - 1;
     attach(leaf, junction);
@@ -352,9 +354,9 @@ int Curve::leaf_at(const Place& place) const {
   if (place.x.upper() < d[0] || d[1] < place.x.lower() || place.y.upper() < d[2] || d[3] < place.y.lower()) return -2;
   std::size_t index = 0;
   while (nodes_[index].axis >= 0) {
-    const Interval& own = nodes_[index].axis == 0 ? place.x : place.y;
-    if (own.lower() <= nodes_[index].at && nodes_[index].at <= own.upper()) return -1;
-    index = static_cast<std::size_t>(nodes_[index].child[own.upper() < nodes_[index].at ? 0 : 1]);
+    const Interval& interval = nodes_[index].axis == 0 ? place.x : place.y;
+    if (interval.lower() <= nodes_[index].at && nodes_[index].at <= interval.upper()) return -1;
+    index = static_cast<std::size_t>(nodes_[index].child[interval.upper() < nodes_[index].at ? 0 : 1]);
   }
   return nodes_[index].leaf;
 }
@@ -380,14 +382,14 @@ bool Curve::pair() {
   if (opened_) return false;
   std::string why;
   for (std::size_t l = 0; l < leaves_.size(); ++l) {
-    std::vector<End>& own = ends_[l];
-    std::sort(own.begin(), own.end(), [](const End& a, const End& b) { return a.key.middle() < b.key.middle(); });
+    std::vector<End>& end = ends_[l];
+    std::sort(end.begin(), end.end(), [](const End& a, const End& b) { return a.key.middle() < b.key.middle(); });
     bool apart = true;
-    for (std::size_t i = 0; i + 1 < own.size(); ++i) apart = apart && own[i].key.upper() < own[i + 1].key.lower();
-    if (own.size() % 2 == 0 && apart)
-      for (std::size_t i = 0; i + 1 < own.size(); i += 2)
-        pieces_.push_back({static_cast<int>(l), {own[i], own[i + 1]}});
-    else if (leaves_[l].own || !apart)
+    for (std::size_t i = 0; i + 1 < end.size(); ++i) apart = apart && end[i].key.upper() < end[i + 1].key.lower();
+    if (end.size() % 2 == 0 && apart)
+      for (std::size_t i = 0; i + 1 < end.size(); i += 2)
+        pieces_.push_back({static_cast<int>(l), {end[i], end[i + 1]}});
+    else if (leaves_[l].unclaimed || !apart)
       open(static_cast<int>(l));
     else
       why = "it has an odd number of ends in " + describe(leaves_[l].cell);
@@ -456,12 +458,13 @@ std::vector<Spot> Curve::spots(const Point2& at, double reach, bool& open) {
     open = open || kind(node.leaf) == CellNode::Kind::open;
     const auto found = places_of_.find(node.leaf);
     if (found == places_of_.end()) continue;
-    const Interval own = key(node.leaf, {range(at[0] - reach, at[0] + reach), range(at[1] - reach, at[1] + reach), {}});
+    const Interval interval =
+        key(node.leaf, {range(at[0] - reach, at[0] + reach), range(at[1] - reach, at[1] + reach), {}});
     for (const auto& [path, step] : found->second) {
       const Step& here = paths[static_cast<std::size_t>(path)].steps[static_cast<std::size_t>(step)];
       const double from = piece(here).ends[0].key.middle(), to = piece(here).ends[1].key.middle();
-      if (own.upper() < from || to < own.lower()) continue;
-      double part = std::clamp((own.middle() - from) / (to - from), 0.0, 1.0);
+      if (interval.upper() < from || to < interval.lower()) continue;
+      double part = std::clamp((interval.middle() - from) / (to - from), 0.0, 1.0);
       // Next to the boundary a root tells little of how far along a place is.
       for (const int end : {0, 1}) {
         const Junction& rim = junction(piece(here).ends[end].junction);
@@ -484,9 +487,9 @@ std::optional<Place> Curve::place_on(const Piece& on, const Rectangle& near) {
         common_zeros(sheet, {axis == 0 ? Rectangle{at, at, cell.y0, cell.y1} : Rectangle{cell.x0, cell.x1, at, at}},
                      size, most_cells_of_side);
     for (const Place& place : found.zeros) {
-      const Interval own = key(on.leaf, place);
+      const Interval interval = key(on.leaf, place);
       if (std::hypot(place.at()[0] - middle[0], place.at()[1] - middle[1]) < 10 * near.size() &&
-          on.ends[0].key.upper() < own.lower() && own.upper() < on.ends[1].key.lower())
+          on.ends[0].key.upper() < interval.lower() && interval.upper() < on.ends[1].key.lower())
         return place;
     }
   }

@@ -19,7 +19,7 @@ struct Leaf {
   Rectangle cell;
   core::CellNode claim;
   int origin = 0;    ///< the cell of the certificate that it is, or a part of
-  bool own = false;  ///< a part of a cell of which nothing was claimed
+  bool unclaimed = false;  ///< a part of a cell of which nothing was claimed
 };
 
 struct Node {

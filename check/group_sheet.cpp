@@ -34,7 +34,7 @@ std::optional<Cell> common(const Cell& a, const Cell& b) {
 
 std::vector<double> doubles_of(const std::vector<Interval>& solution) {
   std::vector<double> all;
-  for (const Interval& own : solution) all.push_back(own.middle());
+  for (const Interval& interval : solution) all.push_back(interval.middle());
   return all;
 }
 
@@ -44,8 +44,8 @@ PoseVariables variables_over(const std::vector<std::string>& names, const Cell& 
   PoseVariables variables{names, {}};
   std::vector<Interval> ranges;
   offsets.clear();
-  for (const auto& own : cell) {
-    ranges.emplace_back(own[0], own[1], cell_bits);
+  for (const auto& side : cell) {
+    ranges.emplace_back(side[0], side[1], cell_bits);
     offsets.push_back(ranges.back() - middle_of(ranges.back()));
   }
   for (std::size_t c = 0; c < cell.size(); ++c) variables.values.emplace_back(ranges[c], offsets, c);
@@ -111,9 +111,9 @@ void GroupSheet::follow(const std::vector<double>& pose) {
 }
 
 std::vector<double> GroupSheet::nearest(const std::vector<double>& at) const {
-  const auto off = [&](const auto& own) {
+  const auto off = [&](const auto& candidate) {
     double sum = 0;
-    for (std::size_t c = 0; c < at.size(); ++c) sum += std::pow((own.first[c] - at[c]) / widths_[c], 2);
+    for (std::size_t c = 0; c < at.size(); ++c) sum += std::pow((candidate.first[c] - at[c]) / widths_[c], 2);
     return sum;
   };
   return std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); })
@@ -143,15 +143,15 @@ void GroupSheet::cover(const Cell& whole, const std::function<bool(const Cell&)>
 void GroupSheet::reach(const std::vector<double>& pose) const {
   const bool found = std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
     for (std::size_t c = 0; c < names_.size(); ++c) {
-      std::array<double, 2> own;
+      std::array<double, 2> range;
       if (c < pose.size()) {
-        own = {pose[c], pose[c]};
+        range = {pose[c], pose[c]};
       } else {
-        own = around(std::find_if(m_.parameters.begin(), m_.parameters.end(), [&](const auto& parameter) {
-                       return parameter.name == names_[c];
-                     })->value);
+        range = around(std::find_if(m_.parameters.begin(), m_.parameters.end(), [&](const auto& parameter) {
+                         return parameter.name == names_[c];
+                       })->value);
       }
-      if (own[0] < part.cell[c][0] || own[1] > part.cell[c][1]) return false;
+      if (range[0] < part.cell[c][0] || range[1] > part.cell[c][1]) return false;
     }
     return lie_in(at_pose_, part.groups.alone);
   });
@@ -164,7 +164,7 @@ void GroupSheet::join(const std::function<bool(const Cell&)>& is_apart) const {
       const std::optional<Cell> both = common(parts_[i].cell, parts_[j].cell);
       if (!both || is_apart(*both)) continue;
       Cell place;
-      for (const double own : middle_of(*both)) place.push_back({own, own});
+      for (const double component : middle_of(*both)) place.push_back({component, component});
       Jet::Offsets offsets;
       const PoseVariables variables = variables_over(names_, place, offsets);
       std::vector<double> spreads(names_.size());
@@ -177,9 +177,9 @@ void GroupSheet::join(const std::function<bool(const Cell&)>& is_apart) const {
 
 std::optional<GroupCell> GroupSheet::over(const Part& part, const PoseVariables& variables, const Jet::Offsets& offsets,
                                           std::vector<double>& spreads) const {
-  std::optional<GroupCell> own = closed_over(m_, sides_, variables, offsets, part.groups.middle, spreads);
-  if (own && !lie_in(own->at_middle, part.groups.alone)) return std::nullopt;
-  return own;
+  std::optional<GroupCell> cell = closed_over(m_, sides_, variables, offsets, part.groups.middle, spreads);
+  if (cell && !lie_in(cell->at_middle, part.groups.alone)) return std::nullopt;
+  return cell;
 }
 
 }  // namespace clearloci::check

@@ -68,16 +68,16 @@ class Jet {
   friend Jet operator/(const Jet& a, const Jet& b) { return a * inverse(b); }
   friend Jet inverse(const Jet& a) {
     const Interval one(1.0, a.value_.bits());
-    const Interval own = one / a.value_;
-    return a.through(own, one / a.middle_, -squared(own));
+    const Interval interval = one / a.value_;
+    return a.through(interval, one / a.middle_, -squared(interval));
   }
   friend Jet squared(const Jet& a) {
     return a.through(squared(a.value_), squared(a.middle_), Interval(2.0, a.value_.bits()) * a.value_);
   }
   /// Required for slopes: above 0 all over the cell.
   friend Jet root_of(const Jet& a) {
-    const Interval own = root_of(a.value_);
-    return a.through(own, root_of(a.middle_), Interval(0.5, own.bits()) / own);
+    const Interval root = root_of(a.value_);
+    return a.through(root, root_of(a.middle_), Interval(0.5, root.bits()) / root);
   }
   friend Jet cosine_of(const Jet& a) {
     return a.through(cosine_of(a.value_), cosine_of(a.middle_), -sine_of(a.value_));
@@ -113,7 +113,7 @@ class Jet {
   Jet through(const Interval& value, const Interval& middle, const Interval& slope) const {
     Jet result(value, middle);
     result.offsets_ = offsets_;
-    for (const Interval& own : slopes_) result.slopes_.push_back(own * slope);
+    for (const Interval& interval : slopes_) result.slopes_.push_back(interval * slope);
     return result.met();
   }
 

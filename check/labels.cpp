@@ -96,8 +96,8 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
       if (unknowns[k].joint == static_cast<int>(j) && is_part(unknowns[k].quantity))
         least = std::min(least, (*orders)[k]);
     const bool force = least > no_order && least != HUGE_VAL;
-    std::set<Quantity> own;
-    if (force) own.insert(Quantity::f);
+    std::set<Quantity> quantities;
+    if (force) quantities.insert(Quantity::f);
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const Quantity quantity = unknowns[k].quantity;
       const double order = (*orders)[k];
@@ -106,10 +106,10 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
       // Components are named where they are asked for, and vanish beyond what the force itself does.
       if ((guide || is_part(quantity)) && !wants(quantity)) continue;
       if (is_part(quantity) && !guide && force && order < least + no_order) continue;
-      own.insert(quantity);
+      quantities.insert(quantity);
     }
     const bool asked = std::find(c.joints.begin(), c.joints.end(), joint.name) != c.joints.end();
-    for (const Quantity quantity : own) {
+    for (const Quantity quantity : quantities) {
       label.insert({joint.name, quantity});
       any = any || (asked && wants(quantity));
     }

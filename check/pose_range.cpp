@@ -31,25 +31,25 @@ class PoseRangeCheck {
  private:
   /// A part of the range as a task.
   PoseTaskClaim task(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) const {
-    PoseTaskClaim own = claim_.head;
-    own.shape.name = "box";
-    own.shape.points = {{from}, {to}};
-    own.sides = mode.sides;
-    own.demands = mode.demands;
-    return own;
+    PoseTaskClaim claim = claim_.head;
+    claim.shape.name = "box";
+    claim.shape.points = {{from}, {to}};
+    claim.sides = mode.sides;
+    claim.demands = mode.demands;
+    return claim;
   }
   PoseTaskClaim without_demands(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) const {
-    PoseTaskClaim own = task(mode, from, to);
-    own.demands.clear();
-    return own;
+    PoseTaskClaim claim = task(mode, from, to);
+    claim.demands.clear();
+    return claim;
   }
 
   /// Without its least size.
   PoseTaskClaim with_demand(const PoseRangeClaim::Mode& mode, std::size_t demand, const Rational& from,
                             const Rational& to) const {
-    PoseTaskClaim own = task(mode, from, to);
-    own.demands = {mode.demands[demand]};
-    return own;
+    PoseTaskClaim claim = task(mode, from, to);
+    claim.demands = {mode.demands[demand]};
+    return claim;
   }
 
   std::string place(const Rational& from, const Rational& to) const {
@@ -66,17 +66,17 @@ class PoseRangeCheck {
     std::vector<PoseRangeClaim::Free> free = mode.free;
     std::sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
     Rational reached = lower_;
-    for (const PoseRangeClaim::Free& own : free) {
-      if (own.from < reached || own.to > upper_) throw FalseClaim("free: intervals overlap, or leave the range");
-      check_free(mode, own);
-      if (own.from > reached) check_between(mode, reached, own.from);
-      reached = own.to;
+    for (const PoseRangeClaim::Free& entry : free) {
+      if (entry.from < reached || entry.to > upper_) throw FalseClaim("free: intervals overlap, or leave the range");
+      check_free(mode, entry);
+      if (entry.from > reached) check_between(mode, reached, entry.from);
+      reached = entry.to;
     }
     if (reached < upper_) check_between(mode, reached, upper_);
     for (const PoseRangeClaim::Point& point : mode.points) {
       check_words(point);
-      if (point.at < lower_ || point.at > upper_ || std::any_of(free.begin(), free.end(), [&](const auto& own) {
-            return own.from < point.at && point.at < own.to;
+      if (point.at < lower_ || point.at > upper_ || std::any_of(free.begin(), free.end(), [&](const auto& candidate) {
+            return candidate.from < point.at && point.at < candidate.to;
           }))
         throw FalseClaim("points: one is where no locus is, at " + place(point.at, point.at));
     }
@@ -88,7 +88,7 @@ class PoseRangeCheck {
     const std::string what = words_of(point);
     for (const Reaction& vanishing : point.vanishing)
       if (std::none_of(m_.joints.begin(), m_.joints.end(),
-                       [&](const auto& own) { return own.name == vanishing.first; }))
+                       [&](const auto& joint) { return joint.name == vanishing.first; }))
         throw FalseClaim(what + ": the model has no joint " + vanishing.first.substr(0, 40));
     const bool of_reactions = point.kind == contact_loss || point.kind == backlash;
     if (of_reactions && (point.vanishing.empty() || gravest_kind(point.vanishing) != point.kind))
@@ -104,8 +104,9 @@ class PoseRangeCheck {
   /// Whether what is within reach is where the mechanism closes, from wherever it comes, and not where efforts keep to
   /// bounds besides.
   bool is_reach_closure() const {
-    return std::none_of(m_.joints.begin(), m_.joints.end(),
-                        [](const mechanism::Joint& own) { return own.meshing || own.within || own.law_within; });
+    return std::none_of(m_.joints.begin(), m_.joints.end(), [](const mechanism::Joint& joint) {
+      return joint.meshing || joint.within || joint.law_within;
+    });
   }
 
   bool holds(const PoseTaskClaim& claim, Holding holding) {
@@ -117,27 +118,27 @@ class PoseRangeCheck {
     }
   }
 
-  void check_free(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Free& own) {
+  void check_free(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Free& free) {
     try {
-      examination_.task_cells += check_poses(m_, task(mode, own.from, own.to), Holding::clear, deadline_);
+      examination_.task_cells += check_poses(m_, task(mode, free.from, free.to), Holding::clear, deadline_);
     } catch (const FalseClaim& claim) {
-      throw FalseClaim(fmt::format("{} ({}): {}", own.name.substr(0, 40), place(own.from, own.to), claim.what()));
+      throw FalseClaim(fmt::format("{} ({}): {}", free.name.substr(0, 40), place(free.from, free.to), claim.what()));
     }
     ++examination_.zones;
-    if (own.assembly_mode == 0 && own.signs.empty()) return;
-    const Rational middle = (own.from + own.to) / 2;
+    if (free.assembly_mode == 0 && free.signs.empty()) return;
+    const Rational middle = (free.from + free.to) / 2;
     const PoseSigns signs = signs_at(m_, task(mode, middle, middle), deadline_);
-    if (own.assembly_mode * signs.determinant != 0) {
-      const int sense = own.assembly_mode * signs.determinant;
-      if (sense_ != 0 && sense_ != sense) throw FalseClaim("signs: of |A|, at " + place(own.from, own.to));
+    if (free.assembly_mode * signs.determinant != 0) {
+      const int sense = free.assembly_mode * signs.determinant;
+      if (sense_ != 0 && sense_ != sense) throw FalseClaim("signs: of |A|, at " + place(free.from, free.to));
       sense_ = sense;
     }
-    for (const auto& [joint, quantity, sign] : own.signs) {
+    for (const auto& [joint, quantity, sign] : free.signs) {
       const std::optional<std::size_t> demand = demand_of(mode, joint, quantity);
       if (demand && sign != 0 && signs.demands[*demand] == 0) continue;
       if (!demand || signs.demands[*demand] != sign)
         throw FalseClaim(fmt::format("signs: of {}_{}, at {}", core::to_string(quantity), joint.substr(0, 40),
-                                     place(own.from, own.to)));
+                                     place(free.from, free.to)));
     }
   }
 
@@ -150,14 +151,15 @@ class PoseRangeCheck {
 
   void check_between(const PoseRangeClaim::Mode& mode, const Rational& from, const Rational& to) {
     std::vector<const PoseRangeClaim::Point*> points;
-    for (const PoseRangeClaim::Point& own : mode.points)
-      if (own.at >= from && own.at <= to) points.push_back(&own);
-    const bool open = std::any_of(mode.open.begin(), mode.open.end(),
-                                  [&](const auto& own) { return own.first <= to && own.second >= from; });
+    for (const PoseRangeClaim::Point& point : mode.points)
+      if (point.at >= from && point.at <= to) points.push_back(&point);
+    const bool open = std::any_of(mode.open.begin(), mode.open.end(), [&](const auto& candidate) {
+      return candidate.first <= to && candidate.second >= from;
+    });
     if (open) return leave("the open place " + place(from, to));
     if (to - from > narrow()) return check_out_of_reach(mode, from, to);
     if (points.empty()) throw FalseClaim("points: there is none at " + place(from, to));
-    for (const PoseRangeClaim::Point* own : points) check_point(mode, *own, from, to);
+    for (const PoseRangeClaim::Point* point : points) check_point(mode, *point, from, to);
   }
 
   /// But for a hair at either end, where a boundary is.
@@ -167,11 +169,11 @@ class PoseRangeCheck {
       refuse_reached(mode, from, to);
       leave("that " + place(from, to) + " is out of reach");
     }
-    for (const PoseRangeClaim::Point& own : mode.points) {
-      if (own.at < from || own.at > to) continue;
-      if (own.at - from > narrow() && to - own.at > narrow())
-        throw FalseClaim("points: one is out of reach, at " + place(own.at, own.at));
-      if (own.kind != core::LocusKind::workspace_boundary) check_at_boundary(mode, own, from, to);
+    for (const PoseRangeClaim::Point& point : mode.points) {
+      if (point.at < from || point.at > to) continue;
+      if (point.at - from > narrow() && to - point.at > narrow())
+        throw FalseClaim("points: one is out of reach, at " + place(point.at, point.at));
+      if (point.kind != core::LocusKind::workspace_boundary) check_at_boundary(mode, point, from, to);
     }
   }
 

@@ -36,8 +36,8 @@ int determinant_sign(const PoseEquations& equations) {
   std::vector<std::vector<Interval>> rows(equations.unknowns,
                                           std::vector<Interval>(equations.unknowns, Interval(cell_bits)));
   for (const PoseEntry& entry : equations.matrix) {
-    Interval& own = rows[entry.row][entry.unknown];
-    own = own + entry.value.value();
+    Interval& row = rows[entry.row][entry.unknown];
+    row = row + entry.value.value();
   }
   Interval determinant(1.0, cell_bits);
   return reduce(rows, rows.size(), determinant).size() < rows.size() ? 0 : determinant.sign();
@@ -54,9 +54,10 @@ class PoseTaskCheck {
     check_names();
     region_.emplace(region());
     whole_ = region_->whole();
-    for (const PoseTaskClaim::Range& own : claim.parameters) add_variable(own.parameter, own.lower, own.upper);
+    for (const PoseTaskClaim::Range& parameter : claim.parameters)
+      add_variable(parameter.parameter, parameter.lower, parameter.upper);
     if (!claim.loads_from.empty()) turn_load();
-    for (const PoseTaskClaim::LoadWithin& own : claim.loads_within) widen_load(own);
+    for (const PoseTaskClaim::LoadWithin& load_range : claim.loads_within) widen_load(load_range);
     if (part == nullptr) return;
     std::copy(part->begin(), part->end(), whole_.begin());
     give_efforts(efforts);
@@ -84,7 +85,7 @@ class PoseTaskCheck {
         part = &groups_->parts()[static_cast<std::size_t>(share * static_cast<double>(groups_->parts().size()))];
       Cell cell = whole_;
       if (part != nullptr) std::copy(part->cell.begin(), part->cell.end(), cell.begin());
-      for (auto& own : cell) own[0] = own[1] = own[0] + share * (own[1] - own[0]);
+      for (auto& side : cell) side[0] = side[1] = side[0] + share * (side[1] - side[0]);
       Jet::Offsets offsets;
       const PoseVariables variables = variables_over(names_, cell, offsets);
       std::vector<double> spreads(names_.size());
@@ -176,11 +177,11 @@ class PoseTaskCheck {
       if (m_.coordinates[c].name != claim_.coordinates[c]) throw FalseClaim("coordinates: they are not the model's");
     if (claim_.sides.size() != mechanism::dyad_points(m_).size())
       throw FalseClaim("sides: there is not one for every dyad and slider");
-    for (const PoseTaskClaim::Range& own : claim_.parameters) {
+    for (const PoseTaskClaim::Range& range : claim_.parameters) {
       const auto found = std::find_if(m_.parameters.begin(), m_.parameters.end(),
-                                      [&](const auto& parameter) { return parameter.name == own.parameter; });
-      if (found == m_.parameters.end() || !(own.lower <= found->value && found->value <= own.upper))
-        throw FalseClaim("parameters: '" + own.parameter.substr(0, 40) +
+                                      [&](const auto& parameter) { return parameter.name == range.parameter; });
+      if (found == m_.parameters.end() || !(range.lower <= found->value && found->value <= range.upper))
+        throw FalseClaim("parameters: '" + range.parameter.substr(0, 40) +
                          "' is none of the model's, or not in its range");
     }
     for (const auto& point : claim_.shape.points)
@@ -194,12 +195,12 @@ class PoseTaskCheck {
   TaskRegion region() const {
     std::vector<double> weights;
     std::vector<bool> grows;
-    const bool any_length =
-        std::any_of(m_.coordinates.begin(), m_.coordinates.end(), [](const auto& own) { return !own.angle; });
-    for (const mechanism::Coordinate& own : m_.coordinates) {
-      const bool counted = own.angle && claim_.angle_length;
+    const bool any_length = std::any_of(m_.coordinates.begin(), m_.coordinates.end(),
+                                        [](const auto& coordinate) { return !coordinate.angle; });
+    for (const mechanism::Coordinate& coordinate : m_.coordinates) {
+      const bool counted = coordinate.angle && claim_.angle_length;
       weights.push_back(counted ? around(*claim_.angle_length)[0] : 1.0);
-      grows.push_back(!own.angle || counted || !any_length);
+      grows.push_back(!coordinate.angle || counted || !any_length);
     }
     return {claim_.shape, std::move(weights), std::move(grows)};
   }
@@ -241,7 +242,7 @@ class PoseTaskCheck {
     for (std::size_t k = 1; k < efforts.size(); ++k) add_variable(fmt::format("share {} of efforts", k), 0, 1);
     for (std::size_t j = 0; j < claim_.law->joints.size(); ++j) {
       const auto joint = std::find_if(m_.joints.begin(), m_.joints.end(),
-                                      [&](const auto& own) { return own.name == claim_.law->joints[j]; });
+                                      [&](const auto& candidate) { return candidate.name == claim_.law->joints[j]; });
       if (joint == m_.joints.end() || !joint->free_effort || joint->free_effort->given)
         throw FalseClaim("law: '" + claim_.law->joints[j].substr(0, 40) + "' has no free effort");
       const Expression first = effort_of(efforts.front(), j);
@@ -256,27 +257,27 @@ class PoseTaskCheck {
   }
 
   /// As it depends on what is known of the load.
-  Expression effort_of(const Efforts& own, std::size_t joint) const {
-    Expression effort = Expression::number(own.at_loads.front()[joint]);
-    if (own.at_loads.size() > 1) {
+  Expression effort_of(const Efforts& efforts, std::size_t joint) const {
+    Expression effort = Expression::number(efforts.at_loads.front()[joint]);
+    if (efforts.at_loads.size() > 1) {
       if (claim_.loads_from.empty()) throw FalseClaim("law: it depends on a load that does not vary");
-      const Rational more = own.at_loads.back()[joint] - own.at_loads.front()[joint];
+      const Rational more = efforts.at_loads.back()[joint] - efforts.at_loads.front()[joint];
       effort = sum(effort, product(Expression::number(more), Expression::symbol(way_of_load)));
     }
     std::vector<std::string> parts;
     for (const LoadBall& ball : balls_)
       for (std::size_t c = 0; c < ball.count; ++c) parts.push_back(names_[ball.first + c]);
-    if (!own.gains.empty() && own.gains.size() != parts.size())
+    if (!efforts.gains.empty() && efforts.gains.size() != parts.size())
       throw FalseClaim("law: it depends on a load that does not vary");
-    for (std::size_t c = 0; c < own.gains.size(); ++c)
-      effort = sum(effort, product(Expression::number(own.gains[c][joint]), Expression::symbol(parts[c])));
+    for (std::size_t c = 0; c < efforts.gains.size(); ++c)
+      effort = sum(effort, product(Expression::number(efforts.gains[c][joint]), Expression::symbol(parts[c])));
     return effort;
   }
 
   static void require_bounds(const mechanism::Joint& joint, const std::vector<Efforts>& efforts, std::size_t j) {
     if (!joint.free_effort->within) return;
-    for (const Efforts& own : efforts)
-      for (const auto& values : own.at_loads)
+    for (const Efforts& effort : efforts)
+      for (const auto& values : effort.at_loads)
         if (values[j] < joint.free_effort->within->first || values[j] > joint.free_effort->within->second)
           throw FalseClaim("law: the effort of " + joint.name + " is beyond its bounds");
   }
@@ -309,13 +310,13 @@ class PoseTaskCheck {
 
   /// Those that the cell has the whole of.
   std::vector<LoadBall> balls_in(const Cell& cell) const {
-    std::vector<LoadBall> own;
+    std::vector<LoadBall> balls;
     for (const LoadBall& ball : balls_) {
       const auto first = static_cast<std::ptrdiff_t>(ball.first),
                  last = first + static_cast<std::ptrdiff_t>(ball.count);
-      if (std::equal(cell.begin() + first, cell.begin() + last, whole_.begin() + first)) own.push_back(ball);
+      if (std::equal(cell.begin() + first, cell.begin() + last, whole_.begin() + first)) balls.push_back(ball);
     }
-    return own;
+    return balls;
   }
 
   /// `part`: that the cell is in, of a mechanism with groups.
@@ -403,11 +404,11 @@ std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Dead
   std::size_t count = 0;
   for (std::size_t i = 0; i < cells.size(); ++i)
     count += PoseTaskCheck(m, claim, deadline, &cells[i], {law.efforts[i]}).run();
-  for (const CommonPlace& own : common_places(cells)) {
+  for (const CommonPlace& place : common_places(cells)) {
     std::vector<PoseTaskClaim::Law::Efforts> efforts;
-    for (const std::size_t i : own.cells)
+    for (const std::size_t i : place.cells)
       if (std::find(efforts.begin(), efforts.end(), law.efforts[i]) == efforts.end()) efforts.push_back(law.efforts[i]);
-    if (efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, &own.place, efforts).run();
+    if (efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, &place.place, efforts).run();
   }
   return count;
 }
@@ -425,7 +426,7 @@ void check_pose_task(const Mechanism& m, const PoseTaskClaim& claim, const Deadl
   check.check_links();
   examination.task_cells = claim.law ? check_law(m, claim, deadline, check) : check.run();
   examination.unchecked = claim.unchecked;
-  for (std::string& own : examination.unchecked) own = "task: " + own.substr(0, 200);
+  for (std::string& text : examination.unchecked) text = "task: " + text.substr(0, 200);
   examination.accepted = true;
 }
 

@@ -61,8 +61,8 @@ class Values {
 
   Values(const Mechanism& m, const VariablesOf<Number>& variables)
       : m_(m), variables_(variables), bits_(bits_of(variables.values.at(0))) {
-    for (const mechanism::Parameter& own : m.parameters)
-      if (varies(own.expression) && !is_variable(own.name)) dependent_.insert(own.name);
+    for (const mechanism::Parameter& parameter : m.parameters)
+      if (varies(parameter.expression) && !is_variable(parameter.name)) dependent_.insert(parameter.name);
   }
 
   using Value = Number;
@@ -70,14 +70,14 @@ class Values {
     return varies(e) ? std::nullopt : std::optional(number(mechanism::value_of(e, m_)));
   }
   static Number number(double value) { return Number(Interval(value, cell_bits)); }
-  Number number(const core::Rational& own) const { return Number(Interval(own, bits_)); }
+  Number number(const core::Rational& value) const { return Number(Interval(value, bits_)); }
   Number symbol(const std::string& name) const {
     for (std::size_t v = 0; v < variables_.names.size(); ++v)
       if (variables_.names[v] == name) return variables_.values[v];
-    const auto own = std::find_if(m_.parameters.begin(), m_.parameters.end(),
-                                  [&](const mechanism::Parameter& parameter) { return parameter.name == name; });
-    if (own == m_.parameters.end()) throw core::InputError({m_.file}, "a name that check does not know", "");
-    return value(own->expression);
+    const auto found = std::find_if(m_.parameters.begin(), m_.parameters.end(),
+                                    [&](const mechanism::Parameter& parameter) { return parameter.name == name; });
+    if (found == m_.parameters.end()) throw core::InputError({m_.file}, "a name that check does not know", "");
+    return value(found->expression);
   }
   static Number negate(const Number& a) { return -a; }
   static Number add(const Number& a, const Number& b) { return a + b; }
@@ -94,9 +94,9 @@ class Values {
     return times < 0 ? inverse(result) : result;
   }
   Number pi() const {
-    Interval own(bits_);
-    mpfi_const_pi(own.get());
-    return Number(own);
+    Interval interval(bits_);
+    mpfi_const_pi(interval.get());
+    return Number(interval);
   }
   static Number sqrt(const Number& a, const Expression&) { return root_of(a); }
   static Number cos(const Number& a, const Expression&) { return cosine_of(a); }
@@ -109,9 +109,9 @@ class Values {
   }
 
   Vector components(const std::vector<Expression>& numbers) const {
-    Vector own;
-    for (std::size_t c = 0; c < numbers.size(); ++c) own[c] = value(numbers[c]);
-    return own;
+    Vector components;
+    for (std::size_t c = 0; c < numbers.size(); ++c) components[c] = value(numbers[c]);
+    return components;
   }
 
   Vector vector(const mechanism::VectorExpression& v, const std::vector<Vector>& points) const {
@@ -153,9 +153,9 @@ class Values {
 
 template <class Number>
 VectorOf<Number> unit_along(std::size_t c) {
-  VectorOf<Number> own;
-  own[c] = Number(Interval(1.0, cell_bits));
-  return own;
+  VectorOf<Number> unit;
+  unit[c] = Number(Interval(1.0, cell_bits));
+  return unit;
 }
 
 /// The joint's axis, of length one; in the plane that of a joint that turns is z.
@@ -175,8 +175,9 @@ std::array<Number, 2> off_rest(const Mechanism& m, const Values<Number>& values,
   using Vector = VectorOf<Number>;
   const auto direction = [&](mechanism::LinkIndex link) {
     if (link == mechanism::ground) return unit_along<Number>(0);
-    const auto& own = m.links.at(static_cast<std::size_t>(link)).points;
-    return points.at(static_cast<std::size_t>(own.at(1))) - points.at(static_cast<std::size_t>(own.at(0)));
+    const auto& link_points = m.links.at(static_cast<std::size_t>(link)).points;
+    return points.at(static_cast<std::size_t>(link_points.at(1))) -
+           points.at(static_cast<std::size_t>(link_points.at(0)));
   };
   const Vector u = axis_of(m, values, points, m.joints.at(static_cast<std::size_t>(spring.joint)));
   const Vector a = direction(spring.from), b = direction(spring.to);
