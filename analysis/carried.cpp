@@ -75,10 +75,10 @@ LocusMap carry_loci(const LocusMap& last, const Model& model, const LociRequest&
   check_sides(mechanism, request);
   if (!mechanism.groups.empty()) return unfinished_map(mechanism, "loci over such a closure are not carried over");
   const symbolic::LocusFamily* const family = content.member ? &content.shared->family() : nullptr;
-  const std::optional<Framed> own = framed(mechanism);
-  const auto derived = own ? derived_problems(own->mechanism, in_frame(request, own->frame), family)
-                           : derived_problems(mechanism, request, family);
-  return carried_loci(last, mechanism, own, derived);
+  const std::optional<Framed> scaled = framed(mechanism);
+  const auto derived = scaled ? derived_problems(scaled->mechanism, in_frame(request, scaled->frame), family)
+                              : derived_problems(mechanism, request, family);
+  return carried_loci(last, mechanism, scaled, derived);
 }
 
 }  // namespace clearloci

@@ -39,14 +39,14 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 /// Every combination in the order of core::all_working_modes: the last side changes fastest.
 std::vector<DyadSides> sides_to_trace(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  const DyadSides own = mechanism::working_mode(mechanism);
+  const DyadSides mode = mechanism::working_mode(mechanism);
   if (!request.all_working_modes)
-    return request.working_modes.empty() ? std::vector<DyadSides>{own} : request.working_modes;
+    return request.working_modes.empty() ? std::vector<DyadSides>{mode} : request.working_modes;
   std::vector<DyadSides> all;
-  for (std::size_t count = 0; count < std::size_t{1} << own.size(); ++count) {
-    all.push_back(own);
-    for (std::size_t j = 0; j < own.size(); ++j)
-      if ((count >> j & 1) != 0) all.back()[own.size() - 1 - j] *= -1;
+  for (std::size_t count = 0; count < std::size_t{1} << mode.size(); ++count) {
+    all.push_back(mode);
+    for (std::size_t j = 0; j < mode.size(); ++j)
+      if ((count >> j & 1) != 0) all.back()[mode.size() - 1 - j] *= -1;
   }
   return all;
 }
@@ -67,10 +67,10 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
                               const loci::TraceOptions& options) {
   std::vector<std::vector<const core::LocusProblem*>> sheets;  // one a piece each
   for (const symbolic::DerivedProblem& problem : derived) {
-    std::size_t own = 0;
-    while (own < sheets.size() && sheets[own].size() > static_cast<std::size_t>(problem.piece)) ++own;
-    if (own == sheets.size()) sheets.emplace_back();
-    sheets[own].push_back(&problem.problem);
+    std::size_t group = 0;
+    while (group < sheets.size() && sheets[group].size() > static_cast<std::size_t>(problem.piece)) ++group;
+    if (group == sheets.size()) sheets.emplace_back();
+    sheets[group].push_back(&problem.problem);
   }
   std::optional<core::LocusMap> joined;
   for (const auto& charts : sheets) {
@@ -97,14 +97,15 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
                                    .deadline = request.deadline,
                                    .sketch = effort == TraceEffort::sketch,
                                    .certificate = means.certificate,
-                                   .known = means.known};
+                                   .searches = means.searches};
   if (options.certificate != nullptr)
     for (const core::Root& root : derived.front().problem.tower.roots)
       if (root.square.is_constant() || root.name == core::fold_name)
         throw core::InputError({mechanism.file}, "the square roots that give the points depend on one another",
                                "such a mechanism has no certificate: leave --certificate out");
   std::vector<core::WorkingMode> modes;
-  for (const DyadSides& own : sides) modes.push_back(mode_of(own, names_of(derived.front().problem.tower)));
+  for (const DyadSides& dyad_sides : sides)
+    modes.push_back(mode_of(dyad_sides, names_of(derived.front().problem.tower)));
   if (mechanism.coordinates.size() == 3) {
     core::LocusMap map = trace_surfaces(request, derived, options);
     name_coordinates(mechanism, map);
@@ -193,8 +194,8 @@ class FileTexts {
     for (std::size_t at = 0; at <= list.size();) {
       const std::size_t end = std::min(list.find(apart, at), list.size());
       const std::string one = list.substr(at, end - at);
-      const auto own = texts_.find(one);
-      result += (at == 0 ? "" : "; ") + (own == texts_.end() ? one : own->second);
+      const auto text = texts_.find(one);
+      result += (at == 0 ? "" : "; ") + (text == texts_.end() ? one : text->second);
       at = end + apart.size();
     }
     list = std::move(result);
@@ -322,15 +323,15 @@ core::WorkingMode mode_of(const DyadSides& sides, const core::TowerNames& tower)
 }
 
 std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  const DyadSides own = mechanism::working_mode(mechanism);
+  const DyadSides mode = mechanism::working_mode(mechanism);
   if (!request.all_working_modes && !request.working_modes.empty()) return request.working_modes;
-  if (!request.all_working_modes) return {own};
-  check_mode_count(own.size());
-  std::vector<DyadSides> modes = {own};
-  for (std::size_t pattern = 0; pattern < std::size_t{1} << own.size(); ++pattern) {
+  if (!request.all_working_modes) return {mode};
+  check_mode_count(mode.size());
+  std::vector<DyadSides> modes = {mode};
+  for (std::size_t pattern = 0; pattern < std::size_t{1} << mode.size(); ++pattern) {
     DyadSides sides;
-    for (std::size_t j = 0; j < own.size(); ++j) sides.push_back((pattern >> j & 1) != 0 ? -1 : 1);
-    if (sides != own) modes.push_back(sides);
+    for (std::size_t j = 0; j < mode.size(); ++j) sides.push_back((pattern >> j & 1) != 0 ? -1 : 1);
+    if (sides != mode) modes.push_back(sides);
   }
   return modes;
 }
@@ -398,16 +399,16 @@ core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociR
     refuse_gears(mechanism, "certificates are written", "leave --certificate out");
   }
   if (!mechanism.groups.empty()) return loci_by_cells(mechanism, request);
-  const std::optional<Framed> own = framed(mechanism);
+  const std::optional<Framed> scaled = framed(mechanism);
   TraceMeans used = means;
   if (request.last && request.carried)
     used.derived = [&](const std::vector<symbolic::DerivedProblem>& derived) {
-      request.carried(carried_loci(*request.last, mechanism, own, derived));
+      request.carried(carried_loci(*request.last, mechanism, scaled, derived));
     };
-  core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), used).map
-                           : trace_member(mechanism, request, used).map;
-  if (means.certificate != nullptr) certify(map, own, *means.certificate);
-  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
+  core::LocusMap map = scaled ? trace_member(scaled->mechanism, in_frame(request, scaled->frame), used).map
+                              : trace_member(mechanism, request, used).map;
+  if (means.certificate != nullptr) certify(map, scaled, *means.certificate);
+  return scaled ? from_frame(std::move(map), mechanism, scaled->frame) : map;
 }
 
 }  // namespace
@@ -428,9 +429,10 @@ core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::Lo
 }
 
 core::LocusMap trace_loci(const Model& model, const LociRequest& request) {
-  const Model::Content& own = model.content();
-  check_request(own.mechanism, request);
-  return own.member ? trace_loci(own.mechanism, own.shared->family(), request) : trace_loci(own.mechanism, request);
+  const Model::Content& content = model.content();
+  check_request(content.mechanism, request);
+  return content.member ? trace_loci(content.mechanism, content.shared->family(), request)
+                        : trace_loci(content.mechanism, request);
 }
 
 std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
@@ -481,21 +483,22 @@ core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociReques
                                const numeric::GridSpec& grid) {
   require_coordinates(mechanism, 1, 3, "loci are held against a grid");
   if (!mechanism::joints_without_preload(mechanism).empty()) return validate_preload(mechanism, request, grid);
-  if (const std::optional<Framed> own = framed(mechanism)) {
-    core::Validation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
-    return {from_frame(std::move(inside.map), mechanism, own->frame), std::move(inside.nodes),
-            from_frame(std::move(inside.report), mechanism, own->frame)};
+  if (const std::optional<Framed> scaled = framed(mechanism)) {
+    core::Validation inside = validate_loci(scaled->mechanism, in_frame(std::move(request), scaled->frame), grid);
+    return {from_frame(std::move(inside.map), mechanism, scaled->frame), std::move(inside.nodes),
+            from_frame(std::move(inside.report), mechanism, scaled->frame)};
   }
   std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request);
   // Where a pin in space loses its contact no component of its force need vanish.
   for (const mechanism::Joint& joint : mechanism.joints)
     if (mechanism::presses_across_axis(mechanism, joint) &&
-        std::any_of(reactions.begin(), reactions.end(), [&](const auto& own) { return own.joint == joint.name; }))
+        std::any_of(reactions.begin(), reactions.end(),
+                    [&](const auto& reaction) { return reaction.joint == joint.name; }))
       reactions.push_back({joint.name, core::Quantity::f});
   // Of points that close together the loci of efforts and whole forces are known, not those of components.
   if (!mechanism.groups.empty())
-    std::erase_if(reactions, [](const numeric::TracedReaction& own) {
-      return own.quantity != core::Quantity::M && own.quantity != core::Quantity::F;
+    std::erase_if(reactions, [](const numeric::TracedReaction& reaction) {
+      return reaction.quantity != core::Quantity::M && reaction.quantity != core::Quantity::F;
     });
   std::vector<core::Quantity>& quantities = request.quantities = {core::Quantity::f};
   for (const numeric::TracedReaction& reaction : reactions)

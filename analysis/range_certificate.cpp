@@ -30,13 +30,13 @@ class RangeClaims {
     result_.coordinate = mechanism.coordinates.front().name;
   }
 
-  RangeCertificate::Mode& mode(const core::WorkingMode& own) {
-    const auto known = std::find(modes_.begin(), modes_.end(), own);
-    if (known != modes_.end()) return result_.modes[static_cast<std::size_t>(known - modes_.begin())];
-    modes_.push_back(own);
+  RangeCertificate::Mode& mode(const core::WorkingMode& mode) {
+    const auto found = std::find(modes_.begin(), modes_.end(), mode);
+    if (found != modes_.end()) return result_.modes[static_cast<std::size_t>(found - modes_.begin())];
+    modes_.push_back(mode);
     const numeric::NumericModel model = numeric::compile(mechanism_);
     RangeCertificate::Mode& added = result_.modes.emplace_back();
-    added.sides = numeric::dyad_signs(model, map_.tower, own);
+    added.sides = numeric::dyad_signs(model, map_.tower, mode);
     constexpr std::size_t poses = 24;
     std::vector<std::string> notes;
     added.demands = loaded_demands({model}, added.sides, demands_of(mechanism_, request_),
@@ -44,9 +44,9 @@ class RangeClaims {
     // Bounds of efforts are the model's.
     std::erase_if(added.demands, [](const core::TaskDemand& demand) { return demand.bound.has_value(); });
     for (const core::IsolatedPoint& point : map_.isolated_points)
-      if (point.mode == own) added.points.push_back(point);
+      if (point.mode == mode) added.points.push_back(point);
     for (const core::OpenRegion& open : map_.open)
-      if (open.mode == own) added.open.push_back({Rational(open.lower.front()), Rational(open.upper.front())});
+      if (open.mode == mode) added.open.push_back({Rational(open.lower.front()), Rational(open.upper.front())});
     return added;
   }
 
@@ -58,8 +58,8 @@ class RangeClaims {
   }
 
   RangeCertificate done() {
-    for (const RangeCertificate::Mode& own : result_.modes)
-      if (own.demands.empty())
+    for (const RangeCertificate::Mode& mode : result_.modes)
+      if (mode.demands.empty())
         throw core::InputError({.file = "--certificate"}, "none of the reactions asked for is certified",
                                "leave it out, or ask for f, M or F");
     return std::move(result_);

@@ -137,8 +137,9 @@ void check_task(const mechanism::Mechanism& mechanism, const core::Task& task) {
   check_positive(task.min_couple, "min_couple", "N m");
   check_positive(task.pose_error, "pose_error", "m");
   for (const core::Tolerance& tolerance : task.tolerances) {
-    const auto& known = mechanism.parameters;
-    if (std::none_of(known.begin(), known.end(), [&](const auto& own) { return own.name == tolerance.parameter; }))
+    const auto& parameters = mechanism.parameters;
+    if (std::none_of(parameters.begin(), parameters.end(),
+                     [&](const auto& candidate) { return candidate.name == tolerance.parameter; }))
       refuse_foreign(mechanism, "there is no parameter '" + tolerance.parameter + "'");
     if (tolerance.below > 0 || tolerance.above < 0)
       throw InputError({}, "the tolerance of " + tolerance.parameter + " leaves out its own value",

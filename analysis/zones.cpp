@@ -35,8 +35,8 @@ int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 :
 bool keeps_sign_in_zones(const core::Vanishing& what, const LociRequest& request, const core::LocusMap& loci,
                          const std::vector<core::Vanishing>& always_zero) {
   const auto is = [&](core::Quantity quantity) {
-    return [&joint = what.joint, quantity](const core::Vanishing& own) {
-      return own.joint == joint && own.quantity == quantity;
+    return [&joint = what.joint, quantity](const core::Vanishing& vanishing) {
+      return vanishing.joint == joint && vanishing.quantity == quantity;
     };
   };
   const auto asked = [&](core::Quantity quantity) {
@@ -104,18 +104,18 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave, const loci::ZoneLa
   core::Zones& joined = all.map;
   for (TracedSheet& sheet : traced.sheets) {
     loci::CutZones cut = loci::zones(sheet.problem, std::move(sheet.map), false, false, label);
-    core::Zones& own = cut.map;
+    core::Zones& zones = cut.map;
     all.finer_may_tell = all.finer_may_tell && cut.finer_may_tell;
-    const std::vector<core::LocusCurve> curves = own.loci.curves;
-    loci::drop_own_roots(own.loci);
-    for (core::Zone& zone : own.zones) {
+    const std::vector<core::LocusCurve> curves = zones.loci.curves;
+    loci::drop_own_roots(zones.loci);
+    for (core::Zone& zone : zones.zones) {
       for (core::ZoneBorder& border : zone.borders) {
         border.beside.clear();
         const auto curve =
             std::find_if(curves.begin(), curves.end(), [&](const auto& c) { return c.id == border.curve; });
         if (curve == curves.end()) continue;
         const std::size_t place = static_cast<std::size_t>(curve - curves.begin());
-        border.curve = loci::name_in(traced.map, own.loci.curves[place]);
+        border.curve = loci::name_in(traced.map, zones.loci.curves[place]);
         const auto named = std::find_if(traced.map.curves.begin(), traced.map.curves.end(),
                                         [&](const auto& c) { return c.id == border.curve; });
         if (named == traced.map.curves.end()) continue;
@@ -123,22 +123,22 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave, const loci::ZoneLa
         border.vanishing = named->vanishing;
       }
       for (int& point : zone.isolated_points)
-        point = loci::place_in(traced.map, own.loci.isolated_points[static_cast<std::size_t>(point)]);
+        point = loci::place_in(traced.map, zones.loci.isolated_points[static_cast<std::size_t>(point)]);
       std::erase(zone.isolated_points, -1);
       zone.mode.resize(traced.map.tower.roots.size(), 1);
       joined.zones.push_back(std::move(zone));
     }
-    for (core::ZonedMode& area : own.modes) {
+    for (core::ZonedMode& area : zones.modes) {
       area.mode.resize(traced.map.tower.roots.size(), 1);
-      const auto known = std::find_if(joined.modes.begin(), joined.modes.end(),
+      const auto found = std::find_if(joined.modes.begin(), joined.modes.end(),
                                       [&](const core::ZonedMode& other) { return other.mode == area.mode; });
-      if (known == joined.modes.end()) {
+      if (found == joined.modes.end()) {
         joined.modes.push_back(area);
         continue;
       }
-      known->workspace += area.workspace;
-      known->outside = std::max(0.0, known->outside - area.workspace);
-      known->in_doubt += area.in_doubt;
+      found->workspace += area.workspace;
+      found->outside = std::max(0.0, found->outside - area.workspace);
+      found->in_doubt += area.in_doubt;
     }
   }
   joined.loci = std::move(traced.map);
@@ -159,9 +159,9 @@ core::Zones cut_zones(const mechanism::Mechanism& mechanism, const LociRequest& 
                       const symbolic::LocusFamily* family, const PreloadLabel& label) {
   constexpr int attempts = 3;  // polylines of curves that nearly touch are told apart by finer ones
   LociRequest finer = request;
-  loci::sheet::KnownSearches known;
+  loci::sheet::KnownSearches searches;
   for (int attempt = 1;; ++attempt) {
-    TracedProblem traced = trace_problem(mechanism, finer, {certificate, &known, family});
+    TracedProblem traced = trace_problem(mechanism, finer, {certificate, &searches, family});
     if (traced.map.out_of_time)
       throw core::LimitReached("the loci could not be traced completely within the time limit");
     const Clock::time_point start = Clock::now();
@@ -192,7 +192,8 @@ namespace {
 /// Where the loci are complete, zones may still be in doubt: by how their curves meet, or by their areas.
 bool all_is_certain(const core::Zones& map) {
   return std::all_of(map.zones.begin(), map.zones.end(), [](const core::Zone& zone) { return zone.certified; }) &&
-         std::all_of(map.modes.begin(), map.modes.end(), [](const core::ZonedMode& own) { return own.in_doubt == 0; });
+         std::all_of(map.modes.begin(), map.modes.end(),
+                     [](const core::ZonedMode& mode) { return mode.in_doubt == 0; });
 }
 
 }  // namespace
@@ -203,24 +204,25 @@ core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest&
   if (request.by_cells || !mechanism::is_plane(mechanism) || !mechanism.groups.empty() ||
       (mechanism::has_effort_bounds(mechanism) && !chosen))
     return zones_by_cells(mechanism::with_bounded_belts(mechanism), request);
-  const std::optional<Framed> own = framed(mechanism);
-  const PreloadLabel label = label_of_preload(mechanism, own ? own->frame : mechanism::Frame{});
-  core::Zones map = own ? cut_zones(own->mechanism, in_frame(request.loci, own->frame), certificate, family, label)
-                        : cut_zones(mechanism, request.loci, certificate, family, label);
+  const std::optional<Framed> scaled = framed(mechanism);
+  const PreloadLabel label = label_of_preload(mechanism, scaled ? scaled->frame : mechanism::Frame{});
+  core::Zones map =
+      scaled ? cut_zones(scaled->mechanism, in_frame(request.loci, scaled->frame), certificate, family, label)
+             : cut_zones(mechanism, request.loci, certificate, family, label);
   map.loci.complete = map.loci.complete && all_is_certain(map);
   if (certificate != nullptr) {
-    certify(map.loci, own, *certificate);
+    certify(map.loci, scaled, *certificate);
     certificate->zones = map.zones;
   }
-  if (own) map = from_frame(std::move(map), mechanism, own->frame);
+  if (scaled) map = from_frame(std::move(map), mechanism, scaled->frame);
   add_preload(mechanism, request.loci, map);
   return map;
 }
 
 Zones find_zones(const Model& model, const ZoneRequest& request) {
-  const Model::Content& own = model.content();
-  check_request(own.mechanism, request.loci);
-  return find_zones(own.mechanism, request, nullptr, own.member ? &own.shared->family() : nullptr);
+  const Model::Content& content = model.content();
+  check_request(content.mechanism, request.loci);
+  return find_zones(content.mechanism, request, nullptr, content.member ? &content.shared->family() : nullptr);
 }
 
 }  // namespace clearloci

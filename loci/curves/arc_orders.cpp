@@ -58,10 +58,10 @@ std::vector<Polynomial> powers_of_angle(const Polynomial& p, std::size_t variabl
     }
   }
   std::vector<Polynomial> list;
-  for (const auto& own : powers) {
+  for (const auto& power : powers) {
     Polynomial& coefficient = list.emplace_back();
     coefficient.variables = p.variables;
-    for (const auto& [exponents, value] : own)
+    for (const auto& [exponents, value] : power)
       if (value != 0) coefficient.terms.push_back({exponents, value});
   }
   return list;
@@ -96,46 +96,46 @@ std::optional<EnclosedPoint> curve_point(const Polynomial& curve, const std::arr
 }
 
 template <class Value, class Compute>
-const Value& CurveAlgebra::known_or(Known<Value>& known, const Polynomial& p, const Compute& compute) {
+const Value& CurveAlgebra::known_or(Known<Value>& values, const Polynomial& p, const Compute& compute) {
   const auto find = [&] {
-    return std::find_if(known.begin(), known.end(), [&](const auto& own) { return own.first == p; });
+    return std::find_if(values.begin(), values.end(), [&](const auto& entry) { return entry.first == p; });
   };
   {
     const std::lock_guard lock(mutex_);
-    if (const auto own = find(); own != known.end()) return own->second;
+    if (const auto found = find(); found != values.end()) return found->second;
   }
   Value value = compute();
   const std::lock_guard lock(mutex_);
-  if (const auto own = find(); own != known.end()) return own->second;
-  return known.emplace_back(p, std::move(value)).second;
+  if (const auto found = find(); found != values.end()) return found->second;
+  return values.emplace_back(p, std::move(value)).second;
 }
 
 const CurveAlgebra::Divided& CurveAlgebra::divided(const Polynomial& p) {
   return known_or(divided_, p, [&] {
-    Divided own{0, core::with_variables(p, curve_.variables)};
-    while (std::optional<Polynomial> quotient = core::exact_quotient(own.rest, curve_)) {
-      own.rest = std::move(*quotient);
-      ++own.order;
+    Divided divided{0, core::with_variables(p, curve_.variables)};
+    while (std::optional<Polynomial> quotient = core::exact_quotient(divided.rest, curve_)) {
+      divided.rest = std::move(*quotient);
+      ++divided.order;
     }
     // What a curve with long coefficients leaves of a product is below what MultiInterval resolves.
-    own.scale = scale_for_doubles(own.rest);
-    return own;
+    divided.scale = scale_for_doubles(divided.rest);
+    return divided;
   });
 }
 
 const CurveAlgebra::Conjugate& CurveAlgebra::conjugate(const Polynomial& p, int root) {
   // A polynomial names its own root: the last that it holds.
   return known_or(conjugates_, p, [&] {
-    Conjugate own{conjugate_product(p, root, tower_)};
-    own.scale = scale_for_doubles(own.product);
-    return own;
+    Conjugate conjugate{conjugate_product(p, root, tower_)};
+    conjugate.scale = scale_for_doubles(conjugate.product);
+    return conjugate;
   });
 }
 
 std::shared_ptr<CurveAlgebra> CurveAlgebras::of(const Polynomial& curve) const {
   const std::lock_guard lock(mutex_);
-  for (const auto& [known, algebra] : curves_)
-    if (known == curve) return algebra;
+  for (const auto& [other, algebra] : curves_)
+    if (other == curve) return algebra;
   return curves_.emplace_back(curve, std::make_shared<CurveAlgebra>(tower_, curve)).second;
 }
 
@@ -192,9 +192,9 @@ bool ArcOrders::place_roots_on(int side) {
       continue;
     }
     // What is computed in fewer steps than its polynomial has terms is known more sharply by them, too.
-    const core::Root& own = tower_.roots[j];
-    if (own.square.terms.size() > own.line.steps.size())
-      if (const std::optional<MultiInterval> value = evaluate(own.line, at_); value && value->sign() != 0) {
+    const core::Root& tower_root = tower_.roots[j];
+    if (tower_root.square.terms.size() > tower_root.line.steps.size())
+      if (const std::optional<MultiInterval> value = evaluate(tower_root.line, at_); value && value->sign() != 0) {
         if (value->sign() < 0) return false;
         const MultiInterval root = square_root(*value);
         at_.push_back(mode_[j] > 0 ? root : -root);
@@ -214,16 +214,16 @@ bool ArcOrders::place_roots_on(int side) {
 
 std::optional<Germ> ArcOrders::coordinate_germ(const Polynomial& p, int side) {
   if (rule_) return rule_(p, side);
-  const CurveAlgebra::Divided& own = algebra_->divided(p);
-  const int cofactor = sign_at_point(own.rest);
+  const CurveAlgebra::Divided& divided = algebra_->divided(p);
+  const int cofactor = sign_at_point(divided.rest);
   if (cofactor == 0) return std::nullopt;
-  return Germ{own.order, own.order % 2 == 0 ? cofactor : side * cofactor};
+  return Germ{divided.order, divided.order % 2 == 0 ? cofactor : side * cofactor};
 }
 
 std::optional<Germ> ArcOrders::angle_germ(int root, int side) {
-  const core::Root& own = tower_.roots[static_cast<std::size_t>(root)];
-  const std::optional<Germ> cosine = germ(own.cosine_and_sine[0], side);
-  std::optional<Germ> sine = germ(own.cosine_and_sine[1], side);
+  const core::Root& tower_root = tower_.roots[static_cast<std::size_t>(root)];
+  const std::optional<Germ> cosine = germ(tower_root.cosine_and_sine[0], side);
+  std::optional<Germ> sine = germ(tower_root.cosine_and_sine[1], side);
   if (!cosine || !sine) return std::nullopt;
   if (sine->order == 0 || (cosine->order == 0 && cosine->sign > 0)) return sine;
   return std::nullopt;
@@ -236,15 +236,15 @@ std::optional<Germ> ArcOrders::germ_with_angle(const Polynomial& p, int root, in
   Germ lowest;
   bool opposed = false;
   for (std::size_t k = 0; k < powers.size(); ++k) {
-    std::optional<Germ> own = germ(powers[k], side);
-    if (!own) return std::nullopt;
+    std::optional<Germ> order = germ(powers[k], side);
+    if (!order) return std::nullopt;
     if (k > 0) {
-      own->order += angle->order * static_cast<int>(k);
-      own->sign *= k % 2 == 0 ? std::abs(angle->sign) : angle->sign;
+      order->order += angle->order * static_cast<int>(k);
+      order->sign *= k % 2 == 0 ? std::abs(angle->sign) : angle->sign;
     }
-    if (own->is_zero() || (!lowest.is_zero() && own->order > lowest.order)) continue;
-    opposed = !lowest.is_zero() && own->order == lowest.order && (opposed || own->sign != lowest.sign);
-    lowest = *own;
+    if (order->is_zero() || (!lowest.is_zero() && order->order > lowest.order)) continue;
+    opposed = !lowest.is_zero() && order->order == lowest.order && (opposed || order->sign != lowest.sign);
+    lowest = *order;
   }
   if (!opposed) return lowest;
   const std::optional<MultiInterval> sum = lead_with_angle(p, root, side);
@@ -253,13 +253,13 @@ std::optional<Germ> ArcOrders::germ_with_angle(const Polynomial& p, int root, in
 }
 
 std::optional<MultiInterval> ArcOrders::lead_of_angle(int root, int side) {
-  const core::Root& own = tower_.roots[static_cast<std::size_t>(root)];
+  const core::Root& tower_root = tower_.roots[static_cast<std::size_t>(root)];
   const std::optional<Germ> angle = angle_germ(root, side);
   if (!angle) return std::nullopt;
   if (angle->order == 0)
     return at_[tower_.coordinates.size() + static_cast<std::size_t>(root)] - MultiInterval(Rational(core::angle_shift));
-  const std::optional<MultiInterval> cosine = lead(own.cosine_and_sine[0], side);
-  const std::optional<MultiInterval> sine = lead(own.cosine_and_sine[1], side);
+  const std::optional<MultiInterval> cosine = lead(tower_root.cosine_and_sine[0], side);
+  const std::optional<MultiInterval> sine = lead(tower_root.cosine_and_sine[1], side);
   if (!cosine || !sine) return std::nullopt;
   return *sine * inverse(*cosine);
 }
@@ -272,10 +272,10 @@ std::optional<MultiInterval> ArcOrders::lead_with_angle(const Polynomial& p, int
   std::optional<Rational> least;
   MultiInterval sum(0.0), power(1.0);
   for (std::size_t k = 0; k < powers.size(); ++k, power = power * *turn) {
-    const std::optional<Germ> own = germ(powers[k], side);
-    if (!own) return std::nullopt;
-    if (own->is_zero() || (k > 0 && angle->is_zero())) continue;
-    const Rational order = own->order + angle->order * static_cast<int>(k);
+    const std::optional<Germ> germ_order = germ(powers[k], side);
+    if (!germ_order) return std::nullopt;
+    if (germ_order->is_zero() || (k > 0 && angle->is_zero())) continue;
+    const Rational order = germ_order->order + angle->order * static_cast<int>(k);
     if (least && order > *least) continue;
     const std::optional<MultiInterval> coefficient = lead(powers[k], side);
     if (!coefficient) return std::nullopt;
@@ -288,10 +288,10 @@ std::optional<MultiInterval> ArcOrders::lead_with_angle(const Polynomial& p, int
 
 std::optional<MultiInterval> ArcOrders::lead(const Polynomial& p, int side) {
   if (rule_) return std::nullopt;
-  const std::optional<Germ> own = germ(p, side);
-  if (!own) return std::nullopt;
-  if (own->is_zero()) return MultiInterval(0.0);
-  if (own->order == 0) {
+  const std::optional<Germ> order = germ(p, side);
+  if (!order) return std::nullopt;
+  if (order->is_zero()) return MultiInterval(0.0);
+  if (order->order == 0) {
     std::vector<MultiInterval> at = at_;
     at.resize(std::max(at.size(), static_cast<std::size_t>(p.variables)), MultiInterval(0.0));
     return evaluate(p, at);
@@ -329,8 +329,8 @@ std::optional<MultiInterval> ArcOrders::lead_over_root(const Polynomial& p, int 
 
 /// +1 or -1 where it is proven, else 0.
 int ArcOrders::sign_at_point(const Polynomial& p) {
-  const auto known = std::find_if(signs_.begin(), signs_.end(), [&](const auto& own) { return own.first == p; });
-  if (known != signs_.end()) return known->second;
+  const auto found = std::find_if(signs_.begin(), signs_.end(), [&](const auto& sign) { return sign.first == p; });
+  if (found != signs_.end()) return found->second;
   // The variables of roots that are still to be placed do not occur.
   std::vector<MultiInterval> at = at_;
   at.resize(std::max(at.size(), static_cast<std::size_t>(p.variables)), MultiInterval(0.0));

@@ -66,7 +66,7 @@ class CurveAlgebra {
   using Known = std::list<std::pair<core::Polynomial, Value>>;
   /// What is known of p, or else what `compute` says.
   template <class Value, class Compute>
-  const Value& known_or(Known<Value>& known, const core::Polynomial& p, const Compute& compute);
+  const Value& known_or(Known<Value>& values, const core::Polynomial& p, const Compute& compute);
 
   const core::RootTower& tower_;
   core::Polynomial curve_;

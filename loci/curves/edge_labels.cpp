@@ -20,12 +20,12 @@ bool contains(const std::vector<T>& list, const T& name) {
 /// Sums the multiplicities of components that several factors make vanish.
 void merge(std::vector<Vanishing>& components, const std::vector<Vanishing>& more) {
   for (const Vanishing& v : more) {
-    const auto known = std::find_if(components.begin(), components.end(),
+    const auto found = std::find_if(components.begin(), components.end(),
                                     [&](const Vanishing& w) { return w.joint == v.joint && w.quantity == v.quantity; });
-    if (known == components.end())
+    if (found == components.end())
       components.push_back(v);
     else
-      known->multiplicity += v.multiplicity;
+      found->multiplicity += v.multiplicity;
   }
 }
 
@@ -159,8 +159,8 @@ EdgeLabel widest_label(const LocusProblem& problem, std::size_t f) {
     if (k != f && other.role == FactorRole::reaction && shares_curve(factor, other))
       together.push_back(static_cast<int>(k));
   }
-  EdgeLabel own = label_of(problem, {static_cast<int>(f)});
-  return own.vanishing.empty() && together.size() > 1 ? label_of(problem, together) : own;
+  EdgeLabel label = label_of(problem, {static_cast<int>(f)});
+  return label.vanishing.empty() && together.size() > 1 ? label_of(problem, together) : label;
 }
 
 namespace {

@@ -105,12 +105,12 @@ ReactionOrders reaction_orders(const LocusProblem& problem, ArcOrders& arc, cons
 }
 
 ReactionOrders orders_at_simple_zero(const LocusProblem& problem, int factor) {
-  const LocusFactor& own = problem.factors[static_cast<std::size_t>(factor)];
+  const LocusFactor& locus_factor = problem.factors[static_cast<std::size_t>(factor)];
   ReactionOrders result;
-  result.singular = is_singular(own);
+  result.singular = is_singular(locus_factor);
   result.vanishes = {factor};
   for (const Vanishing& reaction : reactions_with(problem, {factor})) {
-    const int order = exponent_in(own, reaction);
+    const int order = exponent_in(locus_factor, reaction);
     if (order > 0) result.vanishing.push_back({reaction.joint, reaction.quantity, order});
     result.excited = result.excited || (order < 0 && !core::is_guide_end(reaction.quantity));
   }
@@ -120,14 +120,14 @@ ReactionOrders orders_at_simple_zero(const LocusProblem& problem, int factor) {
 std::optional<bool> is_margin(const LocusFactor& margin, ArcOrders& arc) {
   if (!arc.decided()) return std::nullopt;
   for (const int side : arc.sides()) {
-    std::optional<Rational> own = order_of(margin.sheet, arc, side);
-    if (!own) return std::nullopt;
+    std::optional<Rational> value = order_of(margin.sheet, arc, side);
+    if (!value) return std::nullopt;
     for (const auto& [sheet, power] : margin.cleared) {
       const std::optional<Rational> order = order_of(sheet, arc, side);
       if (!order) return std::nullopt;
-      *own -= power * *order;
+      *value -= power * *order;
     }
-    if (*own <= 0) return false;
+    if (*value <= 0) return false;
   }
   return true;
 }

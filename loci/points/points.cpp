@@ -68,7 +68,7 @@ class RootPlace {
   /// One a root; required: reachable().
   std::vector<bool> vanishing_roots() const {
     std::vector<bool> list;
-    for (const int own : signs_) list.push_back(own == 0);
+    for (const int sign : signs_) list.push_back(sign == 0);
     return list;
   }
 
@@ -405,8 +405,8 @@ std::string words_of(const LocusFactor& factor) {
   if (!factor.cause.empty()) return factor.cause;
   if (factor.role == FactorRole::direct_singularity) return "|A|";
   std::string names;
-  for (const Vanishing& own : factor.vanishing)
-    names += (names.empty() ? "" : ", ") + core::to_string(own.quantity) + " of " + own.joint;
+  for (const Vanishing& vanishing : factor.vanishing)
+    names += (names.empty() ? "" : ", ") + core::to_string(vanishing.quantity) + " of " + vanishing.joint;
   return names.empty() ? "a factor" : names;
 }
 

@@ -18,9 +18,9 @@ using core::BlockUnknowns;
 
 /// The steps up to the last block's.
 core::PoseProgram blocks_alone(const core::PoseProgram& program) {
-  core::PoseProgram own = program;
-  own.steps.resize(static_cast<std::size_t>(program.blocks.back().end));
-  return own;
+  core::PoseProgram pose_program = program;
+  pose_program.steps.resize(static_cast<std::size_t>(program.blocks.back().end));
+  return pose_program;
 }
 
 /// Halvings of the box along each of so many coordinates.
@@ -84,18 +84,18 @@ class Growth {
 
   bool complete() const {
     return std::all_of(nodes_.begin(), nodes_.end(),
-                       [](const Node& own) { return own.axis >= 0 || own.state == State::proven; });
+                       [](const Node& node) { return node.axis >= 0 || node.state == State::proven; });
   }
   bool out_of_effort() const { return out_of_effort_; }
   bool differs() const { return differs_; }
   /// Over one coordinate: cells at the end of what is covered.
   std::vector<SheetEnd> ends() {
     std::vector<SheetEnd> all;
-    for (const Node& own : nodes_)
-      if (own.axis < 0 && own.state != State::open && own.state != State::proven &&
-          own.box[0][1] - own.box[0][0] <= 2 * std::ldexp(box_[0][1] - box_[0][0], -deepest(1)))
-        all.push_back({own.box[0][0], own.box[0][1], own.block, false});
-    for (SheetEnd& own : all) own.proven = own.block == 0 && (turns_back(own, -1) || turns_back(own, 1));
+    for (const Node& node : nodes_)
+      if (node.axis < 0 && node.state != State::open && node.state != State::proven &&
+          node.box[0][1] - node.box[0][0] <= 2 * std::ldexp(box_[0][1] - box_[0][0], -deepest(1)))
+        all.push_back({node.box[0][0], node.box[0][1], node.block, false});
+    for (SheetEnd& end : all) end.proven = end.block == 0 && (turns_back(end, -1) || turns_back(end, 1));
     return all;
   }
 
@@ -117,30 +117,30 @@ class Growth {
   }
 
   int leaf_at(const std::vector<double>& at) const {
-    int own = 0;
-    while (nodes_[static_cast<std::size_t>(own)].axis >= 0) {
-      const Node& node = nodes_[static_cast<std::size_t>(own)];
+    int leaf = 0;
+    while (nodes_[static_cast<std::size_t>(leaf)].axis >= 0) {
+      const Node& node = nodes_[static_cast<std::size_t>(leaf)];
       const auto axis = static_cast<std::size_t>(node.axis);
-      own = at[axis] < nodes_[static_cast<std::size_t>(node.low)].box[axis][1] ? node.low : node.high;
+      leaf = at[axis] < nodes_[static_cast<std::size_t>(node.low)].box[axis][1] ? node.low : node.high;
     }
-    return own;
+    return leaf;
   }
 
   void look(int index, std::span<const double> lower, std::span<const double> upper, bool& any, bool& all) const {
-    const Node& own = nodes_[static_cast<std::size_t>(index)];
-    for (std::size_t p = 0; p < own.box.size(); ++p) {
-      const auto& [low, high] = own.box[p];
+    const Node& node = nodes_[static_cast<std::size_t>(index)];
+    for (std::size_t p = 0; p < node.box.size(); ++p) {
+      const auto& [low, high] = node.box[p];
       if (upper[p] < low || lower[p] > high) return;
       // Cells that share a face with the box alone have none of its poses but there.
       if (lower[p] < upper[p] && (upper[p] <= low || lower[p] >= high)) return;
     }
-    if (own.axis >= 0) {
-      look(own.low, lower, upper, any, all);
-      look(own.high, lower, upper, any, all);
+    if (node.axis >= 0) {
+      look(node.low, lower, upper, any, all);
+      look(node.high, lower, upper, any, all);
       return;
     }
-    any = any || own.state != State::open;
-    all = all && own.state == State::proven;
+    any = any || node.state != State::open;
+    all = all && node.state == State::proven;
   }
 
   /// A solution at single parameters, with a proof that it is one.
@@ -152,8 +152,8 @@ class Growth {
     std::size_t k = 0;
     for (const core::PoseProgram::Block& block : program_.blocks)
       for (const int step : block.unknowns) {
-        const Form& own = forms_[step];
-        if (!(std::abs(own.c - unknowns[k++]) + own.radius() < BlockSheet::accuracy * size)) return std::nullopt;
+        const Form& form = forms_[step];
+        if (!(std::abs(form.c - unknowns[k++]) + form.radius() < BlockSheet::accuracy * size)) return std::nullopt;
       }
     return unknowns;
   }
@@ -187,7 +187,7 @@ class Growth {
 
   std::optional<BlockUnknowns> solution_in(const Node& cell, const std::vector<double>& at) {
     BlockUnknowns guess;
-    for (const auto& own : cell.unique) guess.push_back(value(own.middle, cell.box, at));
+    for (const auto& side : cell.unique) guess.push_back(value(side.middle, cell.box, at));
     std::optional<BlockUnknowns> found = proven(at, std::move(guess));
     return found && holds(cell, at, *found) ? found : std::nullopt;
   }
@@ -261,17 +261,17 @@ class Growth {
       const auto& [middle, radius] = curve[j];
       const double here = middle.c + way * middle.a[0] + (Form::products > 0 ? middle.b[0] : 0),
                    there = middle.c - way * middle.a[0] + (Form::products > 0 ? middle.b[0] : 0);
-      const double known = j == k ? q_first : first[j];
-      if (!(std::abs(here - known) + 0.1 * radius < radius)) return false;
+      const double slope = j == k ? q_first : first[j];
+      if (!(std::abs(here - slope) + 0.1 * radius < radius)) return false;
       (j == k ? q_other : other[j]) = there;
     }
     other[k] = last[k] - way * half;
     if (!forms_.turn(q_other, other, k, 0)) return false;
     for (std::size_t j = 0; j < n; ++j) {
-      const Form& own = forms_.turned()[j].middle;
+      const Form& form = forms_.turned()[j].middle;
       const double there =
           curve[j].middle.c - way * curve[j].middle.a[0] + (Form::products > 0 ? curve[j].middle.b[0] : 0);
-      if (!(std::abs(own.c - there) + 0.1 * curve[j].radius < curve[j].radius)) return false;
+      if (!(std::abs(form.c - there) + 0.1 * curve[j].radius < curve[j].radius)) return false;
     }
     const int beyond = forms_.orientation();
     if (forms_.run({{q_first}, {}}, {}, first) != PoseForms<Form>::Outcome::complete) return false;
@@ -291,10 +291,10 @@ class Growth {
       return false;
     Node low{box}, high{box};
     low.box[axis][1] = high.box[axis][0] = middle;
-    Node& own = nodes_[static_cast<std::size_t>(index)];
-    own.axis = static_cast<int>(axis);
-    own.low = static_cast<int>(nodes_.size());
-    own.high = own.low + 1;
+    Node& node = nodes_[static_cast<std::size_t>(index)];
+    node.axis = static_cast<int>(axis);
+    node.low = static_cast<int>(nodes_.size());
+    node.high = node.low + 1;
     nodes_.push_back(std::move(low));
     nodes_.push_back(std::move(high));
     return true;
@@ -359,7 +359,7 @@ class Growth {
       if (start && holds(nodes_[static_cast<std::size_t>(index)], middle, *start)) return;
       // Two layers, or not told: neither covers what it may not.
       differs_ = true;
-      for (const int own : {index, from}) nodes_[static_cast<std::size_t>(own)].state = State::refused;
+      for (const int step : {index, from}) nodes_[static_cast<std::size_t>(step)].state = State::refused;
       return;
     }
     if (start && try_leaf(index, middle, *start)) return;
@@ -409,12 +409,13 @@ CoveredBox covered(const core::PoseProgram& program, const Pose& lower, const Po
   }
   result.finest = std::ldexp(1.0, -deepest(n));
   std::optional<BlockUnknowns> unknowns = BlockUnknowns{};
-  for (const core::PoseProgram::Block& own : program.blocks)
-    unknowns->insert(unknowns->end(), own.near.begin(), own.near.end());
+  for (const core::PoseProgram::Block& block : program.blocks)
+    unknowns->insert(unknowns->end(), block.near.begin(), block.near.end());
   if (start != program.near) unknowns = led_along(program, program.near, *unknowns, start, effort);
   struct Shared {
-    Shared(const core::PoseProgram& own, const PoseChart& over, const PoseBox& within, const BlockSheetEffort& most)
-        : growth(own, over, within, most) {}
+    Shared(const core::PoseProgram& pose_program, const PoseChart& over, const PoseBox& within,
+           const BlockSheetEffort& most)
+        : growth(pose_program, over, within, most) {}
     std::mutex mutex;
     Growth<Form> growth;
   };

@@ -266,9 +266,9 @@ class Builder {
     for (const Strand& one : strands_)
       for (const Strand& other : strands_) {
         if (one.owner != first || other.owner != second) continue;
-        const auto own = near_passes(boxed(one), boxed(other), chords_apart * map_.tolerance + same_place * size_);
-        if (!own) return {{{low_[0], high_[0]}, {low_[1], high_[1]}}};
-        places.insert(places.end(), own->begin(), own->end());
+        const auto passes = near_passes(boxed(one), boxed(other), chords_apart * map_.tolerance + same_place * size_);
+        if (!passes) return {{{low_[0], high_[0]}, {low_[1], high_[1]}}};
+        places.insert(places.end(), passes->begin(), passes->end());
       }
     for (sheet::PlaneCell& place : places)
       for (const Point2& star : stars_)
@@ -403,9 +403,9 @@ class Builder {
       for (const Foot& foot : passes(strand.points, boxed(strand), at, reach_of(strand))) {
         // A vertex is on the curve, also where the curve is singular and nothing near could be moved onto it.
         const auto is_near = [&](std::size_t i) { return distance(strand.points[i], at) <= same_place * size_; };
-        const CurveProjection* const own =
+        const CurveProjection* const curve_projection =
             is_near(foot.segment) || is_near(foot.segment + 1) ? nullptr : projection(strand.owner);
-        if (own != nullptr && distance((*own)(at).at, at) > 10 * same_place * size_) continue;
+        if (curve_projection != nullptr && distance((*curve_projection)(at).at, at) > 10 * same_place * size_) continue;
         strand.cuts.emplace_back(foot.position(), node);
       }
     }
@@ -560,9 +560,9 @@ class Builder {
               [](const auto& a, const auto& b) { return a.first.angle < b.first.angle; });
     std::vector<HalfEdge> order;
     for (std::size_t i = 0; i < bearings.size(); ++i) {
-      const Bearing &own = bearings[i].first, &next = bearings[(i + 1) % bearings.size()].first;
+      const Bearing &bearing = bearings[i].first, &next = bearings[(i + 1) % bearings.size()].first;
       const double turn = i + 1 < bearings.size() ? 0 : 2 * std::numbers::pi;
-      if (!(next.angle + turn - own.angle > own.doubt + next.doubt)) return {};
+      if (!(next.angle + turn - bearing.angle > bearing.doubt + next.doubt)) return {};
       order.push_back(bearings[i].second);
     }
     // Start from the same half-edge on every circle.
@@ -580,23 +580,24 @@ class Builder {
 
   /// The same of a curve that is followed from the node; none where it is not found.
   std::optional<Bearing> followed_bearing(int owner, const Point2& centre, const Point2& next, double radius) {
-    const CurveProjection* const own = projection(owner);
-    const std::optional<Point2> at = own == nullptr ? std::nullopt : own->at_distance(centre, next, radius);
+    const CurveProjection* const curve_projection = projection(owner);
+    const std::optional<Point2> at =
+        curve_projection == nullptr ? std::nullopt : curve_projection->at_distance(centre, next, radius);
     if (!at) return std::nullopt;
     return Bearing{std::atan2((*at)[1] - centre[1], (*at)[0] - centre[0]), 2 * rounding * size_ / radius};
   }
 
   /// The angle under which a curve crosses the circle: along its tangent to the radius, then back onto the curve.
   Bearing bearing_of_curve(int owner, const Point2& centre, Point2 at, double radius) {
-    const CurveProjection* const own = projection(owner);
+    const CurveProjection* const curve_projection = projection(owner);
     const auto bearing = [&](double off) {
       return Bearing{std::atan2(at[1] - centre[1], at[0] - centre[0]), off / radius + rounding * size_ / radius};
     };
-    if (own == nullptr) return bearing(0);
+    if (curve_projection == nullptr) return bearing(0);
     const Point2 start = at;
     double off = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 12; ++i) {
-      const auto [on, tangent] = (*own)(at);
+      const auto [on, tangent] = (*curve_projection)(at);
       at = on;
       const double rx = on[0] - centre[0], ry = on[1] - centre[1], r = std::hypot(rx, ry);
       off = std::abs(r - radius);

@@ -31,24 +31,25 @@ struct CableStatics {
 };
 
 /// The ranges of all tensions; none where there are no feasible ones.
-std::vector<std::array<double, 2>> ranges_by_vertices(const CableStatics& own) {
-  const Eigen::Index n = own.wrenches.rows(), m = own.wrenches.cols();
+std::vector<std::array<double, 2>> ranges_by_vertices(const CableStatics& statics) {
+  const Eigen::Index n = statics.wrenches.rows(), m = statics.wrenches.cols();
   std::vector<std::array<double, 2>> ranges;
   for (unsigned set = 0; set < (1U << m); ++set) {  // the cables at a bound
     std::vector<Eigen::Index> free, bound;
     for (Eigen::Index k = 0; k < m; ++k) (((set >> k) & 1U) != 0U ? bound : free).push_back(k);
     if (static_cast<Eigen::Index>(free.size()) != n) continue;
     Eigen::MatrixXd basis(n, n);
-    for (Eigen::Index k = 0; k < n; ++k) basis.col(k) = own.wrenches.col(free[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = 0; k < n; ++k) basis.col(k) = statics.wrenches.col(free[static_cast<std::size_t>(k)]);
     const Eigen::FullPivLU<Eigen::MatrixXd> lu(basis);
     if (!lu.isInvertible()) continue;
     for (unsigned upper = 0; upper < (1U << bound.size()); ++upper) {
       Eigen::VectorXd t = Eigen::VectorXd::Zero(m);
-      for (std::size_t b = 0; b < bound.size(); ++b) t(bound[b]) = ((upper >> b) & 1U) != 0U ? own.most : own.least;
-      const Eigen::VectorXd solved = lu.solve(-own.load - own.wrenches * t);
+      for (std::size_t b = 0; b < bound.size(); ++b)
+        t(bound[b]) = ((upper >> b) & 1U) != 0U ? statics.most : statics.least;
+      const Eigen::VectorXd solved = lu.solve(-statics.load - statics.wrenches * t);
       for (Eigen::Index k = 0; k < n; ++k) t(free[static_cast<std::size_t>(k)]) = solved(k);
-      if (t.minCoeff() < own.least - 1e-9 || t.maxCoeff() > own.most + 1e-9) continue;
-      if (ranges.empty()) ranges.assign(static_cast<std::size_t>(m), {own.most, own.least});
+      if (t.minCoeff() < statics.least - 1e-9 || t.maxCoeff() > statics.most + 1e-9) continue;
+      if (ranges.empty()) ranges.assign(static_cast<std::size_t>(m), {statics.most, statics.least});
       for (Eigen::Index k = 0; k < m; ++k) {
         std::array<double, 2>& range = ranges[static_cast<std::size_t>(k)];
         range = {std::min(range[0], t(k)), std::max(range[1], t(k))};
@@ -62,16 +63,16 @@ std::vector<std::array<double, 2>> ranges_by_vertices(const CableStatics& own) {
 constexpr double weak = 22;
 
 CableStatics point_statics(double x, double y) {
-  CableStatics own{Eigen::MatrixXd(2, 4), Eigen::Vector2d(0, -2 * 9.81), 5, weak};
+  CableStatics statics{Eigen::MatrixXd(2, 4), Eigen::Vector2d(0, -2 * 9.81), 5, weak};
   const std::array<Eigen::Vector2d, 4> anchors = {
       {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1)}};
   for (Eigen::Index k = 0; k < 4; ++k)
-    own.wrenches.col(k) = (anchors[static_cast<std::size_t>(k)] - Eigen::Vector2d(x, y)).normalized();
-  return own;
+    statics.wrenches.col(k) = (anchors[static_cast<std::size_t>(k)] - Eigen::Vector2d(x, y)).normalized();
+  return statics;
 }
 
 CableStatics platform_statics(double x, double y, double phi) {
-  CableStatics own{Eigen::MatrixXd(3, 4), Eigen::Vector3d(0, -20, 0), 5, 200};
+  CableStatics statics{Eigen::MatrixXd(3, 4), Eigen::Vector3d(0, -20, 0), 5, 200};
   const std::array<Eigen::Vector2d, 4> anchors = {
       {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1), Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1)}};
   const std::array<Eigen::Vector2d, 4> places = {
@@ -80,14 +81,14 @@ CableStatics platform_statics(double x, double y, double phi) {
   for (Eigen::Index k = 0; k < 4; ++k) {
     const Eigen::Vector2d arm = turn * places[static_cast<std::size_t>(k)];
     const Eigen::Vector2d u = (anchors[static_cast<std::size_t>(k)] - Eigen::Vector2d(x, y) - arm).normalized();
-    own.wrenches.col(k) << u, arm.x() * u.y() - arm.y() * u.x();
+    statics.wrenches.col(k) << u, arm.x() * u.y() - arm.y() * u.x();
   }
-  return own;
+  return statics;
 }
 
 CableStatics robot_statics(const std::vector<double>& pose) {
-  CableStatics own{Eigen::MatrixXd(6, 8), Eigen::VectorXd::Zero(6), 5, 400};
-  own.load(2) = -50;
+  CableStatics statics{Eigen::MatrixXd(6, 8), Eigen::VectorXd::Zero(6), 5, 400};
+  statics.load(2) = -50;
   const std::array<std::array<double, 6>, 8> sizes = {{{-2, -2, 0, 0.2, -0.2, 0.2},
                                                        {2, -2, 0, -0.2, -0.2, 0.2},
                                                        {2, 2, 0, -0.2, 0.2, 0.2},
@@ -106,9 +107,9 @@ CableStatics robot_statics(const std::vector<double>& pose) {
     const Eigen::Vector3d u =
         (Eigen::Vector3d(own_sizes[0], own_sizes[1], own_sizes[2]) - Eigen::Vector3d(pose[0], pose[1], pose[2]) - arm)
             .normalized();
-    own.wrenches.col(k) << u, arm.cross(u);
+    statics.wrenches.col(k) << u, arm.cross(u);
   }
-  return own;
+  return statics;
 }
 
 Model weak_point() {
@@ -125,15 +126,15 @@ bool expect_as_by_vertices(const Pose& pose, const CableStatics& statics) {
   EXPECT_EQ(static_cast<Eigen::Index>(pose.efforts.size()), statics.wrenches.cols());
   Eigen::VectorXd tensions(statics.wrenches.cols());
   for (std::size_t k = 0; k < pose.efforts.size(); ++k) {
-    const FeasibleEfforts& own = pose.efforts[k];
-    EXPECT_TRUE(own.cable);
-    tensions(static_cast<Eigen::Index>(k)) = own.effort;
-    EXPECT_EQ(own.ranges.empty(), expected.empty()) << own.joint;
-    if (own.ranges.empty() || expected.empty()) continue;
-    EXPECT_NEAR(own.ranges.front().from, expected[k][0], 1e-7 * statics.most) << own.joint;
-    EXPECT_NEAR(own.ranges.front().to, expected[k][1], 1e-7 * statics.most) << own.joint;
-    EXPECT_GE(own.effort, own.ranges.front().from - 1e-7 * statics.most);
-    EXPECT_LE(own.effort, own.ranges.front().to + 1e-7 * statics.most);
+    const FeasibleEfforts& efforts = pose.efforts[k];
+    EXPECT_TRUE(efforts.cable);
+    tensions(static_cast<Eigen::Index>(k)) = efforts.effort;
+    EXPECT_EQ(efforts.ranges.empty(), expected.empty()) << efforts.joint;
+    if (efforts.ranges.empty() || expected.empty()) continue;
+    EXPECT_NEAR(efforts.ranges.front().from, expected[k][0], 1e-7 * statics.most) << efforts.joint;
+    EXPECT_NEAR(efforts.ranges.front().to, expected[k][1], 1e-7 * statics.most) << efforts.joint;
+    EXPECT_GE(efforts.effort, efforts.ranges.front().from - 1e-7 * statics.most);
+    EXPECT_LE(efforts.effort, efforts.ranges.front().to + 1e-7 * statics.most);
   }
   // Whatever is chosen balances the load.
   EXPECT_LT((statics.wrenches * tensions + statics.load).norm(), 1e-8 * (statics.load.norm() + tensions.norm()));
@@ -311,7 +312,7 @@ std::string with_part(std::string text, const std::string& from, const std::stri
 TEST(Cables, AreRefusedInOneLineWhereTheyAreWrong) {
   const std::string point = example_text("cables/point");
   const std::string first = "K1: {cable: [ground, load], at: [A1, P], tension: [5, 100]}";
-  const auto complaint = [&](const std::string& own) { return complaint_of(with_part(point, first, own)); };
+  const auto complaint = [&](const std::string& candidate) { return complaint_of(with_part(point, first, candidate)); };
   EXPECT_THAT(complaint("K1: {cable: [ground, load], at: [P, A1], tension: [5, 100]}"),
               testing::HasSubstr("moves with"));
   EXPECT_THAT(complaint("K1: {cable: [ground, load], at: [A1, A2], tension: [5, 100]}"),

@@ -24,8 +24,8 @@ Model group_of_corpus(const std::string& name) {
 }
 
 Vector2d place_of(const Pose& pose, const std::string& name) {
-  for (const PosePoint& own : pose.points)
-    if (own.name == name) return {own.at[0], own.at[1]};
+  for (const PosePoint& point : pose.points)
+    if (point.name == name) return {point.at[0], point.at[1]};
   ADD_FAILURE() << name;
   return {};
 }
@@ -71,9 +71,9 @@ double zero_by_hand(const Model& model, int rod, double first, double second) {
 }
 
 const IsolatedPoint* point_of(const LocusMap& map, const std::string& joint) {
-  for (const IsolatedPoint& own : map.isolated_points)
-    for (const Vanishing& what : own.vanishing)
-      if (what.joint == joint) return &own;
+  for (const IsolatedPoint& point : map.isolated_points)
+    for (const Vanishing& what : point.vanishing)
+      if (what.joint == joint) return &point;
   return nullptr;
 }
 
@@ -155,8 +155,9 @@ TEST(GroupOverOneCoordinate, EndsAtTheFlankOfAGear) {
   const auto flank_at = [&](double q) { return solve_pose(model, {q}).working_mode.back().second; };
   EXPECT_EQ(flank_at(teeth->at[0] - 1e-6), "left");
   EXPECT_EQ(flank_at(teeth->at[0] + 1e-6), "right");
-  const auto boundary = std::find_if(map.isolated_points.begin(), map.isolated_points.end(),
-                                     [](const auto& own) { return own.kind == LocusKind::workspace_boundary; });
+  const auto boundary =
+      std::find_if(map.isolated_points.begin(), map.isolated_points.end(),
+                   [](const auto& isolated_point) { return isolated_point.kind == LocusKind::workspace_boundary; });
   ASSERT_NE(boundary, map.isolated_points.end());
   EXPECT_EQ(boundary->cause, "limit: flank of gear Z0");
   EXPECT_EQ(boundary->at, teeth->at);
