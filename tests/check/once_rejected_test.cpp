@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Corpus, OnceRejected,
                          testing::Values(Once{"end_of_a_guide"}, Once{"guide_beside_the_boundary"},
                                          Once{"point_where_a_spring_has_no_length"}, Once{"chord_beside_another"},
                                          Once{"line_crossed_at_its_middle"}, Once{"torsion_slit", {core::Quantity::M}}),
-                         [](const auto& own) { return std::string(own.param.name); });
+                         [](const auto& candidate) { return std::string(candidate.param.name); });
 
 TEST(Kinds, FollowFromWhatVanishes) {
   const std::string model = example("../tests/corpus/certificates/kinds.yaml");
@@ -37,8 +37,8 @@ TEST(Kinds, FollowFromWhatVanishes) {
   int tried = 0;
   for (std::size_t c = 0; c < certificate["curves"].size(); ++c)
     for (const char* const kind : {"contact-loss", "backlash", "component"}) {
-      const std::string own = certificate["curves"][c]["kind"];
-      if (own == kind || certificate["curves"][c]["vanishing"].empty()) continue;
+      const std::string true_kind = certificate["curves"][c]["kind"];
+      if (true_kind == kind || certificate["curves"][c]["vanishing"].empty()) continue;
       Json changed = certificate;
       changed["curves"][c]["kind"] = kind;
       const check::Examination examination = examination_of(model, changed.dump());

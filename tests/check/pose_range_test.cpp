@@ -35,11 +35,11 @@ TEST_P(RangesOfExamples, AreProvenAnew) {
   const std::string model = example(GetParam().model);
   for (const bool zones : {false, true}) {
     if (zones && !GetParam().zones) continue;
-    const check::Examination own = examination_of(model, range_certified(model, zones));
-    EXPECT_TRUE(own.accepted) << own.why;
-    EXPECT_GE(own.points, GetParam().points) << zones;
-    EXPECT_GT(own.zones, 1u);
-    EXPECT_LE(own.unchecked.size(), GetParam().unchecked) << testing::PrintToString(own.unchecked);
+    const check::Examination examination = examination_of(model, range_certified(model, zones));
+    EXPECT_TRUE(examination.accepted) << examination.why;
+    EXPECT_GE(examination.points, GetParam().points) << zones;
+    EXPECT_GT(examination.zones, 1u);
+    EXPECT_LE(examination.unchecked.size(), GetParam().unchecked) << testing::PrintToString(examination.unchecked);
   }
 }
 
@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, RangesOfExamples,
                          testing::Values(Expected{"OfDyads", "four_bar.yaml", 2, 0},
                                          Expected{"OfGears", "geared_five_bar.yaml", 5, 2},
                                          Expected{"OfAGroup", "stephenson_outside.yaml", 1, 3, false}),
-                         [](const auto& own) { return std::string(own.param.name); });
+                         [](const auto& candidate) { return std::string(candidate.param.name); });
 
 Json& point_of(Json& mode, const std::string& kind) {
   for (Json& point : mode["points"])
@@ -56,9 +56,9 @@ Json& point_of(Json& mode, const std::string& kind) {
 }
 
 std::size_t longest(const Json& free) {
-  const auto length = [](const Json& own) {
-    return core::to_double(core::Rational(own["to"].get<std::string>()) -
-                           core::Rational(own["from"].get<std::string>()));
+  const auto length = [](const Json& value) {
+    return core::to_double(core::Rational(value["to"].get<std::string>()) -
+                           core::Rational(value["from"].get<std::string>()));
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < free.size(); ++i)

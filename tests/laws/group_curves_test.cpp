@@ -41,7 +41,7 @@ FiveBar five_bar(std::mt19937& random) {
 /// Boxes of angles so wide on either side of the posture.
 constexpr double half_width = 0.6;
 
-std::string text_of(const FiveBar& own, const std::string& tip) {
+std::string text_of(const FiveBar& bar, const std::string& tip) {
   return fmt::format(R"(format: 1
 space: planar
 workspace:
@@ -69,9 +69,9 @@ loads:
   - {{link: rod1, at: P, force: [{}, {}], couple: {}}}
   - {{link: rod2, at: {{mean: [B2, P]}}, force: [{:.9f}, {:.9f}]}}
 )",
-                     own.alpha - half_width, own.alpha + half_width, own.beta - half_width, own.beta + half_width,
-                     own.base, own.crank_a, own.crank_a, own.base, own.crank_b, own.crank_b, tip, own.fx, own.fy,
-                     own.couple, own.gx, own.gy);
+                     bar.alpha - half_width, bar.alpha + half_width, bar.beta - half_width, bar.beta + half_width,
+                     bar.base, bar.crank_a, bar.crank_a, bar.base, bar.crank_b, bar.crank_b, tip, bar.fx, bar.fy,
+                     bar.couple, bar.gx, bar.gy);
 }
 
 double apart(const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
@@ -85,7 +85,7 @@ double distance(const Point2& p, const Point2& a, const Point2& b) {
 
 std::set<std::string> names_of(const std::vector<Vanishing>& all) {
   std::set<std::string> names;
-  for (const Vanishing& own : all) names.insert(to_string(own.quantity) + own.joint);
+  for (const Vanishing& vanishing : all) names.insert(to_string(vanishing.quantity) + vanishing.joint);
   return names;
 }
 
@@ -93,9 +93,9 @@ std::set<std::string> names_of(const std::vector<Vanishing>& all) {
 /// singularities and the boundary, which are the same where a group comes to a dead centre.
 double distance(const Point2& at, const std::string& name, const LocusMap& map) {
   double least = 1e9;
-  for (const LocusCurve& own : map.curves) {
-    if (name.empty() ? !own.vanishing.empty() : names_of(own.vanishing).count(name) == 0) continue;
-    for (const Arc& arc : own.arcs)
+  for (const LocusCurve& curve : map.curves) {
+    if (name.empty() ? !curve.vanishing.empty() : names_of(curve.vanishing).count(name) == 0) continue;
+    for (const Arc& arc : curve.arcs)
       for (std::size_t i = 1; i < arc.points.size(); ++i)
         least = std::min(least, distance(at, arc.points[i - 1], arc.points[i]));
   }
@@ -121,21 +121,22 @@ void hold(const LocusMap& one, const LocusMap& other, double within, Held& held)
   }
   for (const IsolatedPoint& point : one.isolated_points) {
     ++held.points;
-    const bool known = std::any_of(other.isolated_points.begin(), other.isolated_points.end(), [&](const auto& own) {
-      return names_of(own.vanishing) == names_of(point.vanishing) &&
-             apart({own.at[0], own.at[1]}, {point.at[0], point.at[1]}) < 1e-6;
+    const bool is_present =
+        std::any_of(other.isolated_points.begin(), other.isolated_points.end(), [&](const auto& isolated_point) {
+          return names_of(isolated_point.vanishing) == names_of(point.vanishing) &&
+                 apart({isolated_point.at[0], isolated_point.at[1]}, {point.at[0], point.at[1]}) < 1e-6;
+        });
+    const bool open = std::any_of(other.open.begin(), other.open.end(), [&](const OpenRegion& region) {
+      return point.at[0] >= region.lower[0] && point.at[0] <= region.upper[0] && point.at[1] >= region.lower[1] &&
+             point.at[1] <= region.upper[1];
     });
-    const bool open = std::any_of(other.open.begin(), other.open.end(), [&](const OpenRegion& own) {
-      return point.at[0] >= own.lower[0] && point.at[0] <= own.upper[0] && point.at[1] >= own.lower[1] &&
-             point.at[1] <= own.upper[1];
-    });
-    held.missing += known || open ? 0 : 1;
+    held.missing += is_present || open ? 0 : 1;
   }
 }
 
 Point2 place(const Pose& pose, const std::string& name) {
-  for (const PosePoint& own : pose.points)
-    if (own.name == name) return {own.at[0], own.at[1]};
+  for (const PosePoint& point : pose.points)
+    if (point.name == name) return {point.at[0], point.at[1]};
   ADD_FAILURE() << name;
   return {};
 }
@@ -148,24 +149,24 @@ TEST(GroupLaw, CurvesOverTwoMotorsAreThoseOfTheDyad) {
   for (unsigned seed = 1; seed <= last; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    FiveBar own = five_bar(random);
+    FiveBar bar = five_bar(random);
     const auto dyad = [&] {
-      return text_of(own, fmt::format("P: {{dyad: [B1, B2], lengths: [{}, {}], side: right}}", own.rod_a, own.rod_b));
+      return text_of(bar, fmt::format("P: {{dyad: [B1, B2], lengths: [{}, {}], side: right}}", bar.rod_a, bar.rod_b));
     };
-    const Pose posture = solve_pose(Model::parse(dyad(), "dyad.yaml"), {own.alpha, own.beta});
+    const Pose posture = solve_pose(Model::parse(dyad(), "dyad.yaml"), {bar.alpha, bar.beta});
     if (!posture.unreachable.empty()) continue;
     const Point2 tip = place(posture, "P"), b1 = place(posture, "B1"), b2 = place(posture, "B2");
     if (seed % 2 == 0) {
       // At the posture each rod is in balance without the pin between them.
       constexpr double force = 40;
-      own.gx = force * (tip[0] - b2[0]);
-      own.gy = force * (tip[1] - b2[1]);
-      own.couple = -((tip[0] - b1[0]) * own.fy - (tip[1] - b1[1]) * own.fx);
+      bar.gx = force * (tip[0] - b2[0]);
+      bar.gy = force * (tip[1] - b2[1]);
+      bar.couple = -((tip[0] - b1[0]) * bar.fy - (tip[1] - b1[1]) * bar.fx);
     }
     const std::string group = text_of(
-        own, fmt::format("tip: {{group: [P], lengths: {{B1-P: {}, B2-P: {}}}, near: {{at: {{alpha: {}, beta: {}}}, P: "
+        bar, fmt::format("tip: {{group: [P], lengths: {{B1-P: {}, B2-P: {}}}, near: {{at: {{alpha: {}, beta: {}}}, P: "
                          "[{:.9f}, {:.9f}]}}}}",
-                         own.rod_a, own.rod_b, own.alpha, own.beta, tip[0], tip[1]));
+                         bar.rod_a, bar.rod_b, bar.alpha, bar.beta, tip[0], tip[1]));
     SCOPED_TRACE(group);
     const LocusMap one = trace_loci(Model::parse(dyad(), "dyad.yaml")),
                    other = trace_loci(Model::parse(group, "group.yaml"));
@@ -282,14 +283,14 @@ TEST_P(ImagesOfLoci, AreTheSameOverTheMotorsAndOverTheEndEffector) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ImagesOfLoci, ::testing::Values(Image{"five_bar_generic", {0.3, -0.4}}),
-                         [](const auto& own) { return std::string(own.param.example); });
+                         [](const auto& candidate) { return std::string(candidate.param.example); });
 
 /// The actuator's effort of a joint at a pose, N or N m; nothing out of reach.
 std::optional<double> effort(const Model& model, const std::vector<double>& pose, const std::string& joint) {
   const Pose found = solve_pose(model, pose);
   if (!found.unreachable.empty()) return std::nullopt;
-  for (const JointReaction& own : found.reactions)
-    if (own.joint == joint) return own.components.back().value;
+  for (const JointReaction& reaction : found.reactions)
+    if (reaction.joint == joint) return reaction.components.back().value;
   return std::nullopt;
 }
 

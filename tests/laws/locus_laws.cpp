@@ -352,7 +352,7 @@ void judge_loci(Subject& subject) {
   const std::optional<core::LocusMap> map = loci_of(subject);
   if (!map) return;
   const auto open = [](const auto& list) {
-    return std::any_of(list.begin(), list.end(), [](const auto& own) { return !own.certified; });
+    return std::any_of(list.begin(), list.end(), [](const auto& candidate) { return !candidate.certified; });
   };
   if (open(map->curves) || open(map->isolated_points)) subject.report.uncertified("loci");
   LocusLaws laws(subject, *map);

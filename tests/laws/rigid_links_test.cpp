@@ -75,22 +75,22 @@ double bent(const mechanism::Mechanism& m, std::mt19937& random, const std::vect
       pose.push_back(std::uniform_real_distribution<double>(range[0], range[1])(random));
     const numeric::Posture posture = numeric::posture(model, pose, mode);
     if (!posture.reachable()) continue;
-    std::vector<double>& own = lengths.emplace_back();
+    std::vector<double>& length = lengths.emplace_back();
     for (const mechanism::Link& link : m.links)
       for (std::size_t i = 0; i < link.points.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-          own.push_back((posture.points[static_cast<std::size_t>(link.points[i])] -
-                         posture.points[static_cast<std::size_t>(link.points[j])])
-                            .norm());
+          length.push_back((posture.points[static_cast<std::size_t>(link.points[i])] -
+                            posture.points[static_cast<std::size_t>(link.points[j])])
+                               .norm());
   }
   reached = static_cast<int>(lengths.size());
   double most = 0;
-  for (const std::vector<double>& own : lengths)
-    for (std::size_t k = 0; k < own.size(); ++k) {
+  for (const std::vector<double>& length : lengths)
+    for (std::size_t k = 0; k < length.size(); ++k) {
       std::vector<double> all;
       for (const std::vector<double>& other : lengths) all.push_back(other[k]);
       std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
-      most = std::max(most, std::abs(own[k] - all[all.size() / 2]) / (all[all.size() / 2] + 1e-3));
+      most = std::max(most, std::abs(length[k] - all[all.size() / 2]) / (all[all.size() / 2] + 1e-3));
     }
   return most;
 }
@@ -102,9 +102,9 @@ TEST(RigidLinks, KeepTheirLengthsAtEveryPoseThatIsReached) {
   };
   int looked_at = 0;
   for (int n = 0; n < designs(); ++n) {
-    const Numbers own{draw(40, 160), draw(200, 400), draw(500, 800), draw(20, 80), draw(30, 120)};
-    SCOPED_TRACE(delta(own));
-    const mechanism::Mechanism m = mechanism::parse_mechanism(delta(own), "delta.yaml");
+    const Numbers numbers{draw(40, 160), draw(200, 400), draw(500, 800), draw(20, 80), draw(30, 120)};
+    SCOPED_TRACE(delta(numbers));
+    const mechanism::Mechanism m = mechanism::parse_mechanism(delta(numbers), "delta.yaml");
     for (int signs = 0; signs < 8; ++signs) {
       int reached = 0;
       const std::vector<int> mode = {signs & 1 ? 1 : -1, signs & 2 ? 1 : -1, signs & 4 ? 1 : -1};
@@ -247,7 +247,7 @@ struct DrawnLeg {
 /// A six-bar with each point where three decimals say, in an order of its own.
 DrawnLeg drawn_leg(unsigned seed) {
   std::mt19937 random(seed);
-  const Legs& own = all_legs[seed % all_legs.size()];
+  const Legs& legs = all_legs[seed % all_legs.size()];
   const auto decimals = [](double value) { return std::round(1e3 * value) / 1e3; };
   const auto draw = [&](double size) { return decimals(std::uniform_real_distribution<double>(-size, size)(random)); };
   DrawnLeg leg;
@@ -261,14 +261,14 @@ DrawnLeg drawn_leg(unsigned seed) {
   std::vector<std::string> names;
   for (const auto& [name, place] : leg.drawn) names.push_back(name);
   std::shuffle(names.begin(), names.end(), random);
-  leg.text = fmt::format("format: 1\nname: {}\nunits: {{length: mm}}\n", own.kind);
+  leg.text = fmt::format("format: 1\nname: {}\nunits: {{length: mm}}\n", legs.kind);
   leg.text += "workspace: {theta: {angle: [0, 360 deg], of: crank}}\ndrawn:\n";
   for (const std::string& name : names)
     leg.text += fmt::format("  {}: [{:.3f}, {:.3f}]\n", name, leg.drawn[name][0], leg.drawn[name][1]);
   leg.text += fmt::format(
       "links: {{crank: {{points: [{}]}}, coupler: {{points: [{}]}}, rocker: {{points: [{}]}}, rod: {{points: [B, E]}}, "
       "leg: {{points: [E, D, F]}}}}\n",
-      own.crank, own.coupler, own.rocker);
+      legs.crank, legs.coupler, legs.rocker);
   leg.text += "joints:\n  O: {revolute: [ground, crank], at: O, actuated: true, clearance: {radial: 20e-3}}\n";
   const auto pin = [&](const std::string& name, const std::string& from, const std::string& to) {
     leg.text +=
@@ -277,9 +277,9 @@ DrawnLeg drawn_leg(unsigned seed) {
   pin("M", "crank", "coupler");
   pin("A", "ground", "rocker");
   pin("C", "rocker", "coupler");
-  pin("D", own.inner, "leg");
+  pin("D", legs.inner, "leg");
   pin("E", "rod", "leg");
-  pin("B", own.outer, "rod");
+  pin("B", legs.outer, "rod");
   leg.text += "end_effector: {link: leg, at: F}\nloads: [{link: leg, at: F, force: [0, -100]}]\n";
   return leg;
 }
@@ -304,11 +304,11 @@ TEST(RigidLinks, AreRigidAsTheyAreDrawn) {
     EXPECT_EQ(compared, leg.drawn.size());
     std::vector<symbolic::DerivedProblem> problems;
     ASSERT_NO_THROW(problems = symbolic::locus_problems(m, {}));
-    for (const symbolic::DerivedProblem& own : problems) {
-      EXPECT_FALSE(own.problem.modes.empty());
-      for (const std::string& note : own.notes) EXPECT_EQ(note.find("bends a link"), std::string::npos) << note;
+    for (const symbolic::DerivedProblem& problem : problems) {
+      EXPECT_FALSE(problem.problem.modes.empty());
+      for (const std::string& note : problem.notes) EXPECT_EQ(note.find("bends a link"), std::string::npos) << note;
       // Roots stay in the range of doubles, however long the construction.
-      for (const core::Root& root : own.problem.tower.roots)
+      for (const core::Root& root : problem.problem.tower.roots)
         for (const core::Term& term : root.square.terms) EXPECT_LT(std::abs(term.coefficient.get_d()), 1e60);
     }
   }

@@ -131,8 +131,8 @@ TEST(Verify, TellsOfToleratedLegsWhoseLengthsAreRoots) {
   EXPECT_NE(result.verdict, core::Verdict::undecided);
   EXPECT_EQ(result.mode.size(), result.map.loci.tower.roots.size());
   for (const char* wish : {"pose_error: 1e-3", "loads_within: [{load: 1, radius: 2}]", "tolerances: {b: 1e-4}"}) {
-    const Verification own = verified(legs, std::string("box: {x: [0.3, 0.31], y: [0.4, 0.41]}\n") + wish);
-    EXPECT_EQ(describe_mode(own.map.loci.tower, own.mode).size(), 0U) << wish;
+    const Verification verification = verified(legs, std::string("box: {x: [0.3, 0.31], y: [0.4, 0.41]}\n") + wish);
+    EXPECT_EQ(describe_mode(verification.map.loci.tower, verification.mode).size(), 0U) << wish;
   }
 }
 

@@ -315,8 +315,8 @@ TEST(Zones, HaveNoSignOfWhatChangesInsideThem) {
     ASSERT_GE(map.zones.size(), 3u);
     for (const core::Zone& zone : map.zones) {
       const auto told = [&](core::Quantity quantity) {
-        return std::count_if(zone.signs.begin(), zone.signs.end(), [&](const auto& own) {
-          return own.first.joint == "S2" && own.first.quantity == quantity;
+        return std::count_if(zone.signs.begin(), zone.signs.end(), [&](const auto& sign) {
+          return sign.first.joint == "S2" && sign.first.quantity == quantity;
         });
       };
       EXPECT_EQ(told(core::Quantity::N), 0) << zone.id;

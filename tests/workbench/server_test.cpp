@@ -84,8 +84,8 @@ TEST_F(TheServer, ListensOnThisMachineAlone) {
 Json longer_five_bar(const std::string& length) {
   Json body = five_bar();
   std::string text = body["text"];
-  const std::string own = "L: 0.5 ";
-  text.replace(text.find(own), own.size(), "L: " + length + " ");
+  const std::string written = "L: 0.5 ";
+  text.replace(text.find(written), written.size(), "L: " + length + " ");
   body["text"] = text;
   body["parts"] = body["quiet"] = true;
   return body;
