@@ -58,7 +58,8 @@ class Search {
       const auto first = static_cast<std::uint64_t>(std::ceil(first_share * static_cast<double>(budget_)));
       for (std::uint64_t i = 0; i < first && !stopped(); ++i) {
         std::vector<double> at;
-        for (const std::uint32_t bits : sobol_point(i, dimensions())) at.push_back((bits + 0.5) * 0x1p-32);
+        for (const std::uint32_t fraction_bits : sobol_point(i, dimensions()))
+          at.push_back((fraction_bits + 0.5) * 0x1p-32);
         (void)evaluate(at);
       }
       measure_goals();
