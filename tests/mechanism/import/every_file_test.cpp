@@ -33,8 +33,8 @@ std::vector<std::string> files() {
 class EveryFile : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryFile, IsReadOrRefusedByName) {
-  const auto found =
-      std::find_if(refused.begin(), refused.end(), [](const Refused& refused) { return refused.file == GetParam(); });
+  const auto found = std::find_if(refused.begin(), refused.end(),
+                                  [](const Refused& candidate) { return candidate.file == GetParam(); });
   if (found != refused.end()) {
     const std::string why = refusal_of_file(GetParam());
     EXPECT_NE(why.find(found->words), std::string::npos) << why;
@@ -81,7 +81,8 @@ std::optional<double> drawn_angle(const Imported& imported, const Mechanism& m, 
 
 /// The construction that is found puts every point where it is drawn, to a billionth of the size.
 TEST_P(EveryFile, IsDrawnWhereItsConstructionPutsIt) {
-  if (std::any_of(refused.begin(), refused.end(), [](const Refused& refused) { return refused.file == GetParam(); }) ||
+  if (std::any_of(refused.begin(), refused.end(),
+                  [](const Refused& candidate) { return candidate.file == GetParam(); }) ||
       GetParam() == "cuik/legs.world")
     return;
   const Imported file = imported(GetParam());
