@@ -18,7 +18,7 @@ namespace clearloci::check {
 struct Leaf {
   Rectangle cell;
   core::CellNode claim;
-  int origin = 0;    ///< the cell of the certificate that it is, or a part of
+  int origin = 0;          ///< the cell of the certificate that it is, or a part of
   bool unclaimed = false;  ///< a part of a cell of which nothing was claimed
 };
 
