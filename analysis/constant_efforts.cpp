@@ -65,26 +65,26 @@ class ConstantSearch {
     if (!patterns) return answer;
     answer.complete = true;
     for (SignPattern& signs : patterns->possible) {
-      Looked own{.signs = std::move(signs)};
-      own.told.size = {0, unbounded};
-      own.rows = system_.rows_of_efforts(own.signs);
+      Looked trial{.signs = std::move(signs)};
+      trial.told.size = {0, unbounded};
+      trial.rows = system_.rows_of_efforts(trial.signs);
       asked_for_.clear();
       const std::size_t stride = std::max<std::size_t>(1, poses_.size() / first_poses);
       // The middle and the corners, and some of the others.
-      for (std::size_t i = 0; i < poses_.size(); i += i < first_poses / 2 ? 1 : stride) add(own, poses_[i]);
-      if (by_ranges_) look_at_ranges(own);
-      if (own.told.verdict == Verdict::undecided) look_from_both_sides(own);
-      own.told.signs.assign(own.signs.begin(), own.signs.end());
-      answer.patterns.push_back(std::move(own.told));
-      answer.values.push_back(std::move(own.value));
-      answer.words.push_back(std::move(own.words));
+      for (std::size_t i = 0; i < poses_.size(); i += i < first_poses / 2 ? 1 : stride) add(trial, poses_[i]);
+      if (by_ranges_) look_at_ranges(trial);
+      if (trial.told.verdict == Verdict::undecided) look_from_both_sides(trial);
+      trial.told.signs.assign(trial.signs.begin(), trial.signs.end());
+      answer.patterns.push_back(std::move(trial.told));
+      answer.values.push_back(std::move(trial.value));
+      answer.words.push_back(std::move(trial.words));
     }
     for (const auto& [signs, exclusion] : patterns->impossible) {
-      core::PreloadPattern& own = answer.patterns.emplace_back();
-      own.signs.assign(signs.begin(), signs.end());
-      own.verdict = Verdict::refuted;
-      own.size = {unbounded, unbounded};
-      own.refutation = told_rows(system_, exclusion);
+      core::PreloadPattern& pattern = answer.patterns.emplace_back();
+      pattern.signs.assign(signs.begin(), signs.end());
+      pattern.verdict = Verdict::refuted;
+      pattern.size = {unbounded, unbounded};
+      pattern.refutation = told_rows(system_, exclusion);
       answer.values.emplace_back();
       answer.words.push_back(exclusion_words(system_, exclusion));
     }
@@ -101,84 +101,85 @@ class ConstantSearch {
     return request_.loci.deadline && std::chrono::steady_clock::now() > *request_.loci.deadline;
   }
 
-  void add(Looked& own, const PoseAt& pose) const {
+  void add(Looked& trial, const PoseAt& pose) const {
     for (const PoseAt& place : system_.places(pose)) {
-      if (const auto rows = system_.rows(place, own.signs)) own.rows.insert(own.rows.end(), rows->begin(), rows->end());
-      if (auto columns = system_.columns(place)) own.places.push_back(std::move(*columns));
+      if (const auto rows = system_.rows(place, trial.signs))
+        trial.rows.insert(trial.rows.end(), rows->begin(), rows->end());
+      if (auto columns = system_.columns(place)) trial.places.push_back(std::move(*columns));
     }
   }
 
   /// Sizes between what poses ask for and the smallest that verifies, until both are near each other.
-  void look(Looked& own) {
+  void look(Looked& trial) {
     std::size_t level = 0;
     int at_level = 0;
     double failed = 0;  // the largest size within which what was tried fails
     for (int i = 0; i < most_tries && !out_of_time(); ++i) {
-      if (!ask(own)) return;
-      const double needed = std::max(own.told.size[0], least_size());
-      if (own.told.size[1] <= near_enough * needed) return;
-      const bool found = own.told.size[1] < unbounded;
+      if (!ask(trial)) return;
+      const double needed = std::max(trial.told.size[0], least_size());
+      if (trial.told.size[1] <= near_enough * needed) return;
+      const bool found = trial.told.size[1] < unbounded;
       if (!found && level == sizes_tried.size()) return;
       const double within =
-          found ? std::sqrt(std::max(needed, failed) * own.told.size[1]) : needed * sizes_tried[level];
-      const auto efforts = deep_within(own, within);
-      const double before = own.told.size[1];
-      const std::optional<PoseAt> failing = efforts ? tried(own, *efforts) : std::nullopt;
-      if (own.told.size[1] < before) continue;
+          found ? std::sqrt(std::max(needed, failed) * trial.told.size[1]) : needed * sizes_tried[level];
+      const auto efforts = deep_within(trial, within);
+      const double before = trial.told.size[1];
+      const std::optional<PoseAt> failing = efforts ? tried(trial, *efforts) : std::nullopt;
+      if (trial.told.size[1] < before) continue;
       constexpr int tries_of_level = 3;
-      if (failing) add(own, *failing);
+      if (failing) add(trial, *failing);
       if (failing && ++at_level < tries_of_level) continue;
       failed = std::max(failed, within);
-      if (found && own.told.size[1] <= near_enough * failed) return;
+      if (found && trial.told.size[1] <= near_enough * failed) return;
       ++level;
       at_level = 0;
     }
   }
 
-  void look_from_both_sides(Looked& own) {
-    look(own);
-    look_below(own);
+  void look_from_both_sides(Looked& trial) {
+    look(trial);
+    look_below(trial);
   }
 
   /// What pins ask for beyond the rows, where both sides are apart.
-  void look_below(Looked& own) {
-    auto& [least, most] = own.told.size;
-    if (own.told.verdict != Verdict::verified || most <= near_enough * std::max(least, least_size())) return;
+  void look_below(Looked& trial) {
+    auto& [least, most] = trial.told.size;
+    if (trial.told.verdict != Verdict::verified || most <= near_enough * std::max(least, least_size())) return;
     if (!judge_) judge_ = preload_judge(model_.content().mechanism, system_.wanted(), task_, request_.loci);
     std::vector<PoseAt> poses = asked_for_;
     poses.insert(poses.end(), poses_.begin(), poses_.begin() + std::min<std::ptrdiff_t>(9, std::ssize(poses_)));
-    least = size_below_which_all_fail(system_, own.rows, poses, *judge_, least, most / near_enough, most,
+    least = size_below_which_all_fail(system_, trial.rows, poses, *judge_, least, most / near_enough, most,
                                       request_.loci.deadline);
   }
 
   /// What the rows ask for: whether some efforts meet them.
-  bool ask(Looked& own) const {
-    if (const auto none = excluded(system_, own.rows)) {
-      own.told.verdict = Verdict::refuted;
-      own.told.size = {unbounded, unbounded};
-      own.told.refutation = told_rows(system_, *none);
-      own.words = exclusion_words(system_, *none);
+  bool ask(Looked& trial) const {
+    if (const auto none = excluded(system_, trial.rows)) {
+      trial.told.verdict = Verdict::refuted;
+      trial.told.size = {unbounded, unbounded};
+      trial.told.refutation = told_rows(system_, *none);
+      trial.words = exclusion_words(system_, *none);
       return false;
     }
-    const auto smallest = smallest_efforts(system_, own.rows);
-    if (smallest && smallest->size > own.told.size[0]) {
-      own.told.size[0] = smallest->size;
-      own.told.refutation = told_rows(system_, smallest->below);
+    const auto smallest = smallest_efforts(system_, trial.rows);
+    if (smallest && smallest->size > trial.told.size[0]) {
+      trial.told.size[0] = smallest->size;
+      trial.told.refutation = told_rows(system_, smallest->below);
     }
     return smallest.has_value();
   }
 
   /// Of one effort whose ranges are known: those of its parts that meet the rows.
-  void look_at_ranges(Looked& own) {
-    own.told.size = {unbounded, unbounded};
-    if (const auto none = excluded(system_, own.rows)) {
-      own.told.verdict = Verdict::refuted;
-      own.told.refutation = told_rows(system_, *none);
-      own.words = exclusion_words(system_, *none);
+  void look_at_ranges(Looked& trial) {
+    trial.told.size = {unbounded, unbounded};
+    if (const auto none = excluded(system_, trial.rows)) {
+      trial.told.verdict = Verdict::refuted;
+      trial.told.refutation = told_rows(system_, *none);
+      trial.words = exclusion_words(system_, *none);
       return;
     }
     double low = -system_.largest(0), high = system_.largest(0);
-    for (const EffortInequality& row : own.rows) {
+    for (const EffortInequality& row : trial.rows) {
       const double slope = row.slope.front().value, end = -row.offset.value / slope;
       if (slope > 0) low = std::max(low, end);
       if (slope < 0) high = std::min(high, end);
@@ -188,44 +189,45 @@ class ConstantSearch {
       const double from = std::max(low, cell.lower.front()), to = std::min(high, cell.upper.front());
       if (from > to || cell.status == core::StudyDesign::Status::infeasible) continue;
       const double nearest = from > 0 ? from : to < 0 ? to : 0, size = std::abs(nearest) * size_of_one;
-      own.told.size[0] = std::min(own.told.size[0], size);
+      trial.told.size[0] = std::min(trial.told.size[0], size);
       const bool whole = low <= cell.lower.front() && cell.upper.front() <= high;
-      if (cell.status != core::StudyDesign::Status::feasible || !whole || size >= own.told.size[1]) continue;
-      own.told.size[1] = size;
-      own.told.verdict = Verdict::verified;
-      own.told.value = {nearest};
-      own.value = {Rational(nearest)};
+      if (cell.status != core::StudyDesign::Status::feasible || !whole || size >= trial.told.size[1]) continue;
+      trial.told.size[1] = size;
+      trial.told.verdict = Verdict::verified;
+      trial.told.value = {nearest};
+      trial.value = {Rational(nearest)};
     }
-    if (own.told.verdict == Verdict::undecided && own.told.size[0] == unbounded) own.told.verdict = Verdict::refuted;
-    if (const auto smallest = smallest_efforts(system_, own.rows))
-      own.told.refutation = told_rows(system_, smallest->below);
-    if (own.told.verdict == Verdict::undecided) own.told.size[1] = unbounded;
+    if (trial.told.verdict == Verdict::undecided && trial.told.size[0] == unbounded)
+      trial.told.verdict = Verdict::refuted;
+    if (const auto smallest = smallest_efforts(system_, trial.rows))
+      trial.told.refutation = told_rows(system_, smallest->below);
+    if (trial.told.verdict == Verdict::undecided) trial.told.size[1] = unbounded;
   }
 
   /// Efforts that verify, where they are smaller than those before.
-  void take(Looked& own, const std::vector<Rational>& efforts) const {
+  void take(Looked& trial, const std::vector<Rational>& efforts) const {
     double size = 0;
     std::vector<double> values;
     for (std::size_t k = 0; k < efforts.size(); ++k) {
       values.push_back(core::to_double(efforts[k]));
       size = std::max(size, std::abs(values.back()) * system_.wanted()[k].size_of_one);
     }
-    if (size >= own.told.size[1]) return;
-    own.told.verdict = Verdict::verified;
-    own.told.size[1] = size;
-    own.told.value = std::move(values);
-    own.value = efforts;
+    if (size >= trial.told.size[1]) return;
+    trial.told.verdict = Verdict::verified;
+    trial.told.size[1] = size;
+    trial.told.value = std::move(values);
+    trial.value = efforts;
   }
 
   /// Verifies, or the pose of a witness whose rows the efforts do not meet.
-  std::optional<PoseAt> tried(Looked& own, const std::vector<Rational>& efforts) {
+  std::optional<PoseAt> tried(Looked& trial, const std::vector<Rational>& efforts) {
     ++tries_;
     if (request_.loci.progress) request_.loci.progress(0, "preload");
     VerifyRequest asked = request_;
     asked.depth = VerifyDepth::verdict;
     const Verification result = verify(with_efforts(model_, system_.wanted(), efforts), task_, asked);
     if (result.verified()) {
-      take(own, efforts);
+      take(trial, efforts);
       return std::nullopt;
     }
     if (!result.witness || result.witness->at.size() != poses_.front().size()) return std::nullopt;
@@ -243,8 +245,8 @@ class ConstantSearch {
   }
 
   /// Of efforts within a size some deep within all that is asked for, of few digits.
-  std::optional<std::vector<Rational>> deep_within(const Looked& own, double size) const {
-    const auto choice = deep_choice(system_, own.places, own.signs, false, size);
+  std::optional<std::vector<Rational>> deep_within(const Looked& trial, double size) const {
+    const auto choice = deep_choice(system_, trial.places, trial.signs, false, size);
     return choice ? std::optional(of_few_digits(choice->efforts.front())) : std::nullopt;
   }
 

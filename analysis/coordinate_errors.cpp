@@ -74,21 +74,21 @@ void put_take_up(TableRows& row, const numeric::NumericModel& model, const Range
   const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(model.mechanism);
   for (std::size_t j = 0; j < clearances.size(); ++j) {
     const std::string& name = model.mechanism.joints[j].name;
-    const numeric::TakeUp* own = pose.reachable ? &pose.accuracy.take_up[j] : nullptr;
+    const numeric::TakeUp* take_up = pose.reachable ? &pose.accuracy.take_up[j] : nullptr;
     if (clearances[j].radial > 0 && model.mechanism.space == mechanism::Space::planar)
-      row.put("beta_" + name, "rad", own != nullptr && own->beta ? *own->beta : nan);
+      row.put("beta_" + name, "rad", take_up != nullptr && take_up->beta ? *take_up->beta : nan);
     if (clearances[j].radial > 0 && model.mechanism.space == mechanism::Space::spatial) {
-      const bool pressed = own != nullptr && !own->force_vanishes;
+      const bool pressed = take_up != nullptr && !take_up->force_vanishes;
       for (const Eigen::Index c : {0, 1, 2})
-        row.put("d_" + name + "_" + "xyz"[c], "m", pressed ? own->displacement(c) : nan);
+        row.put("d_" + name + "_" + "xyz"[c], "m", pressed ? take_up->displacement(c) : nan);
     }
-    const bool driven = own != nullptr && !own->actuator_vanishes;
-    if (clearances[j].angular > 0) row.put("theta_" + name, "rad", driven ? own->turn : nan);
-    if (clearances[j].axial > 0) row.put("travel_" + name, "m", driven ? own->travel : nan);
+    const bool driven = take_up != nullptr && !take_up->actuator_vanishes;
+    if (clearances[j].angular > 0) row.put("theta_" + name, "rad", driven ? take_up->turn : nan);
+    if (clearances[j].axial > 0) row.put("travel_" + name, "m", driven ? take_up->travel : nan);
     if (clearances[j].gap > 0) {
-      const bool known = own != nullptr && !own->guide_vanishes();
-      row.put("normal_" + name, "m", known ? own->normal : nan);
-      row.put("tilt_" + name, "rad", known ? own->tilt : nan);
+      const bool is_bounded = take_up != nullptr && !take_up->guide_vanishes();
+      row.put("normal_" + name, "m", is_bounded ? take_up->normal : nan);
+      row.put("tilt_" + name, "rad", is_bounded ? take_up->tilt : nan);
     }
   }
 }
@@ -114,9 +114,9 @@ std::vector<double> values_of(mechanism::Space space, const RangePose& pose, boo
     values.insert(values.end(), parts.rotation.begin(), parts.rotation.end());
     values.push_back(distance);
   };
-  const numeric::Accuracy& own = pose.accuracy;
-  if (under_load) add(own.error, own.error.dp.norm());
-  if (worst_case) add({own.worst.dalpha, own.worst.dp}, own.worst.distance);
+  const numeric::Accuracy& accuracy = pose.accuracy;
+  if (under_load) add(accuracy.error, accuracy.error.dp.norm());
+  if (worst_case) add({accuracy.worst.dalpha, accuracy.worst.dp}, accuracy.worst.distance);
   for (double& value : values)
     if (!pose.reachable || !std::isfinite(value)) value = nan;
   return values;

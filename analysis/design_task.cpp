@@ -24,17 +24,17 @@ using mechanism::ParameterRange;
 std::vector<ParameterRange> opened(const Mechanism& mechanism, std::vector<ParameterRange> ranges,
                                    const core::Task& task) {
   for (const core::Tolerance& tolerance : task.tolerances) {
-    const auto known = std::find_if(ranges.begin(), ranges.end(),
+    const auto found = std::find_if(ranges.begin(), ranges.end(),
                                     [&](const ParameterRange& r) { return r.name == tolerance.parameter; });
-    if (known == ranges.end()) {
-      const mechanism::Parameter* own = mechanism::parameter_named(mechanism, tolerance.parameter);
-      if (own == nullptr)
+    if (found == ranges.end()) {
+      const mechanism::Parameter* parameter = mechanism::parameter_named(mechanism, tolerance.parameter);
+      if (parameter == nullptr)
         throw core::InputError({task.file}, "there is no parameter '" + tolerance.parameter + "' in " + mechanism.file,
                                "give tolerances to parameters of the mechanism file");
-      ranges.push_back({own->name, own->value + tolerance.below, own->value + tolerance.above});
+      ranges.push_back({parameter->name, parameter->value + tolerance.below, parameter->value + tolerance.above});
     } else {
-      known->lower += tolerance.below;
-      known->upper += tolerance.above;
+      found->lower += tolerance.below;
+      found->upper += tolerance.above;
     }
   }
   return ranges;
@@ -48,15 +48,15 @@ std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task,
     ball.force = std::nextafter(core::to_double(within.force), within.force > 0 ? 1e300 : 0.0);
     ball.couple_size = std::nextafter(core::to_double(within.couple), within.couple > 0 ? 1e300 : 0.0);
     const auto add = [&](int fx, int fy, int couple) {
-      Mechanism own = unloaded(open);
+      Mechanism bare = unloaded(open);
       mechanism::Load load = open.loads[within.load];
       load.force.clear();
       load.force_vector.reset();
       load.couple_vector.clear();
       if (fx != 0 || fy != 0) load.force = {core::Expression::number(fx), core::Expression::number(fy)};
       load.couple = core::Expression::number(couple);
-      own.loads = {load};
-      directions.push_back(std::move(own));
+      bare.loads = {load};
+      directions.push_back(std::move(bare));
       return static_cast<int>(directions.size()) - 1;
     };
     if (within.force > 0) {
@@ -71,7 +71,7 @@ std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task,
 
 std::string joints_of(const core::TaskCondition& condition) {
   std::string names;
-  for (const core::Vanishing& own : condition.reactions) names += (names.empty() ? "" : ", ") + own.joint;
+  for (const core::Vanishing& vanishing : condition.reactions) names += (names.empty() ? "" : ", ") + vanishing.joint;
   return names;
 }
 
@@ -125,8 +125,8 @@ DesignTask::DesignTask(const Mechanism& mechanism, const std::vector<ParameterRa
 
 core::TaskConditions DesignTask::conditions_for(const std::vector<TaskDemand>& demands, bool take_ups) const {
   std::vector<const Mechanism*> loads, directions;
-  for (const Mechanism& own : loads_) loads.push_back(&own);
-  for (const Mechanism& own : directions_) directions.push_back(&own);
+  for (const Mechanism& mechanism : loads_) loads.push_back(&mechanism);
+  for (const Mechanism& mechanism : directions_) directions.push_back(&mechanism);
   if (!take_ups) return symbolic::task_conditions(loads, demands, directions);
   const std::vector<Mechanism> unit = under_unit_forces(open_.mechanism);
   return symbolic::task_conditions(loads, demands, directions,
@@ -154,12 +154,12 @@ std::optional<loci::DesignBox> DesignTask::box(const std::vector<ExactRange>& va
   for (const core::Tolerance& tolerance : task_.tolerances) {
     const auto varied = std::find(names.begin(), names.end(), tolerance.parameter);
     if (varied != names.end()) {
-      const ExactRange& own = values[static_cast<std::size_t>(varied - names.begin())];
-      ranges[tolerance.parameter] = range_of(own.first + tolerance.below, own.second + tolerance.above);
+      const ExactRange& range = values[static_cast<std::size_t>(varied - names.begin())];
+      ranges[tolerance.parameter] = range_of(range.first + tolerance.below, range.second + tolerance.above);
     } else {  // around the value that the file computes for each design
-      const core::Expression own =
+      const core::Expression varied_expression =
           mechanism::in_varied(core::Expression::symbol(tolerance.parameter), mechanism_, names);
-      ranges[tolerance.parameter] = enclosure(own, nominal) + range_of(tolerance.below, tolerance.above);
+      ranges[tolerance.parameter] = enclosure(varied_expression, nominal) + range_of(tolerance.below, tolerance.above);
     }
   }
   for (const core::Expression& length : open_.lengths)
@@ -170,14 +170,14 @@ std::optional<loci::DesignBox> DesignTask::box(const std::vector<ExactRange>& va
 }
 
 loci::DesignVariables DesignTask::variables() const {
-  loci::DesignVariables own;
+  loci::DesignVariables variables;
   for (const mechanism::DesignVariable& variable : open_.variables) {
     const std::set<std::string> names = core::symbols(variable.meaning);
-    std::vector<std::size_t>& list = own.parameters.emplace_back();
+    std::vector<std::size_t>& list = variables.parameters.emplace_back();
     for (std::size_t p = 0; p < open_.varied.size(); ++p)
       if (names.contains(open_.varied[p])) list.push_back(p);
   }
-  own.enclosure = [this](std::size_t v, const loci::DesignBox& parameters) {
+  variables.enclosure = [this](std::size_t v, const loci::DesignBox& parameters) {
     const core::Expression& meaning = open_.variables[v].meaning;
     if (meaning.kind() == core::Expression::Kind::symbol)
       for (std::size_t p = 0; p < open_.varied.size(); ++p)
@@ -186,7 +186,7 @@ loci::DesignVariables DesignTask::variables() const {
     for (std::size_t p = 0; p < open_.varied.size(); ++p) ranges[open_.varied[p]] = parameters[p];
     return enclosure(meaning, ranges);
   };
-  return own;
+  return variables;
 }
 
 std::unique_ptr<loci::DesignJudge> DesignTask::judge() const {
@@ -198,31 +198,31 @@ std::unique_ptr<loci::DesignJudge> DesignTask::judge() const {
 const DesignTask::Measured& DesignTask::measured() const {
   const std::lock_guard lock(mutex_);
   if (measured_) return *measured_;
-  Measured own;
+  Measured figures;
   // A least size that anything has: conditions then say what sizes are. What a least force is not asked of, such as a
   // guide whose ends are not known, is not measured.
   LociRequest sized = request_;
   sized.min_force = sized.min_couple = 1;
   std::vector<TaskDemand> demands = demands_of(open_.mechanism, sized);
   std::erase_if(demands, [](const TaskDemand& demand) { return demand.least == 0; });
-  own.conditions = conditions_for(demands, mechanism_.space == mechanism::Space::planar);
-  own.mode = mode_of(sides_, names_of(own.conditions.tower));
-  for (std::size_t i = 0; i < own.conditions.conditions.size(); ++i) {
-    const core::TaskCondition& condition = own.conditions.conditions[i];
+  figures.conditions = conditions_for(demands, mechanism_.space == mechanism::Space::planar);
+  figures.mode = mode_of(sides_, names_of(figures.conditions.tower));
+  for (std::size_t i = 0; i < figures.conditions.conditions.size(); ++i) {
+    const core::TaskCondition& condition = figures.conditions.conditions[i];
     if (condition.denominator < 0) continue;
     const Quantity quantity = condition.reactions.front().quantity;
     // What a linear drive exerts is both.
-    if (is_effort(quantity)) own.efforts.push_back(static_cast<int>(i));
-    if (quantity != Quantity::M) own.forces.push_back(static_cast<int>(i));
+    if (is_effort(quantity)) figures.efforts.push_back(static_cast<int>(i));
+    if (quantity != Quantity::M) figures.forces.push_back(static_cast<int>(i));
   }
-  measured_ = std::move(own);
+  measured_ = std::move(figures);
   return *measured_;
 }
 
 std::unique_ptr<loci::DesignJudge> DesignTask::measure() const {
-  const Measured& own = measured();
-  return std::make_unique<loci::DesignJudge>(own.conditions, own.mode, region_, variables(), balls_,
-                                             design_clearances(open_, own.conditions));
+  const Measured& figures = measured();
+  return std::make_unique<loci::DesignJudge>(figures.conditions, figures.mode, region_, variables(), balls_,
+                                             design_clearances(open_, figures.conditions));
 }
 
 std::vector<int> DesignTask::forces() const { return measured().forces; }

@@ -39,12 +39,13 @@ class EffortCells {
       : mechanism_(mechanism),
         free_(mechanism::joints_without_preload(mechanism)),
         models_(models_under_efforts(mechanism, free_)) {
-    for (const numeric::NumericModel& own : models_) solved_.push_back(numeric::bounded_numerators(own, pose, sides));
+    for (const numeric::NumericModel& model : models_)
+      solved_.push_back(numeric::bounded_numerators(model, pose, sides));
   }
 
   bool is_regular() const {
-    return std::all_of(solved_.begin(), solved_.end(), [](const numeric::BoundedNumerators& own) {
-      return own.reachable && std::abs(own.determinant.value) > own.determinant.error;
+    return std::all_of(solved_.begin(), solved_.end(), [](const numeric::BoundedNumerators& numerators) {
+      return numerators.reachable && std::abs(numerators.determinant.value) > numerators.determinant.error;
     });
   }
 
@@ -53,7 +54,7 @@ class EffortCells {
     for (const TaskDemand& demand : demands)
       if (const auto line = line_of(demand)) cut(*line);
     for (std::size_t k = 0; k < free_.size(); ++k)
-      if (const auto own = own_gap(mechanism_, joint_of(k).name, request)) cut({own->demand, unit(k)});
+      if (const auto gap = own_gap(mechanism_, joint_of(k).name, request)) cut({gap->demand, unit(k)});
     core::ZonePreload preload;
     preload.feasible = !cells_.empty();
     for (const Cell& cell : cells_) preload.patterns.push_back(cell.signs);
@@ -139,11 +140,11 @@ class EffortCells {
       all.push_back(
           {least_of(cell.polytope, unit(k).slope), -least_of(cell.polytope, scaled(unit(k), -1, 0).slope), {}, {}});
     std::sort(all.begin(), all.end(), [](const EffortRange& a, const EffortRange& b) { return a.from < b.from; });
-    for (const EffortRange& own : all) {
-      if (efforts.ranges.empty() || own.from > efforts.ranges.back().to)
-        efforts.ranges.push_back(own);
+    for (const EffortRange& range : all) {
+      if (efforts.ranges.empty() || range.from > efforts.ranges.back().to)
+        efforts.ranges.push_back(range);
       else
-        efforts.ranges.back().to = std::max(efforts.ranges.back().to, own.to);
+        efforts.ranges.back().to = std::max(efforts.ranges.back().to, range.to);
     }
     return efforts;
   }

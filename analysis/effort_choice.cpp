@@ -69,19 +69,20 @@ class ChoiceSearch {
     result.notes = mechanism::notes_of(mechanism_);
     if (asked_.progress) asked_.progress(0, "proof");
     if (const auto failure = systems_.unreachable(region_.samples().front())) return failed(result, *failure);
-    const bool known = find_patterns(result);
-    for (PatternProof& own : patterns_)
-      if (own.verdict != Verdict::refuted) look_for_refutation(own);
+    const bool decided = find_patterns(result);
+    for (PatternProof& proof : patterns_)
+      if (proof.verdict != Verdict::refuted) look_for_refutation(proof);
     std::stable_sort(patterns_.begin(), patterns_.end(), [](const PatternProof& a, const PatternProof& b) {
       return std::pair(a.verdict == Verdict::refuted, a.chooser->needed) <
              std::pair(b.verdict == Verdict::refuted, b.chooser->needed);
     });
-    for (PatternProof& own : patterns_) {
-      if (own.verdict == Verdict::refuted || (result.verified() && request_.depth != VerifyDepth::everything)) continue;
-      prove(own, result);
-      if (own.chooser->unreachable) return failed(result, *own.chooser->unreachable);
+    for (PatternProof& proof : patterns_) {
+      if (proof.verdict == Verdict::refuted || (result.verified() && request_.depth != VerifyDepth::everything))
+        continue;
+      prove(proof, result);
+      if (proof.chooser->unreachable) return failed(result, *proof.chooser->unreachable);
     }
-    tell(known, result);
+    tell(decided, result);
     return result;
   }
 
@@ -109,11 +110,11 @@ class ChoiceSearch {
       const auto signs = sign_patterns(*system, system->places(pose), load);
       if (!signs) continue;
       result.notes.insert(result.notes.end(), system->notes().begin(), system->notes().end());
-      for (const SignPattern& own : signs->possible)
-        patterns_.push_back({std::make_unique<PatternChooser>(systems_, own)});
-      for (const auto& [own, exclusion] : signs->impossible) {
+      for (const SignPattern& pattern : signs->possible)
+        patterns_.push_back({std::make_unique<PatternChooser>(systems_, pattern)});
+      for (const auto& [impossible, exclusion] : signs->impossible) {
         PatternProof& pattern = patterns_.emplace_back();
-        pattern.chooser = std::make_unique<PatternChooser>(systems_, own);
+        pattern.chooser = std::make_unique<PatternChooser>(systems_, impossible);
         pattern.chooser->exclusion = exclusion;
         pattern.chooser->excluding = system;
         pattern.verdict = Verdict::refuted;
@@ -124,59 +125,59 @@ class ChoiceSearch {
     return false;
   }
 
-  void look_for_refutation(PatternProof& own) {
+  void look_for_refutation(PatternProof& proof) {
     constexpr std::size_t most = 40;
     const std::vector<PoseAt> samples = region_.samples();
     const std::size_t stride = (samples.size() + most - 1) / most;
     for (std::size_t i = 0; i < samples.size(); i += i < (std::size_t{1} << 4) ? 1 : stride)
-      if (own.chooser->refutes(samples[i])) {
-        own.verdict = Verdict::refuted;
+      if (proof.chooser->refutes(samples[i])) {
+        proof.verdict = Verdict::refuted;
         return;
       }
   }
 
   /// Sizes a little above what poses ask for first: so both sides of the smallest are near each other.
-  void prove(PatternProof& own, Verification& result) {
+  void prove(PatternProof& pattern_proof, Verification& result) {
     // Of what is not the verdict less is tried.
     const int most_tries = result.verified() ? 6 : 16;
     std::size_t level = 0;
-    for (int i = 0; i < most_tries && level < sizes_tried.size() && own.verdict == Verdict::undecided; ++i) {
-      const double needed = own.chooser->needed;
+    for (int i = 0; i < most_tries && level < sizes_tried.size() && pattern_proof.verdict == Verdict::undecided; ++i) {
+      const double needed = pattern_proof.chooser->needed;
       const double within =
           std::isfinite(sizes_tried[level]) ? sizes_tried[level] * std::max(needed, least_size()) : unbounded;
-      own.chooser->keep_within(within);
+      pattern_proof.chooser->keep_within(within);
       const bool last = level + 1 == sizes_tried.size() && !result.verified();
-      loci::pose::EffortProof proof = proven(own, margin_, last ? cells_of_verdict : cells_of_size);
+      loci::pose::EffortProof proof = proven(pattern_proof, margin_, last ? cells_of_verdict : cells_of_size);
       result.cells += proof.proof.cost.cells;
-      if (own.chooser->unreachable) return;
-      if (own.chooser->exclusion) {
-        own.verdict = Verdict::refuted;
+      if (pattern_proof.chooser->unreachable) return;
+      if (pattern_proof.chooser->exclusion) {
+        pattern_proof.verdict = Verdict::refuted;
       } else if (proof.proof.verdict == Verdict::verified) {
-        own.verdict = Verdict::verified;
-        own.verified_within = std::isfinite(within) ? within : size_of(proof);
-        own.proof = std::move(proof);
-      } else if (!(own.chooser->needed > needed)) {
+        pattern_proof.verdict = Verdict::verified;
+        pattern_proof.verified_within = std::isfinite(within) ? within : size_of(proof);
+        pattern_proof.proof = std::move(proof);
+      } else if (!(pattern_proof.chooser->needed > needed)) {
         ++level;
-        if (last) own.proof = std::move(proof);
+        if (last) pattern_proof.proof = std::move(proof);
       }
     }
-    own.chooser->keep_within(unbounded);
-    if (own.verdict != Verdict::verified || result.verified()) return;
+    pattern_proof.chooser->keep_within(unbounded);
+    if (pattern_proof.verdict != Verdict::verified || result.verified()) return;
     result.verdict = Verdict::verified;
-    if (request_.depth != VerifyDepth::verdict) tell_margin(own, result);
+    if (request_.depth != VerifyDepth::verdict) tell_margin(pattern_proof, result);
   }
 
-  loci::pose::EffortProof proven(PatternProof& own, double margin, long cells) {
+  loci::pose::EffortProof proven(PatternProof& proof, double margin, long cells) {
     const EffortSystem* const system = systems_.at(first_);
     const loci::SearchBudget budget{.most_cells = cells, .deadline = asked_.deadline};
-    return loci::pose::prove_with_efforts(*own.chooser, region_, system->designs(), margin, budget);
+    return loci::pose::prove_with_efforts(*proof.chooser, region_, system->designs(), margin, budget);
   }
 
   /// Where no pose asks for any: a thousandth of what is looked at.
   double least_size() const {
     double size = unbounded;
-    for (const WantedEffort& own : wanted_)
-      size = std::min(size, core::to_double(std::max(abs(own.lower), abs(own.upper))) * own.size_of_one);
+    for (const WantedEffort& effort : wanted_)
+      size = std::min(size, core::to_double(std::max(abs(effort.lower), abs(effort.upper))) * effort.size_of_one);
     return std::isfinite(size) ? 1e-3 * size : 1;
   }
 
@@ -204,17 +205,14 @@ class ChoiceSearch {
   }
 
   /// How far around the task poses have efforts, proven, up to the size of the box.
-  void tell_margin(PatternProof& own, Verification& result) {
-    double limit = margin_;
+  void tell_margin(PatternProof& proof, Verification& result) {
     const auto& all = mechanism_.coordinates;
-    for (std::size_t c = 0; c < all.size(); ++c)
-      if (region_.metric().grows[c])
-        limit += region_.metric().weights[c] * core::to_double(all[c].upper - all[c].lower);
+    const double limit = widest_margin(mechanism_, margin_, &region_.metric());
     constexpr int attempts = 8;
     double proven_to = margin_, too_far = limit;
     for (int i = 0; i < attempts; ++i) {
       const double margin = proven_to + (i < 3 ? 0.25 : 0.5) * (too_far - proven_to);
-      PatternProof wider{std::make_unique<PatternChooser>(systems_, own.chooser->signs())};
+      PatternProof wider{std::make_unique<PatternChooser>(systems_, proof.chooser->signs())};
       const bool good = proven(wider, margin, cells_of_margin).proof.verdict == Verdict::verified;
       (good ? proven_to : too_far) = margin;
     }
@@ -223,51 +221,52 @@ class ChoiceSearch {
     (of_angles ? result.angle_margin : result.margin) = proven_to;
   }
 
-  void tell(bool known, Verification& result) {
-    const bool none = known && std::all_of(patterns_.begin(), patterns_.end(),
-                                           [](const PatternProof& own) { return own.verdict == Verdict::refuted; });
+  void tell(bool decided, Verification& result) {
+    const bool none = decided && std::all_of(patterns_.begin(), patterns_.end(), [](const PatternProof& proof) {
+                        return proof.verdict == Verdict::refuted;
+                      });
     if (none && !result.verified()) tell_refutation(result);
     if (!result.verified() && !none) tell_open(result);
     core::PreloadAnswer& answer = result.preload.emplace();
     answer.of_poses = true;
     answer.cells = result.cells;
     answer.size = {unbounded, unbounded};
-    for (const PatternProof& own : patterns_) {
-      answer.patterns.push_back(told(own));
+    for (const PatternProof& proof : patterns_) {
+      answer.patterns.push_back(told(proof));
       const auto& [least, most] = answer.patterns.back().size;
       answer.size[0] = std::min(answer.size[0], least);
       if (most < answer.size[1]) {
         answer.size[1] = most;
-        answer.cells_of_law = cells_of(own.proof);
+        answer.cells_of_law = cells_of(proof.proof);
       }
     }
-    if (!known) answer.size[0] = 0;
+    if (!decided) answer.size[0] = 0;
   }
 
-  core::PreloadPattern told(const PatternProof& own) const {
+  core::PreloadPattern told(const PatternProof& proof) const {
     core::PreloadPattern pattern;
-    for (const auto& [name, sign] : own.chooser->signs()) pattern.signs.emplace_back(name, sign);
-    pattern.verdict = own.verdict;
-    pattern.size = {own.verdict == Verdict::refuted ? unbounded : own.chooser->needed, own.verified_within};
-    if (own.chooser->exclusion)
-      pattern.refutation = told_rows(*own.chooser->excluding, *own.chooser->exclusion);
-    else if (own.chooser->needing != nullptr)
-      pattern.refutation = told_rows(*own.chooser->needing, own.chooser->below_needed);
+    for (const auto& [name, sign] : proof.chooser->signs()) pattern.signs.emplace_back(name, sign);
+    pattern.verdict = proof.verdict;
+    pattern.size = {proof.verdict == Verdict::refuted ? unbounded : proof.chooser->needed, proof.verified_within};
+    if (proof.chooser->exclusion)
+      pattern.refutation = told_rows(*proof.chooser->excluding, *proof.chooser->exclusion);
+    else if (proof.chooser->needing != nullptr)
+      pattern.refutation = told_rows(*proof.chooser->needing, proof.chooser->below_needed);
     return pattern;
   }
 
   std::vector<core::PreloadLawCell> cells_of(const loci::pose::EffortProof& proof) const {
     std::vector<core::PreloadLawCell> cells;
-    for (const loci::pose::EffortCell& own : proof.cells) {
+    for (const loci::pose::EffortCell& effort_cell : proof.cells) {
       core::PreloadLawCell& cell = cells.emplace_back();
-      for (const auto& [low, high] : own.poses) {
+      for (const auto& [low, high] : effort_cell.poses) {
         cell.lower.push_back(low);
         cell.upper.push_back(high);
       }
-      for (const WantedEffort& wanted : systems_.of(*own.statics).wanted()) cell.joints.push_back(wanted.joint);
-      cell.efforts = own.choice.efforts;
+      for (const WantedEffort& wanted : systems_.of(*effort_cell.statics).wanted()) cell.joints.push_back(wanted.joint);
+      cell.efforts = effort_cell.choice.efforts;
       if (!task_.knows_load) cell.efforts.resize(1);
-      cell.gains = own.choice.gains;
+      cell.gains = effort_cell.choice.gains;
     }
     return cells;
   }
@@ -276,14 +275,14 @@ class ChoiceSearch {
     result.verdict = Verdict::refuted;
     result.notes.emplace_back("no efforts that vary continuously with the pose" +
                               std::string(task_.knows_load ? " and the load" : "") + " verify the task: proven");
-    for (const PatternProof& own : patterns_) {
-      if (!own.chooser->exclusion) continue;
-      const EffortExclusion& exclusion = *own.chooser->exclusion;
+    for (const PatternProof& proof : patterns_) {
+      if (!proof.chooser->exclusion) continue;
+      const EffortExclusion& exclusion = *proof.chooser->exclusion;
       constexpr std::size_t most_notes = 12;
       if (result.notes.size() < most_notes)
-        result.notes.push_back(exclusion_words(*own.chooser->excluding, exclusion) + ": these exclude each other");
+        result.notes.push_back(exclusion_words(*proof.chooser->excluding, exclusion) + ": these exclude each other");
       if (result.witness) continue;
-      result.witness = witness_of(*own.chooser->excluding, exclusion);
+      result.witness = witness_of(*proof.chooser->excluding, exclusion);
       result.witness->distance = region_.distance(result.witness->at);
     }
   }
@@ -306,17 +305,18 @@ class ChoiceSearch {
     return witness;
   }
 
-  static void add_once(std::vector<core::Vanishing>& all, core::Vanishing own) {
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const auto& each) { return each.joint == own.joint && each.quantity == own.quantity; }))
-      all.push_back(std::move(own));
+  static void add_once(std::vector<core::Vanishing>& all, core::Vanishing vanishing) {
+    if (std::none_of(all.begin(), all.end(), [&](const auto& each) {
+          return each.joint == vanishing.joint && each.quantity == vanishing.quantity;
+        }))
+      all.push_back(std::move(vanishing));
   }
 
   void tell_open(Verification& result) const {
     result.verdict = Verdict::undecided;
-    for (const PatternProof& own : patterns_) {
-      if (own.verdict != Verdict::undecided || own.proof.proof.open == 0) continue;
-      result.open = open_part(own.proof.proof);
+    for (const PatternProof& proof : patterns_) {
+      if (proof.verdict != Verdict::undecided || proof.proof.proof.open == 0) continue;
+      result.open = open_part(proof.proof.proof);
       return;
     }
   }
@@ -349,12 +349,12 @@ Verification verify_with_choices(const Model& model, const Task& task, const Ver
     answer.lower.push_back(core::to_double(lower));
     answer.upper.push_back(core::to_double(upper));
   };
-  for (const WantedEffort& own : wanted)
+  for (const WantedEffort& effort : wanted)
     if (const auto cables = mechanism::cables_of(mechanism);
         std::none_of(cables.begin(), cables.end(), [&](mechanism::JointIndex j) {
-          return mechanism.joints[static_cast<std::size_t>(j)].name == own.joint;
+          return mechanism.joints[static_cast<std::size_t>(j)].name == effort.joint;
         }))
-      add(own.joint, own.force, own.lower, own.upper);
+      add(effort.joint, effort.force, effort.lower, effort.upper);
   for (const mechanism::JointIndex j : mechanism::cables_of(mechanism)) {
     const mechanism::Joint& joint = mechanism.joints[static_cast<std::size_t>(j)];
     if (joint.effort && (!joint.free_effort || joint.free_effort->given)) continue;

@@ -32,10 +32,10 @@ std::vector<WantedEffort> wanted_tensions(const Mechanism& mechanism, const std:
   std::vector<WantedEffort> wanted;
   for (const JointIndex j : mechanism::joints_without_preload(mechanism)) {
     const mechanism::Joint& joint = mechanism.joints[static_cast<std::size_t>(j)];
-    const auto own =
+    const auto motor =
         std::find_if(motors.begin(), motors.end(), [&](const auto& each) { return each.joint == joint.name; });
-    if (own != motors.end()) {
-      wanted.push_back(*own);
+    if (motor != motors.end()) {
+      wanted.push_back(*motor);
       continue;
     }
     const auto& [least, most] = *joint.free_effort->within;
@@ -93,7 +93,7 @@ struct Proposal {
     void add(double offset, const std::vector<double>& slope, double width) {
       EffortPolytope::Row& row = polytope.rows.emplace_back();
       row.offset = proposed(offset);
-      for (const double own : slope) row.slope.push_back(proposed(own));
+      for (const double component : slope) row.slope.push_back(proposed(component));
       widths.push_back(proposed(width));
     }
   };
@@ -144,7 +144,7 @@ struct Proposal {
       const double low = std::max(core::to_double(wanted.lower), -limit(k)),
                    high = std::min(core::to_double(wanted.upper), limit(k)), width = high - low;
       std::vector<double> one(efforts(), 0.0);
-      const auto own = signs.find((wanted.force ? "F_" : "M_") + wanted.joint);
+      const auto found = signs.find((wanted.force ? "F_" : "M_") + wanted.joint);
       for (std::size_t base = 0; base < (knows_load ? statics.bases : 1); ++base)
         for (const std::vector<double>& load : knows_load ? loads : none) {
           const auto add = [&](double sign, double offset, double wide) {
@@ -154,8 +154,8 @@ struct Proposal {
           };
           add(1, -low, width);
           add(-1, high, width);
-          if (system.own_least(k) && own != signs.end() && own->second != 0)
-            add(own->second, -*system.own_least(k), std::max(width, 1e-3));
+          if (system.own_least(k) && found != signs.end() && found->second != 0)
+            add(found->second, -*system.own_least(k), std::max(width, 1e-3));
         }
     }
   }
@@ -184,9 +184,9 @@ struct Proposal {
     Found found{{}, deepest->depth};
     EffortChoice& choice = found.choice;
     const auto part = [&](std::size_t from) {
-      std::vector<double> own;
-      for (std::size_t k = 0; k < efforts(); ++k) own.push_back(core::to_double(deepest->at[from + k]));
-      return own;
+      std::vector<double> solved;
+      for (std::size_t k = 0; k < efforts(); ++k) solved.push_back(core::to_double(deepest->at[from + k]));
+      return solved;
     };
     for (std::size_t base = 0; base < statics.bases; ++base)
       choice.efforts.push_back(part(knows_load ? base * efforts() : 0));
@@ -213,8 +213,8 @@ struct Proposal {
               way[k] += choice->efforts[base][j] * designs[i][d][k][statics.bases + j];
           }
       double square = 0;
-      for (const double own : way) square += own * own;
-      for (double& own : way) own = square > 0 ? own / std::sqrt(square) : 0;
+      for (const double component : way) square += component * component;
+      for (double& component : way) component = square > 0 ? component / std::sqrt(square) : 0;
       if (!(square > 0)) way.front() = 1;
     }
     return ways;
@@ -277,7 +277,7 @@ struct Proposal {
     const auto alone = solved(ways_of_each(nullptr));
     if (!alone) return std::nullopt;
     const bool all_signed = std::all_of(statics.demands.begin(), statics.demands.end(),
-                                        [](const auto& own) { return own.components.size() == 1; });
+                                        [](const auto& demand) { return demand.components.size() == 1; });
     if (all_signed || (!thorough && is_clear_of_forces(alone->choice))) return alone->choice;
     std::optional<Found> best = from(alone->choice);
     EffortChoice begin = alone->choice;
@@ -285,7 +285,7 @@ struct Proposal {
       for (const int sign : {1, -1}) {
         if (best && !thorough) return best->choice;
         begin.efforts.assign(statics.bases, std::vector<double>(efforts(), 0.0));
-        for (std::vector<double>& own : begin.efforts) own[k] = sign * limit(k);
+        for (std::vector<double>& effort : begin.efforts) effort[k] = sign * limit(k);
         auto found = from(begin);
         if (found && (!best || found->depth > best->depth)) best = std::move(found);
       }
@@ -319,13 +319,13 @@ EffortSystem* EffortSystems::at(const PoseAt& pose) {
     if (!best) return nullptr;
     free = *best;
   }
-  std::unique_ptr<EffortSystem>& own = all_[free];
-  if (own) return own.get();
+  std::unique_ptr<EffortSystem>& system = all_[free];
+  if (system) return system.get();
   Mechanism chosen = mechanism_;
   if (cables) mechanism::set_free_cables(chosen, free);
-  own = std::make_unique<EffortSystem>(chosen, wanted_tensions(chosen, wanted_), task_, sides_, request_);
-  by_statics_[&own->statics()] = own.get();
-  return own.get();
+  system = std::make_unique<EffortSystem>(chosen, wanted_tensions(chosen, wanted_), task_, sides_, request_);
+  by_statics_[&system->statics()] = system.get();
+  return system.get();
 }
 
 std::optional<core::TaskWitness> EffortSystems::unreachable(const PoseAt& pose) const {
@@ -339,8 +339,8 @@ std::optional<core::TaskWitness> EffortSystems::unreachable(const PoseAt& pose) 
 }
 
 const EffortStatics* PatternChooser::statics_at(const PoseAt& pose) {
-  const EffortSystem* const own = systems_.at(pose);
-  return own == nullptr ? nullptr : &own->statics();
+  const EffortSystem* const system = systems_.at(pose);
+  return system == nullptr ? nullptr : &system->statics();
 }
 
 std::optional<EffortChoice> PatternChooser::choose(const EffortStatics& statics,
@@ -351,14 +351,14 @@ std::optional<EffortChoice> PatternChooser::choose(const EffortStatics& statics,
 EffortChoice PatternChooser::turned(const EffortStatics& statics, const std::vector<EffortColumns>& designs,
                                     const EffortChoice& choice) {
   const Proposal proposal{systems_.of(statics), statics, designs, signs_, systems_.task().knows_load, most_};
-  EffortChoice own = choice;
-  own.ways = proposal.ways_under(&choice, 0, designs.size());
-  return own;
+  EffortChoice effort_choice = choice;
+  effort_choice.ways = proposal.ways_under(&choice, 0, designs.size());
+  return effort_choice;
 }
 
 bool PatternChooser::is_refuted_by(const EffortSystem& system, const std::vector<EffortInequality>& rows) {
-  if (auto own = excluded(system, rows)) {
-    exclusion = std::move(own);
+  if (auto excluded_rows = excluded(system, rows)) {
+    exclusion = std::move(excluded_rows);
     excluding = &system;
     return true;
   }

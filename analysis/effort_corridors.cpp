@@ -61,7 +61,7 @@ class PatternSearch {
         for (EffortGap& gap : numeric::effort_gaps(none[i], one[i], at, sides_, demands))
           gaps.push_back(std::move(gap));
       }
-      if (const auto own = own_gap(mechanism, wanted.joint, request)) gaps.push_back(*own);
+      if (const auto gap = own_gap(mechanism, wanted.joint, request)) gaps.push_back(*gap);
       if (regular) seen_.push_back({pose, std::move(gaps)});
     }
   }
@@ -107,8 +107,8 @@ class PatternSearch {
     Sides sides;
     for (const EffortGap& gap : seen_.front().gaps) {
       const int side = side_of(gap, effort);
-      const auto [own, first] = sides.emplace(key_of(gap), side);
-      if (side == 0 || own->second != side) return std::nullopt;
+      const auto [entry, first] = sides.emplace(key_of(gap), side);
+      if (side == 0 || entry->second != side) return std::nullopt;
     }
     return sides;
   }
@@ -119,8 +119,8 @@ class PatternSearch {
       EffortCorridor all = free_at(seen);
       EffortCorridor certain = free_at(seen);
       for (const EffortGap& gap : seen.gaps) {
-        const auto own = sides.find(key_of(gap));
-        const int side = own != sides.end() ? own->second : roomier_side(all, gap);
+        const auto found = sides.find(key_of(gap));
+        const int side = found != sides.end() ? found->second : roomier_side(all, gap);
         sides.emplace(key_of(gap), side);
         narrow(all, gap, side);
         if (gap.sign_above != 0) narrow(certain, gap, side);

@@ -25,10 +25,10 @@ class PatternTree {
     rows_ = *always;
     for (const std::string& name : names_)
       for (const int sign : {1, -1}) {
-        auto own = all_rows(system, places, {{name, sign}}, load);
-        if (!own) return;
-        std::erase_if(*own, [](const EffortInequality& row) { return row.bound; });
-        signed_[{name, sign}] = std::move(*own);
+        auto rows = all_rows(system, places, {{name, sign}}, load);
+        if (!rows) return;
+        std::erase_if(*rows, [](const EffortInequality& row) { return row.bound; });
+        signed_[{name, sign}] = std::move(*rows);
       }
     complete_ = true;
   }
@@ -53,12 +53,12 @@ class PatternTree {
       return;
     }
     for (const int sign : {1, -1}) {
-      const std::vector<EffortInequality>& own = signed_.at({names_[i], sign});
-      rows_.insert(rows_.end(), own.begin(), own.end());
+      const std::vector<EffortInequality>& inequalities = signed_.at({names_[i], sign});
+      rows_.insert(rows_.end(), inequalities.begin(), inequalities.end());
       signs[names_[i]] = sign;
       descend(i + 1, signs);
       signs.erase(names_[i]);
-      rows_.resize(rows_.size() - own.size());
+      rows_.resize(rows_.size() - inequalities.size());
     }
   }
 
@@ -99,16 +99,16 @@ std::vector<core::PreloadRow> told_rows(const EffortSystem& system, const Effort
   std::vector<core::PreloadRow> rows;
   const std::size_t poses = system.mechanism().coordinates.size();
   for (std::size_t i = 0; i < exclusion.rows.size(); ++i) {
-    const EffortInequality& own = exclusion.rows[i];
+    const EffortInequality& inequality = exclusion.rows[i];
     core::PreloadRow& row = rows.emplace_back();
-    row.reaction = own.reaction;
-    row.sign = own.sign;
-    row.bound = own.bound;
-    row.at = own.at;
+    row.reaction = inequality.reaction;
+    row.sign = inequality.sign;
+    row.bound = inequality.bound;
+    row.at = inequality.at;
     if (row.at.size() > poses) row.at.resize(poses);
-    row.load = own.load;
-    for (const numeric::Bounded& slope : own.slope) row.slope.push_back(slope.value);
-    row.offset = own.offset.value;
+    row.load = inequality.load;
+    for (const numeric::Bounded& slope : inequality.slope) row.slope.push_back(slope.value);
+    row.offset = inequality.offset.value;
     row.multiplier = exclusion.multipliers[i];
   }
   return rows;

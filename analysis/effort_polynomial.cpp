@@ -26,17 +26,17 @@ std::string decimal(double value, int digits) {
 /// All of a total degree up to `degree`, those of a lower one first.
 std::vector<std::vector<int>> powers_up_to(std::size_t variables, int degree) {
   std::vector<std::vector<int>> all;
-  std::vector<int> own(variables, 0);
+  std::vector<int> powers(variables, 0);
   const std::function<void(std::size_t, int)> add = [&](std::size_t variable, int left) {
     if (variable == variables) {
-      if (left == 0) all.push_back(own);
+      if (left == 0) all.push_back(powers);
       return;
     }
     for (int power = left; power >= 0; --power) {
-      own[variable] = power;
+      powers[variable] = power;
       add(variable + 1, left - power);
     }
-    own[variable] = 0;
+    powers[variable] = 0;
   };
   for (int total = 0; total <= degree; ++total) add(0, total);
   return all;
@@ -55,16 +55,16 @@ EffortPolynomial::EffortPolynomial(const mechanism::Mechanism& mechanism, const 
     : force_(force) {
   for (std::size_t c = 0; c < mechanism.coordinates.size(); ++c) {
     const mechanism::Coordinate& coordinate = mechanism.coordinates[c];
-    Variable own;
-    own.name = coordinate.name;
-    own.angle = coordinate.angle;
-    own.lower = core::to_double(box[0][c]);
-    own.upper = core::to_double(box[1][c]);
-    if (!(own.lower < own.upper)) continue;
+    Variable variable;
+    variable.name = coordinate.name;
+    variable.angle = coordinate.angle;
+    variable.lower = core::to_double(box[0][c]);
+    variable.upper = core::to_double(box[1][c]);
+    if (!(variable.lower < variable.upper)) continue;
     constexpr int digits = 3;
-    own.middle = decimal(0.5 * (own.lower + own.upper) * (own.angle ? degrees : 1), digits);
-    own.from = std::strtod(own.middle.c_str(), nullptr) / (own.angle ? degrees : 1);
-    variables_.push_back(std::move(own));
+    variable.middle = decimal(0.5 * (variable.lower + variable.upper) * (variable.angle ? degrees : 1), digits);
+    variable.from = std::strtod(variable.middle.c_str(), nullptr) / (variable.angle ? degrees : 1);
+    variables_.push_back(std::move(variable));
     places_.push_back(c);
   }
   powers_ = powers_up_to(variables_.size(), degree);
@@ -98,9 +98,9 @@ bool EffortPolynomial::fit(const std::vector<std::vector<double>>& poses,
   if (!found) return false;
   coefficients_.clear();
   values_.clear();
-  for (const double own : *found) {
+  for (const double coefficient : *found) {
     constexpr int digits = 4;
-    coefficients_.push_back(decimal(own, digits));
+    coefficients_.push_back(decimal(coefficient, digits));
     values_.push_back(std::strtod(coefficients_.back().c_str(), nullptr));
   }
   for (std::size_t k = 0; k < poses.size(); ++k)
@@ -114,11 +114,12 @@ std::array<double, 2> EffortPolynomial::range() const {
   std::array<double, 2> range = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   std::vector<int> cell(n, 0);
   const auto enclosed = [&](std::size_t v) {
-    const Variable& own = variables_[v];
-    const double step = (own.upper - own.lower) / cuts;
-    double low = own.lower + cell[v] * step - own.from, high = own.lower + (cell[v] + 1) * step - own.from;
-    const double rounding = 1e-14 * (std::abs(own.lower) + std::abs(own.upper) + std::abs(own.from));
-    if (own.angle) {
+    const Variable& variable = variables_[v];
+    const double step = (variable.upper - variable.lower) / cuts;
+    double low = variable.lower + cell[v] * step - variable.from,
+           high = variable.lower + (cell[v] + 1) * step - variable.from;
+    const double rounding = 1e-14 * (std::abs(variable.lower) + std::abs(variable.upper) + std::abs(variable.from));
+    if (variable.angle) {
       const bool rises = low > -0.5 * std::numbers::pi && high < 0.5 * std::numbers::pi;
       low = rises ? std::sin(low) : -1;
       high = rises ? std::sin(high) : 1;
@@ -139,13 +140,14 @@ std::array<double, 2> EffortPolynomial::range() const {
   }
 }
 
-std::string EffortPolynomial::variable_words(const Variable& own) const {
-  const bool below = own.middle.front() == '-';
-  const std::string off = own.from == 0 ? own.name
-                                        : own.name + (below ? " + " + own.middle.substr(1) : " - " + own.middle) +
-                                              (own.angle ? " deg" : " m");
-  if (own.angle) return "sin(" + off + ")";
-  return own.from == 0 ? off : "(" + off + ")";
+std::string EffortPolynomial::variable_words(const Variable& variable) const {
+  const bool below = variable.middle.front() == '-';
+  const std::string off = variable.from == 0
+                              ? variable.name
+                              : variable.name + (below ? " + " + variable.middle.substr(1) : " - " + variable.middle) +
+                                    (variable.angle ? " deg" : " m");
+  if (variable.angle) return "sin(" + off + ")";
+  return variable.from == 0 ? off : "(" + off + ")";
 }
 
 std::string EffortPolynomial::unit_words(const std::vector<int>& powers) const {

@@ -40,7 +40,7 @@ class EffortPolynomial {
   };
 
   std::vector<double> monomials(const std::vector<double>& pose) const;
-  std::string variable_words(const Variable& own) const;
+  std::string variable_words(const Variable& variable) const;
   std::string unit_words(const std::vector<int>& powers) const;
 
   bool force_;

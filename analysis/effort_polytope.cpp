@@ -35,7 +35,7 @@ void add_rows(const mechanism::Joint& joint, JointIndex index, const Bounded& of
   const auto bound = [](double value) { return Bounded(value, numeric::unit_roundoff * std::abs(value)); };
   rows.push_back({index, 1, most - least, offset - bound(least), slope});
   std::vector<Bounded> opposite;
-  for (const Bounded& own : slope) opposite.push_back(-own);
+  for (const Bounded& value : slope) opposite.push_back(-value);
   rows.push_back({index, -1, most - least, bound(most) - offset, std::move(opposite)});
 }
 
@@ -78,14 +78,14 @@ std::optional<std::vector<EffortRow>> effort_rows(const Mechanism& mechanism, st
 }
 
 EffortPolytope polytope_of(const std::vector<EffortRow>& rows) {
-  EffortPolytope own;
+  EffortPolytope polytope;
   for (const EffortRow& row : rows) {
-    own.efforts = row.slope.size();
-    EffortPolytope::Row& exact = own.rows.emplace_back();
+    polytope.efforts = row.slope.size();
+    EffortPolytope::Row& exact = polytope.rows.emplace_back();
     exact.offset = Rational(row.offset.value);
     for (const Bounded& slope : row.slope) exact.slope.emplace_back(slope.value);
   }
-  return own;
+  return polytope;
 }
 
 std::vector<Rational> widths_of(const std::vector<EffortRow>& rows) {
@@ -118,9 +118,9 @@ std::optional<EffortPolytope::Deepest> EffortPolytope::least(const std::vector<R
   }
   const auto found = core::minimise(dual);
   if (!found) return std::nullopt;
-  Deepest own{-found->value, {}, binding_rows(found->solution), found->solution};
-  for (const Rational& price : found->prices) own.at.emplace_back(-price);
-  return own;
+  Deepest deepest{-found->value, {}, binding_rows(found->solution), found->solution};
+  for (const Rational& price : found->prices) deepest.at.emplace_back(-price);
+  return deepest;
 }
 
 }  // namespace clearloci

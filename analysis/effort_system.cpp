@@ -55,14 +55,14 @@ Mechanism without_loads(Mechanism mechanism) {
 
 /// A unit of one component of a load: of its force, or, behind these, of its couple.
 Mechanism under_unit_load(const Mechanism& bare, const mechanism::Load& load, std::size_t component) {
-  Mechanism own = bare;
-  mechanism::Load& unit = own.loads.emplace_back();
+  Mechanism under_unit_load = bare;
+  mechanism::Load& unit = under_unit_load.loads.emplace_back();
   unit.link = load.link;
   unit.at = load.at;
   const std::size_t dimension = mechanism::dimension(bare);
   unit.couple = Expression::number(component == dimension ? 1 : 0);
   for (std::size_t c = 0; c < dimension; ++c) unit.force.push_back(Expression::number(c == component ? 1 : 0));
-  return own;
+  return under_unit_load;
 }
 
 /// The mechanism under each base load, under a unit of each free effort, and under the unit loads of the balls.
@@ -104,8 +104,8 @@ double rounded_up(const Rational& value) {
 
 /// Where nothing has a clearance, tensions are asked to keep to their bounds alone.
 bool asks_for_bounds_alone(const Mechanism& mechanism) {
-  return !mechanism::cables_of(mechanism).empty() &&
-         std::none_of(mechanism.joints.begin(), mechanism.joints.end(), [](const auto& own) { return own.clearance; });
+  return !mechanism::cables_of(mechanism).empty() && std::none_of(mechanism.joints.begin(), mechanism.joints.end(),
+                                                                  [](const auto& joint) { return joint.clearance; });
 }
 
 }  // namespace
@@ -117,8 +117,8 @@ std::string reaction_name(const core::TaskDemand& demand) {
 int sign_of(const core::PoseDemand& demand, const SignPattern& signs) {
   if (demand.demand.bound) return demand.demand.bound->side;
   if (demand.components.size() != 1) return 0;
-  const auto own = signs.find(reaction_name(demand.demand));
-  return own == signs.end() ? 0 : own->second;
+  const auto found = signs.find(reaction_name(demand.demand));
+  return found == signs.end() ? 0 : found->second;
 }
 
 EffortSystem::EffortSystem(const Mechanism& mechanism, std::vector<WantedEffort> wanted, const Task& task,
@@ -130,19 +130,20 @@ EffortSystem::EffortSystem(const Mechanism& mechanism, std::vector<WantedEffort>
       widened_(mechanism, without_balls_),
       poses_(mechanism.coordinates.size()) {
   const std::vector<Mechanism> columns = columns_of(widened_.loads(), task, wanted_.size(), statics_.balls);
-  for (const Mechanism& own : columns) models_.push_back(numeric::compile(own));
+  for (const Mechanism& column : columns) models_.push_back(numeric::compile(column));
   std::vector<core::TaskDemand> demands = demands_of(mechanism, request);
-  if (asks_for_bounds_alone(mechanism)) std::erase_if(demands, [](const core::TaskDemand& own) { return !own.bound; });
+  if (asks_for_bounds_alone(mechanism))
+    std::erase_if(demands, [](const core::TaskDemand& demand) { return !demand.bound; });
   const loci::pose::PoseRegion region(task.shape, widened_.metric(mechanism, task), widened_.beside());
   demands_ = loaded_demands(models_, sides_, std::move(demands), region.samples(), notes_);
-  for (const WantedEffort& own : wanted_) {
-    const auto gap = own_gap(mechanism, own.joint, request);
+  for (const WantedEffort& effort : wanted_) {
+    const auto gap = own_gap(mechanism, effort.joint, request);
     own_leasts_.push_back(gap ? std::optional(gap->to) : std::nullopt);
   }
   std::vector<core::TaskDemand> plain = demands_;
-  for (core::TaskDemand& own : plain) own.bound.reset();
+  for (core::TaskDemand& demand : plain) demand.bound.reset();
   std::vector<const Mechanism*> list;
-  for (const Mechanism& own : columns) list.push_back(&own);
+  for (const Mechanism& column : columns) list.push_back(&column);
   statics_.statics = symbolic::pose_statics(list, sides_, plain);
   statics_.demands = std::move(statics_.statics.demands);
   statics_.statics.demands.clear();
@@ -181,14 +182,15 @@ std::optional<EffortSystem::Solved> EffortSystem::solved(const PoseAt& place) co
   for (const double value : place) at.emplace_back(value);
   Solved all(demands_.size());
   for (const numeric::NumericModel& model : models_) {
-    const numeric::BoundedNumerators own = numeric::bounded_numerators(model, at, sides_);
-    if (!own.reachable || !(std::abs(own.determinant.value) > own.determinant.error)) return std::nullopt;
+    const numeric::BoundedNumerators numerators = numeric::bounded_numerators(model, at, sides_);
+    if (!numerators.reachable || !(std::abs(numerators.determinant.value) > numerators.determinant.error))
+      return std::nullopt;
     for (std::size_t d = 0; d < demands_.size(); ++d) {
       core::TaskDemand plain = demands_[d];
       plain.bound.reset();
-      const std::vector<Bounded> parts = numeric::demanded_parts(model, plain, own);
+      const std::vector<Bounded> parts = numeric::demanded_parts(model, plain, numerators);
       all[d].resize(parts.size());
-      for (std::size_t k = 0; k < parts.size(); ++k) all[d][k].push_back(parts[k] / own.determinant);
+      for (std::size_t k = 0; k < parts.size(); ++k) all[d][k].push_back(parts[k] / numerators.determinant);
     }
   }
   return all;
@@ -252,8 +254,8 @@ std::optional<loci::pose::EffortColumns> EffortSystem::columns(const PoseAt& pla
   loci::pose::EffortColumns columns(all->size());
   for (std::size_t d = 0; d < all->size(); ++d)
     for (const std::vector<Bounded>& part : (*all)[d]) {
-      std::vector<double>& own = columns[d].emplace_back();
-      for (const Bounded& value : part) own.push_back(value.value);
+      std::vector<double>& column = columns[d].emplace_back();
+      for (const Bounded& value : part) column.push_back(value.value);
     }
   return columns;
 }
@@ -264,7 +266,7 @@ std::vector<EffortSystem::OneLoad> EffortSystem::extreme_loads(const PoseAt& pla
     loads.push_back({base, std::vector<double>(statics_.directions(), 0.0)});
   const auto rows = statics_.directions() > 0 ? this->rows(place, signs) : std::nullopt;
   if (!rows) return loads;
-  for (const EffortInequality& own : *rows) loads.push_back({own.base, own.load});
+  for (const EffortInequality& inequality : *rows) loads.push_back({inequality.base, inequality.load});
   return loads;
 }
 
@@ -273,12 +275,12 @@ bool EffortSystem::is_too_small(const Columns& columns, double least, const OneL
                                 const std::vector<std::array<double, 2>>& box) const {
   for (std::size_t corner = 0; corner < std::size_t{1} << box.size(); ++corner) {
     double square = 0;
-    for (const std::vector<Bounded>& own : columns) {
-      Bounded sum = own[load.base];
+    for (const std::vector<Bounded>& column : columns) {
+      Bounded sum = column[load.base];
       for (std::size_t k = 0; k < box.size(); ++k)
-        sum = sum + Bounded(box[k][corner >> k & 1]) * own[statics_.bases + k];
+        sum = sum + Bounded(box[k][corner >> k & 1]) * column[statics_.bases + k];
       for (std::size_t c = 0; c < load.parts.size(); ++c)
-        sum = sum + Bounded(load.parts[c]) * own[statics_.bases + statics_.efforts + c];
+        sum = sum + Bounded(load.parts[c]) * column[statics_.bases + statics_.efforts + c];
       square += std::pow(std::abs(sum.value) + sum.error, 2);
     }
     if (!(std::sqrt(square) * (1 + 0x1p-48) < least)) return false;
@@ -290,10 +292,11 @@ bool EffortSystem::is_too_small(const Columns& columns, double least, const OneL
 std::vector<double> EffortSystem::relieving_load(const Columns& columns, std::size_t base,
                                                  const std::vector<std::array<double, 2>>& box) const {
   std::vector<Bounded> along(columns.front().size());
-  for (const std::vector<Bounded>& own : columns) {
-    double value = own[base].value;
-    for (std::size_t k = 0; k < box.size(); ++k) value += 0.5 * (box[k][0] + box[k][1]) * own[statics_.bases + k].value;
-    for (std::size_t c = 0; c < along.size(); ++c) along[c].value += value * own[c].value;
+  for (const std::vector<Bounded>& column : columns) {
+    double value = column[base].value;
+    for (std::size_t k = 0; k < box.size(); ++k)
+      value += 0.5 * (box[k][0] + box[k][1]) * column[statics_.bases + k].value;
+    for (std::size_t c = 0; c < along.size(); ++c) along[c].value += value * column[c].value;
   }
   return worst_load(along, 1);
 }
@@ -336,16 +339,17 @@ std::vector<EffortInequality> EffortSystem::rows_of_efforts(const SignPattern& s
   for (std::size_t k = 0; k < wanted_.size(); ++k) {
     add(k, 1, bounded(-wanted_[k].lower), true);
     add(k, -1, bounded(wanted_[k].upper), true);
-    const auto own = signs.find((wanted_[k].force ? "F_" : "M_") + wanted_[k].joint);
-    if (own_leasts_[k] && own != signs.end() && own->second != 0) add(k, own->second, Bounded(-*own_leasts_[k]), false);
+    const auto found = signs.find((wanted_[k].force ? "F_" : "M_") + wanted_[k].joint);
+    if (own_leasts_[k] && found != signs.end() && found->second != 0)
+      add(k, found->second, Bounded(-*own_leasts_[k]), false);
   }
   return rows;
 }
 
 std::vector<std::string> EffortSystem::signed_reactions() const {
   std::vector<std::string> names;
-  for (const core::PoseDemand& own : statics_.demands)
-    if (!own.demand.bound && own.components.size() == 1) names.push_back(reaction_name(own.demand));
+  for (const core::PoseDemand& demand : statics_.demands)
+    if (!demand.demand.bound && demand.components.size() == 1) names.push_back(reaction_name(demand.demand));
   for (std::size_t k = 0; k < wanted_.size(); ++k)
     if (own_leasts_[k]) names.push_back((wanted_[k].force ? "F_" : "M_") + wanted_[k].joint);
   return names;
@@ -354,24 +358,24 @@ std::vector<std::string> EffortSystem::signed_reactions() const {
 namespace {
 
 EffortPolytope polytope_of_rows(const EffortSystem& system, const std::vector<EffortInequality>& rows) {
-  EffortPolytope own;
-  own.efforts = system.wanted().size();
+  EffortPolytope polytope;
+  polytope.efforts = system.wanted().size();
   for (const EffortInequality& row : rows) {
-    EffortPolytope::Row& exact = own.rows.emplace_back();
+    EffortPolytope::Row& exact = polytope.rows.emplace_back();
     exact.offset = Rational(row.offset.value);
     for (const Bounded& slope : row.slope) exact.slope.emplace_back(slope.value);
   }
-  return own;
+  return polytope;
 }
 
 /// Whether the rows under their multipliers leave no efforts that are looked at.
-bool leave_none(const EffortSystem& system, const EffortExclusion& own) {
+bool leave_none(const EffortSystem& system, const EffortExclusion& exclusion) {
   Bounded offset(0.0);
   std::vector<Bounded> slope(system.wanted().size(), Bounded(0.0));
-  for (std::size_t i = 0; i < own.rows.size(); ++i) {
-    const Bounded y(own.multipliers[i]);
-    offset = offset + y * own.rows[i].offset;
-    for (std::size_t k = 0; k < slope.size(); ++k) slope[k] = slope[k] + y * own.rows[i].slope[k];
+  for (std::size_t i = 0; i < exclusion.rows.size(); ++i) {
+    const Bounded y(exclusion.multipliers[i]);
+    offset = offset + y * exclusion.rows[i].offset;
+    for (std::size_t k = 0; k < slope.size(); ++k) slope[k] = slope[k] + y * exclusion.rows[i].slope[k];
   }
   double most = offset.value + offset.error;
   for (std::size_t k = 0; k < slope.size(); ++k)
@@ -381,20 +385,20 @@ bool leave_none(const EffortSystem& system, const EffortExclusion& own) {
 }
 
 EffortExclusion exclusion_of(const std::vector<EffortInequality>& rows, const std::vector<Rational>& multipliers) {
-  EffortExclusion own;
+  EffortExclusion exclusion;
   for (std::size_t i = 0; i < rows.size() && i < multipliers.size(); ++i) {
     if (multipliers[i] == 0) continue;
-    own.rows.push_back(rows[i]);
-    own.multipliers.push_back(core::to_double(multipliers[i]));
+    exclusion.rows.push_back(rows[i]);
+    exclusion.multipliers.push_back(core::to_double(multipliers[i]));
   }
-  return own;
+  return exclusion;
 }
 
 }  // namespace
 
 bool all_fail(const EffortInequality& row, const std::vector<core::Interval>& box) {
-  const auto enclosed = [](const Bounded& own) {
-    return core::Interval(own.value) + core::Interval(-own.error, own.error);
+  const auto enclosed = [](const Bounded& value) {
+    return core::Interval(value.value) + core::Interval(-value.error, value.error);
   };
   core::Interval value = enclosed(row.offset);
   for (std::size_t k = 0; k < box.size(); ++k) value = value + enclosed(row.slope[k]) * box[k];
@@ -412,8 +416,8 @@ std::optional<EffortExclusion> excluded(const EffortSystem& system, const std::v
   }
   const auto deepest = polytope.deepest(widths);
   if (!deepest || deepest->depth > 0) return std::nullopt;
-  EffortExclusion own = exclusion_of(rows, deepest->multipliers);
-  return leave_none(system, own) ? std::optional(std::move(own)) : std::nullopt;
+  EffortExclusion exclusion = exclusion_of(rows, deepest->multipliers);
+  return leave_none(system, exclusion) ? std::optional(std::move(exclusion)) : std::nullopt;
 }
 
 std::optional<SmallestEfforts> smallest_efforts(const EffortSystem& system, const std::vector<EffortInequality>& rows) {
@@ -428,12 +432,12 @@ std::optional<SmallestEfforts> smallest_efforts(const EffortSystem& system, cons
       row.slope.assign(efforts + 1, Rational(0));
       row.slope[k] = sign;
       row.slope.back() = Rational(1 / system.wanted()[k].size_of_one);
-      EffortInequality& own = sizes.emplace_back();
-      own.reaction = (system.wanted()[k].force ? "F_" : "M_") + system.wanted()[k].joint;
-      own.sign = sign;
-      own.bound = true;
-      own.slope.assign(efforts, Bounded(0.0));
-      own.slope[k] = Bounded(sign);
+      EffortInequality& inequality = sizes.emplace_back();
+      inequality.reaction = (system.wanted()[k].force ? "F_" : "M_") + system.wanted()[k].joint;
+      inequality.sign = sign;
+      inequality.bound = true;
+      inequality.slope.assign(efforts, Bounded(0.0));
+      inequality.slope[k] = Bounded(sign);
     }
   std::vector<Rational> of(efforts + 1);
   of.back() = 1;
@@ -447,10 +451,10 @@ std::optional<SmallestEfforts> smallest_efforts(const EffortSystem& system, cons
     const double lower = size * (1 - part);
     std::vector<EffortInequality> all = rows;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      EffortInequality own = sizes[i];
+      EffortInequality inequality = sizes[i];
       const double most = lower / system.wanted()[i / 2].size_of_one;
-      own.offset = Bounded(most, numeric::unit_roundoff * most);
-      all.push_back(std::move(own));
+      inequality.offset = Bounded(most, numeric::unit_roundoff * most);
+      all.push_back(std::move(inequality));
     }
     found.below = exclusion_of(all, least->multipliers);
     if (!leave_none(system, found.below)) continue;

@@ -32,8 +32,8 @@ double pull(const Motion& motion, const std::vector<mechanism::JointIndex>& gear
 bool bears(const Motion& motion, const std::vector<mechanism::JointIndex>& gears, double tau, double period) {
   constexpr double rounding = 1e-9;  // of all forces there
   for (std::size_t k = 0; k < motion.timeline.intervals.size(); ++k) {
-    const numeric::Interval& own = motion.timeline.intervals[k];
-    if (tau < own.begin || tau > own.end) continue;
+    const numeric::Interval& interval = motion.timeline.intervals[k];
+    if (tau < interval.begin || tau > interval.end) continue;
     const Instant at = numeric::instant(motion, k, tau);
     if (pull(motion, gears, at, period) <= rounding * at.reactions(period).cwiseAbs().maxCoeff()) return true;
   }
@@ -57,8 +57,8 @@ FlankMotions::FlankMotions(const mechanism::Mechanism& mechanism, const mechanis
         {mechanism.file},
         "trajectories are followed for at most three gears, and the mechanism has " + std::to_string(gears_.size()),
         "ask for pose at places of the path");
-  for (const DyadSides& own : modes_of_flanks(mechanism, sides)) {
-    motions_.push_back(numeric::compile_motion(mechanism, trajectory, own));
+  for (const DyadSides& dyad_sides : modes_of_flanks(mechanism, sides)) {
+    motions_.push_back(numeric::compile_motion(mechanism, trajectory, dyad_sides));
     samples_.push_back(numeric::sample(motions_.back(), count));
   }
 }
@@ -81,20 +81,21 @@ std::vector<numeric::ContactLoss> FlankMotions::contact_losses(double period,
     for (const numeric::ContactLoss& loss : numeric::contact_losses(motions_[m], samples_[m], period, thresholds)) {
       std::vector<mechanism::JointIndex> others = gears_;
       std::erase(others, loss.joint);
-      const bool known = std::any_of(all.begin(), all.end(), [&](const auto& own) { return is_same(own, loss); });
-      if (!known && bears(motions_[m], others, loss.tau, period)) all.push_back(loss);
+      const bool is_present =
+          std::any_of(all.begin(), all.end(), [&](const auto& candidate) { return is_same(candidate, loss); });
+      if (!is_present && bears(motions_[m], others, loss.tau, period)) all.push_back(loss);
     }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.tau < b.tau; });
   return all;
 }
 
 std::optional<numeric::CriticalPeriod> FlankMotions::change_at_rest(std::size_t motion, int stage) const {
-  const Motion& own = motions_[motion];
-  for (std::size_t k = 0; k < own.timeline.intervals.size(); ++k) {
-    if (own.timeline.intervals[k].stage != stage) continue;
+  const Motion& motion_data = motions_[motion];
+  for (std::size_t k = 0; k < motion_data.timeline.intervals.size(); ++k) {
+    if (motion_data.timeline.intervals[k].stage != stage) continue;
     for (const Instant& at : samples_[motion][k])
       for (const mechanism::JointIndex gear : gears_)
-        if (effort(own, gear, at.at_rest) < 0)
+        if (effort(motion_data, gear, at.at_rest) < 0)
           return numeric::CriticalPeriod{infinity, gear, Quantity::F, at.tau, at.distance.value()};
   }
   return std::nullopt;
@@ -126,13 +127,13 @@ numeric::PeriodSweep FlankMotions::sweep(const std::vector<double>& periods) con
   if (!has_flanks()) return numeric::period_sweep(motion(), samples_.front(), periods);
   numeric::PeriodSweep all;
   for (const double period : periods) {
-    const numeric::PeriodSweep own = numeric::period_sweep(motion(), samples(period), {period});
+    const numeric::PeriodSweep sweep = numeric::period_sweep(motion(), samples(period), {period});
     all.periods.push_back(period);
-    all.tau = own.tau;
-    all.distance = own.distance;
+    all.tau = sweep.tau;
+    all.distance = sweep.distance;
     for (const auto part : {&numeric::PeriodSweep::dx, &numeric::PeriodSweep::dy, &numeric::PeriodSweep::dz,
                             &numeric::PeriodSweep::dalpha})
-      (all.*part).insert((all.*part).end(), (own.*part).begin(), (own.*part).end());
+      (all.*part).insert((all.*part).end(), (sweep.*part).begin(), (sweep.*part).end());
   }
   return all;
 }
@@ -142,8 +143,8 @@ std::vector<numeric::LossCurve> FlankMotions::loss_curves(const numeric::LossThr
   std::vector<numeric::LossCurve> curves =
       numeric::loss_curves(motion(), samples_.front(), thresholds, shortest, longest);
   if (has_flanks())
-    std::erase_if(curves, [&](const numeric::LossCurve& own) {
-      return std::find(gears_.begin(), gears_.end(), own.joint) == gears_.end();
+    std::erase_if(curves, [&](const numeric::LossCurve& curve) {
+      return std::find(gears_.begin(), gears_.end(), curve.joint) == gears_.end();
     });
   return curves;
 }

@@ -27,9 +27,10 @@ std::vector<std::string> pulled_gears(const mechanism::Mechanism& mechanism, con
   std::vector<std::string> pulled;
   for (const mechanism::Joint& joint : mechanism.joints) {
     if (!has_teeth(joint)) continue;
-    for (const JointReaction& own : pose.reactions)
-      for (const ReactionComponent& part : own.components)
-        if (own.joint == joint.name && part.quantity == Quantity::F && part.value < 0) pulled.push_back(joint.name);
+    for (const JointReaction& reaction : pose.reactions)
+      for (const ReactionComponent& part : reaction.components)
+        if (reaction.joint == joint.name && part.quantity == Quantity::F && part.value < 0)
+          pulled.push_back(joint.name);
   }
   return pulled;
 }
@@ -52,8 +53,8 @@ std::vector<DyadSides> modes_of_flanks(const mechanism::Mechanism& mechanism, co
 DyadSides sides_that_push(const mechanism::Mechanism& mechanism, const DyadSides& sides,
                           const std::vector<double>& pose) {
   const numeric::NumericModel model = numeric::compile(mechanism);
-  for (const DyadSides& own : modes_of_flanks(mechanism, sides))
-    if (numeric::bounded_numerators(model, pose, own).reachable) return own;
+  for (const DyadSides& dyad_sides : modes_of_flanks(mechanism, sides))
+    if (numeric::bounded_numerators(model, pose, dyad_sides).reachable) return dyad_sides;
   return sides;
 }
 
@@ -77,9 +78,9 @@ std::vector<std::string> slack_belts(const mechanism::Mechanism& mechanism, cons
   for (const mechanism::Joint& joint : mechanism.joints) {
     const std::optional<double> most = most_of_belt(mechanism, joint);
     if (!most) continue;
-    for (const JointReaction& own : pose.reactions)
-      for (const ReactionComponent& part : own.components)
-        if (own.joint == joint.name && part.quantity == mechanism::actuator_quantity(joint) &&
+    for (const JointReaction& reaction : pose.reactions)
+      for (const ReactionComponent& part : reaction.components)
+        if (reaction.joint == joint.name && part.quantity == mechanism::actuator_quantity(joint) &&
             std::abs(part.value) > *most)
           slack.push_back(joint.name);
   }

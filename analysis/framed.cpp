@@ -215,8 +215,8 @@ mechanism::Trajectory in_frame(mechanism::Trajectory trajectory, const Frame& fr
   std::for_each(trajectory.timed->rows.begin(), trajectory.timed->rows.end(), move);
   using core::Expression;
   for (std::size_t i = 0; i < trajectory.timed->coordinates.size(); ++i) {
-    Expression& own = trajectory.timed->coordinates[i];
-    own = Expression::apply(Expression::Kind::add, {own, Expression::number(-frame.from[i])});
+    Expression& coordinate = trajectory.timed->coordinates[i];
+    coordinate = Expression::apply(Expression::Kind::add, {coordinate, Expression::number(-frame.from[i])});
   }
   return trajectory;
 }
@@ -252,11 +252,11 @@ core::Zones from_frame(core::Zones map, const mechanism::Mechanism& mechanism, c
   const Outward outward(mechanism, frame);
   map.loci = from_frame(std::move(map.loci), mechanism, frame);
   // By cells nothing is scaled.
-  const auto size = [&](double own) { return map.by_cells ? own : outward.size(outward.size(own)); };
+  const auto size = [&](double length) { return map.by_cells ? length : outward.size(outward.size(length)); };
   for (core::ZonedMode& mode : map.modes)
-    for (double* const own : {&mode.workspace, &mode.outside, &mode.in_doubt}) *own = size(*own);
+    for (double* const length : {&mode.workspace, &mode.outside, &mode.in_doubt}) *length = size(*length);
   for (core::Zone& zone : map.zones) {
-    for (double* const own : {&zone.size, &zone.at_least, &zone.at_most}) *own = size(*own);
+    for (double* const length : {&zone.size, &zone.at_least, &zone.at_most}) *length = size(*length);
     for (std::vector<double>* const at : {&zone.lower, &zone.upper, &zone.sample, &zone.ball.centre}) outward.move(*at);
     zone.ball.radius = outward.size(zone.ball.radius);
     for (core::ZoneBorder& border : zone.borders) border.length = outward.size(border.length);
@@ -303,9 +303,9 @@ Errors from_frame(Errors errors, const mechanism::Mechanism& mechanism, const Fr
 
 TrajectoryResult from_frame(TrajectoryResult result, const mechanism::Mechanism& mechanism, const Frame& frame) {
   const auto move = [&](const std::string& name, const Rational& by) {
-    const auto own = std::find(result.samples.names.begin(), result.samples.names.end(), name);
-    if (own == result.samples.names.end()) return;
-    for (double& value : result.samples.columns[static_cast<std::size_t>(own - result.samples.names.begin())])
+    const auto found = std::find(result.samples.names.begin(), result.samples.names.end(), name);
+    if (found == result.samples.names.end()) return;
+    for (double& value : result.samples.columns[static_cast<std::size_t>(found - result.samples.names.begin())])
       if (std::isfinite(value)) value = core::to_double(by + Rational(value));
   };
   for (std::size_t i = 0; i < mechanism.coordinates.size(); ++i)

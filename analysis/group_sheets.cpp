@@ -9,7 +9,7 @@
 namespace clearloci {
 std::string names_of_groups(const mechanism::Mechanism& mechanism) {
   std::string names;
-  for (const mechanism::Group& own : mechanism.groups) names += (names.empty() ? "" : ", ") + own.name;
+  for (const mechanism::Group& group : mechanism.groups) names += (names.empty() ? "" : ", ") + group.name;
   return (mechanism.groups.size() > 1 ? "groups " : "group ") + names;
 }
 

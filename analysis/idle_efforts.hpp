@@ -20,9 +20,9 @@ inline std::vector<numeric::NumericModel> models_under_efforts(const mechanism::
                                                                const std::vector<mechanism::JointIndex>& joints) {
   std::vector<numeric::NumericModel> models;
   for (std::size_t k = 0; k <= joints.size(); ++k) {
-    mechanism::Mechanism own = mechanism;
-    for (std::size_t i = 0; i < joints.size(); ++i) mechanism::give_effort(own, joints[i], i + 1 == k ? 1 : 0);
-    models.push_back(numeric::compile(own));
+    mechanism::Mechanism idle = mechanism;
+    for (std::size_t i = 0; i < joints.size(); ++i) mechanism::give_effort(idle, joints[i], i + 1 == k ? 1 : 0);
+    models.push_back(numeric::compile(idle));
   }
   return models;
 }

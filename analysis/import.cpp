@@ -9,8 +9,8 @@ mechanism::ImportOptions options_of(const ImportRequest& request) {
   return {request.clearance, request.side, request.side_file};
 }
 
-ImportedFile told(mechanism::Imported own) {
-  return {std::move(own.text), std::move(own.format), std::move(own.notes)};
+ImportedFile told(mechanism::Imported imported) {
+  return {std::move(imported.text), std::move(imported.format), std::move(imported.notes)};
 }
 
 }  // namespace

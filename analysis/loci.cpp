@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
@@ -11,24 +10,18 @@
 #include "analysis/carried.hpp"
 #include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
-#include "analysis/idle_efforts.hpp"
 #include "analysis/loci_by_cells.hpp"
 #include "analysis/model.hpp"
-#include "analysis/preload_choice.hpp"
 #include "analysis/request_limits.hpp"
-#include "core/angle_chart.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "core/straight_line.hpp"
 #include "loci/curves/curves.hpp"
 #include "loci/surfaces/surfaces.hpp"
 #include "mechanism/group_closing.hpp"
-#include "mechanism/guide.hpp"
-#include "mechanism/joint_traits.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/written_unit.hpp"
 #include "numeric/sketch.hpp"
-#include "numeric/validate_preload.hpp"
 
 namespace clearloci {
 namespace {
@@ -39,14 +32,14 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 /// Every combination in the order of core::all_working_modes: the last side changes fastest.
 std::vector<DyadSides> sides_to_trace(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  const DyadSides own = mechanism::working_mode(mechanism);
+  const DyadSides mode = mechanism::working_mode(mechanism);
   if (!request.all_working_modes)
-    return request.working_modes.empty() ? std::vector<DyadSides>{own} : request.working_modes;
+    return request.working_modes.empty() ? std::vector<DyadSides>{mode} : request.working_modes;
   std::vector<DyadSides> all;
-  for (std::size_t count = 0; count < std::size_t{1} << own.size(); ++count) {
-    all.push_back(own);
-    for (std::size_t j = 0; j < own.size(); ++j)
-      if ((count >> j & 1) != 0) all.back()[own.size() - 1 - j] *= -1;
+  for (std::size_t count = 0; count < std::size_t{1} << mode.size(); ++count) {
+    all.push_back(mode);
+    for (std::size_t j = 0; j < mode.size(); ++j)
+      if ((count >> j & 1) != 0) all.back()[mode.size() - 1 - j] *= -1;
   }
   return all;
 }
@@ -67,10 +60,10 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
                               const loci::TraceOptions& options) {
   std::vector<std::vector<const core::LocusProblem*>> sheets;  // one a piece each
   for (const symbolic::DerivedProblem& problem : derived) {
-    std::size_t own = 0;
-    while (own < sheets.size() && sheets[own].size() > static_cast<std::size_t>(problem.piece)) ++own;
-    if (own == sheets.size()) sheets.emplace_back();
-    sheets[own].push_back(&problem.problem);
+    std::size_t group = 0;
+    while (group < sheets.size() && sheets[group].size() > static_cast<std::size_t>(problem.piece)) ++group;
+    if (group == sheets.size()) sheets.emplace_back();
+    sheets[group].push_back(&problem.problem);
   }
   std::optional<core::LocusMap> joined;
   for (const auto& charts : sheets) {
@@ -97,14 +90,15 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
                                    .deadline = request.deadline,
                                    .sketch = effort == TraceEffort::sketch,
                                    .certificate = means.certificate,
-                                   .known = means.known};
+                                   .searches = means.searches};
   if (options.certificate != nullptr)
     for (const core::Root& root : derived.front().problem.tower.roots)
       if (root.square.is_constant() || root.name == core::fold_name)
         throw core::InputError({mechanism.file}, "the square roots that give the points depend on one another",
                                "such a mechanism has no certificate: leave --certificate out");
   std::vector<core::WorkingMode> modes;
-  for (const DyadSides& own : sides) modes.push_back(mode_of(own, names_of(derived.front().problem.tower)));
+  for (const DyadSides& dyad_sides : sides)
+    modes.push_back(mode_of(dyad_sides, names_of(derived.front().problem.tower)));
   if (mechanism.coordinates.size() == 3) {
     core::LocusMap map = trace_surfaces(request, derived, options);
     name_coordinates(mechanism, map);
@@ -193,8 +187,8 @@ class FileTexts {
     for (std::size_t at = 0; at <= list.size();) {
       const std::size_t end = std::min(list.find(apart, at), list.size());
       const std::string one = list.substr(at, end - at);
-      const auto own = texts_.find(one);
-      result += (at == 0 ? "" : "; ") + (own == texts_.end() ? one : own->second);
+      const auto text = texts_.find(one);
+      result += (at == 0 ? "" : "; ") + (text == texts_.end() ? one : text->second);
       at = end + apart.size();
     }
     list = std::move(result);
@@ -322,15 +316,15 @@ core::WorkingMode mode_of(const DyadSides& sides, const core::TowerNames& tower)
 }
 
 std::vector<DyadSides> requested_modes(const mechanism::Mechanism& mechanism, const LociRequest& request) {
-  const DyadSides own = mechanism::working_mode(mechanism);
+  const DyadSides mode = mechanism::working_mode(mechanism);
   if (!request.all_working_modes && !request.working_modes.empty()) return request.working_modes;
-  if (!request.all_working_modes) return {own};
-  check_mode_count(own.size());
-  std::vector<DyadSides> modes = {own};
-  for (std::size_t pattern = 0; pattern < std::size_t{1} << own.size(); ++pattern) {
+  if (!request.all_working_modes) return {mode};
+  check_mode_count(mode.size());
+  std::vector<DyadSides> modes = {mode};
+  for (std::size_t pattern = 0; pattern < std::size_t{1} << mode.size(); ++pattern) {
     DyadSides sides;
-    for (std::size_t j = 0; j < own.size(); ++j) sides.push_back((pattern >> j & 1) != 0 ? -1 : 1);
-    if (sides != own) modes.push_back(sides);
+    for (std::size_t j = 0; j < mode.size(); ++j) sides.push_back((pattern >> j & 1) != 0 ? -1 : 1);
+    if (sides != mode) modes.push_back(sides);
   }
   return modes;
 }
@@ -398,16 +392,16 @@ core::LocusMap trace_in_frame(const mechanism::Mechanism& mechanism, const LociR
     refuse_gears(mechanism, "certificates are written", "leave --certificate out");
   }
   if (!mechanism.groups.empty()) return loci_by_cells(mechanism, request);
-  const std::optional<Framed> own = framed(mechanism);
+  const std::optional<Framed> scaled = framed(mechanism);
   TraceMeans used = means;
   if (request.last && request.carried)
     used.derived = [&](const std::vector<symbolic::DerivedProblem>& derived) {
-      request.carried(carried_loci(*request.last, mechanism, own, derived));
+      request.carried(carried_loci(*request.last, mechanism, scaled, derived));
     };
-  core::LocusMap map = own ? trace_member(own->mechanism, in_frame(request, own->frame), used).map
-                           : trace_member(mechanism, request, used).map;
-  if (means.certificate != nullptr) certify(map, own, *means.certificate);
-  return own ? from_frame(std::move(map), mechanism, own->frame) : map;
+  core::LocusMap map = scaled ? trace_member(scaled->mechanism, in_frame(request, scaled->frame), used).map
+                              : trace_member(mechanism, request, used).map;
+  if (means.certificate != nullptr) certify(map, scaled, *means.certificate);
+  return scaled ? from_frame(std::move(map), mechanism, scaled->frame) : map;
 }
 
 }  // namespace
@@ -428,137 +422,10 @@ core::LocusMap trace_loci(const mechanism::Mechanism& member, const symbolic::Lo
 }
 
 core::LocusMap trace_loci(const Model& model, const LociRequest& request) {
-  const Model::Content& own = model.content();
-  check_request(own.mechanism, request);
-  return own.member ? trace_loci(own.mechanism, own.shared->family(), request) : trace_loci(own.mechanism, request);
-}
-
-std::vector<numeric::TracedReaction> selected_reactions(const mechanism::Mechanism& mechanism,
-                                                        const LociRequest& request) {
-  const std::vector<mechanism::Joint>& joints = mechanism.joints;
-  const bool any_clearance =
-      std::any_of(joints.begin(), joints.end(), [](const mechanism::Joint& joint) { return joint.clearance; });
-  const std::vector<std::string>& named = request.joints;
-  std::vector<numeric::TracedReaction> reactions;
-  for (const mechanism::Joint& joint : joints) {
-    const bool wanted = named.empty() ? joint.clearance.has_value() || !any_clearance
-                                      : std::find(named.begin(), named.end(), joint.name) != named.end();
-    if (!wanted || mechanism::is_cable(joint)) continue;
-    const bool every = mechanism.space == mechanism::Space::planar || !named.empty();
-    for (const core::Quantity quantity :
-         every ? mechanism::reaction_components(mechanism, joint) : mechanism::force_unknowns(mechanism, joint))
-      reactions.push_back({joint.name, quantity});
-    if (joint.actuated) reactions.push_back({joint.name, mechanism::actuator_quantity(joint)});
-    if (mechanism::has_guide_ends(mechanism, joint))
-      for (const auto& [end, sign] : mechanism::guide_end_signs) reactions.push_back({joint.name, end});
-  }
-  return reactions;
-}
-
-namespace {
-
-/// The loci of free efforts over two coordinates against the choice of efforts at the nodes.
-core::Validation validate_preload(const mechanism::Mechanism& mechanism, const LociRequest& request,
-                                  const numeric::GridSpec& grid) {
-  if (mechanism.coordinates.size() != 2)
-    throw core::InputError({mechanism.file}, "loci of free efforts are validated over two coordinates",
-                           "give the efforts by --preload");
-  const numeric::FindChoice choice = preload_choice(mechanism, request);
-  core::LocusMap map = trace_loci(mechanism, request);
-  if (map.out_of_time)
-    throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
-  const mechanism::Joint& joint =
-      mechanism.joints[static_cast<std::size_t>(mechanism::joints_without_preload(mechanism).front())];
-  numeric::ValidationReport report =
-      numeric::validate_preload(numeric::compile(with_idle_efforts(mechanism)), map, grid, choice,
-                                {joint.name, mechanism::actuator_quantity(joint)});
-  return {std::move(map), {grid.nx, grid.ny}, std::move(report)};
-}
-
-}  // namespace
-
-core::Validation validate_loci(const mechanism::Mechanism& mechanism, LociRequest request,
-                               const numeric::GridSpec& grid) {
-  require_coordinates(mechanism, 1, 3, "loci are held against a grid");
-  if (!mechanism::joints_without_preload(mechanism).empty()) return validate_preload(mechanism, request, grid);
-  if (const std::optional<Framed> own = framed(mechanism)) {
-    core::Validation inside = validate_loci(own->mechanism, in_frame(std::move(request), own->frame), grid);
-    return {from_frame(std::move(inside.map), mechanism, own->frame), std::move(inside.nodes),
-            from_frame(std::move(inside.report), mechanism, own->frame)};
-  }
-  std::vector<numeric::TracedReaction> reactions = selected_reactions(mechanism, request);
-  // Where a pin in space loses its contact no component of its force need vanish.
-  for (const mechanism::Joint& joint : mechanism.joints)
-    if (mechanism::presses_across_axis(mechanism, joint) &&
-        std::any_of(reactions.begin(), reactions.end(), [&](const auto& own) { return own.joint == joint.name; }))
-      reactions.push_back({joint.name, core::Quantity::f});
-  // Of points that close together the loci of efforts and whole forces are known, not those of components.
-  if (!mechanism.groups.empty())
-    std::erase_if(reactions, [](const numeric::TracedReaction& own) {
-      return own.quantity != core::Quantity::M && own.quantity != core::Quantity::F;
-    });
-  std::vector<core::Quantity>& quantities = request.quantities = {core::Quantity::f};
-  for (const numeric::TracedReaction& reaction : reactions)
-    if (std::find(quantities.begin(), quantities.end(), reaction.quantity) == quantities.end())
-      quantities.push_back(reaction.quantity);
-  core::LocusMap map = trace_loci(mechanism, request);
-  if (map.out_of_time)
-    throw core::LimitReached("the loci could not be traced completely within the time limit; allow more time");
-  numeric::ValidationReport report = numeric::validate(mechanism, map, grid, reactions);
-  std::vector<int> nodes = {grid.nx, grid.ny, grid.nz};
-  nodes.resize(mechanism.coordinates.size());
-  return {std::move(map), std::move(nodes), std::move(report)};
-}
-
-core::Validation validate_loci(const Model& model, const ValidationRequest& request) {
-  const mechanism::Mechanism& mechanism = model.content().mechanism;
-  check_request(mechanism, request.loci);
-  check_nodes(request.nodes, 2);
-  const std::size_t coordinates = mechanism.coordinates.size();
-  numeric::GridSpec grid;
-  if (coordinates == 1) grid.nx = 4000;
-  if (coordinates == 3) grid.nx = grid.ny = grid.nz = 40;
-  if (!request.nodes.empty()) {
-    const bool grid_like = std::all_of(request.nodes.begin(), request.nodes.end(), [](int n) { return n > 1; });
-    if (request.nodes.size() != coordinates || !grid_like)
-      throw core::InputError({mechanism.file}, "the nodes are those of no grid over the free coordinates",
-                             "give a number above 1 for each of them");
-    for (std::size_t c = 0; c < std::min<std::size_t>(coordinates, 3); ++c)
-      (c == 0 ? grid.nx : c == 1 ? grid.ny : grid.nz) = request.nodes[c];
-  }
-  return validate_loci(mechanism, request.loci, grid);
-}
-
-bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
-  const auto index = static_cast<std::size_t>(mechanism.end_effector_point);
-  const auto* const place = std::get_if<mechanism::ExplicitPoint>(&mechanism.points[index].form);
-  if (place == nullptr || mechanism.coordinates.size() != 2) return false;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const core::Expression& expression = place->coordinates[i];
-    if (expression.kind() != core::Expression::Kind::symbol || expression.name() != mechanism.coordinates[i].name)
-      return false;
-  }
-  return true;
-}
-
-std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
-  const bool beside = mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism);
-  const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
-  std::vector<core::ModeSketch> sketches;
-  std::vector<core::WorkingMode> modes;
-  const auto add = [&](const core::WorkingMode& mode) {
-    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
-  };
-  for (const core::WorkspaceRegion& region : map.workspace) add(region.mode);
-  for (const core::ReachableInterval& interval : map.reachable) add(interval.mode);
-  for (const core::LocusSurface& surface : map.surfaces) add(surface.mode);
-  for (const core::SpaceCurve& curve : map.space_curves) add(curve.mode);
-  for (const core::WorkingMode& mode : modes) {
-    const std::vector<int> sides = numeric::dyad_signs(model, map.tower, mode);
-    if (const std::optional<std::vector<double>> pose = numeric::sample_pose(model, sides, model.box))
-      sketches.push_back({mode, numeric::sketch(model, *pose, sides), beside});
-  }
-  return sketches;
+  const Model::Content& content = model.content();
+  check_request(content.mechanism, request);
+  return content.member ? trace_loci(content.mechanism, content.shared->family(), request)
+                        : trace_loci(content.mechanism, request);
 }
 
 }  // namespace clearloci

@@ -51,7 +51,7 @@ enum class TraceEffort { full, sketch };
 /// tolerance (loci::TraceOptions), the family that the mechanism is a member of, who wants to know the problems.
 struct TraceMeans {
   core::Certificate* certificate = nullptr;
-  loci::sheet::KnownSearches* known = nullptr;
+  loci::sheet::KnownSearches* searches = nullptr;
   const symbolic::LocusFamily* family = nullptr;
   /// Told of the problems before they are traced; may be empty.
   std::function<void(const std::vector<symbolic::DerivedProblem>&)> derived = {};

@@ -35,9 +35,9 @@ constexpr double one_point = 1e-7;
 
 void require_traceable(const Mechanism& mechanism, const LociRequest& request) {
   require_coordinates(mechanism, 1, 3, "loci are traced");
-  for (const core::Quantity own : request.quantities)
-    if (own != core::Quantity::f && own != core::Quantity::M && own != core::Quantity::F)
-      mechanism::require_closed_forms(mechanism, "loci of the component " + core::to_string(own) + " are traced",
+  for (const core::Quantity quantity : request.quantities)
+    if (quantity != core::Quantity::f && quantity != core::Quantity::M && quantity != core::Quantity::F)
+      mechanism::require_closed_forms(mechanism, "loci of the component " + core::to_string(quantity) + " are traced",
                                       "ask for f, M and F");
 }
 
@@ -60,8 +60,8 @@ class Points {
 
   void add_mode(const core::WorkingMode& mode) {
     std::vector<const Zone*> zones;
-    for (const Zone& own : found_.zones)
-      if (own.mode == mode) zones.push_back(&own);
+    for (const Zone& zone : found_.zones)
+      if (zone.mode == mode) zones.push_back(&zone);
     std::sort(zones.begin(), zones.end(), [](const Zone* a, const Zone* b) { return a->lower[0] < b->lower[0]; });
     if (zones.empty()) return;
     double from = zones.front()->lower[0];
@@ -82,8 +82,8 @@ class Points {
   /// The end of a zone, the lower (0) or the upper one.
   static const ZoneEnd* end_of(const Zone& zone, bool upper) {
     const double at = upper ? zone.upper[0] : zone.lower[0];
-    for (const ZoneEnd& own : zone.ends)
-      if (own.at == at) return &own;
+    for (const ZoneEnd& end : zone.ends)
+      if (end.at == at) return &end;
     return nullptr;
   }
 
@@ -91,22 +91,22 @@ class Points {
   void add_side(const Zone* before, const Zone* behind) {
     const ZoneEnd* const first = before != nullptr ? end_of(*before, true) : nullptr;
     const ZoneEnd* const last = behind != nullptr ? end_of(*behind, false) : nullptr;
-    for (const ZoneEnd* const own : {first, last}) {
-      if (own == nullptr) continue;
-      const core::WorkingMode& mode = (own == first ? before : behind)->mode;
-      if (own->kind == LocusKind::workspace_boundary) {
-        add_point(*own, own->at, mode, own->certified);
+    for (const ZoneEnd* const end : {first, last}) {
+      if (end == nullptr) continue;
+      const core::WorkingMode& mode = (end == first ? before : behind)->mode;
+      if (end->kind == LocusKind::workspace_boundary) {
+        add_point(*end, end->at, mode, end->certified);
         continue;
       }
-      if (!own->limit.empty()) {
-        add_flank(*own, mode);
+      if (!end->limit.empty()) {
+        add_flank(*end, mode);
         if (in_doubt_ <= one_point * width()) continue;
       }
       const double low = before != nullptr ? before->upper[0] : range_[0],
                    high = behind != nullptr ? behind->lower[0] : range_[1];
       core::OpenRegion open;
-      open.kind = own->kind;
-      open.vanishing = own->vanishing;
+      open.kind = end->kind;
+      open.vanishing = end->vanishing;
       open.mode = (before != nullptr ? before : behind)->mode;
       open.lower = {low};
       open.upper = {high};
@@ -117,14 +117,14 @@ class Points {
   }
 
   void add_between(const Zone& before, const Zone& behind) {
-    const ZoneEnd *own = end_of(before, true), *other = end_of(behind, false);
-    if (own == nullptr) own = other;
-    if (own == nullptr) return;
-    const double at = own->zero.value_or(0.5 * (before.upper[0] + behind.lower[0]));
-    if (own->kind == LocusKind::direct_singularity)
-      return add_point(*own, at, before.mode, before.assembly_mode * behind.assembly_mode < 0);
-    if (own->kind == LocusKind::workspace_boundary) return add_point(*own, at, before.mode, false);
-    add_point(*own, at, before.mode, is_proven(own));
+    const ZoneEnd *end = end_of(before, true), *other = end_of(behind, false);
+    if (end == nullptr) end = other;
+    if (end == nullptr) return;
+    const double at = end->zero.value_or(0.5 * (before.upper[0] + behind.lower[0]));
+    if (end->kind == LocusKind::direct_singularity)
+      return add_point(*end, at, before.mode, before.assembly_mode * behind.assembly_mode < 0);
+    if (end->kind == LocusKind::workspace_boundary) return add_point(*end, at, before.mode, false);
+    add_point(*end, at, before.mode, is_proven(end));
   }
 
   /// Whether all that vanishes at an end does so for certain.
@@ -166,9 +166,9 @@ class Followed {
  public:
   Followed(const Mechanism& mechanism, const LociRequest& request)
       : mechanism_(mechanism), request_(request), model_(numeric::compile(mechanism)), map_(empty_map(mechanism)) {
-    for (const mechanism::Coordinate& own : mechanism.coordinates) {
-      lower_.push_back(core::to_double(own.lower));
-      upper_.push_back(core::to_double(own.upper));
+    for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
+      lower_.push_back(core::to_double(coordinate.lower));
+      upper_.push_back(core::to_double(coordinate.upper));
     }
   }
 
@@ -208,18 +208,18 @@ class Followed {
     const loci::pose::PoseZeros found = loci::pose::pose_zeros(statics, lower_, upper_, effort);
     map_.out_of_time = map_.out_of_time || found.out_of_time || (covered && covered->out_of_effort);
     const Mode mode{sides, mode_of(sides, map_.tower), statics};
-    for (const loci::pose::PoseLocus& own : found.loci) add(own, mode);
-    for (const loci::pose::PoseZeroPoint& own : found.points) {
+    for (const loci::pose::PoseLocus& locus : found.loci) add(locus, mode);
+    for (const loci::pose::PoseZeroPoint& zero_point : found.points) {
       core::IsolatedPoint point;
-      describe(point, {.doubt = Doubt::demand, .demand = own.demand}, mode);
-      point.at = {own.at[0], own.at[1]};
+      describe(point, {.doubt = Doubt::demand, .demand = zero_point.demand}, mode);
+      point.at = {zero_point.at[0], zero_point.at[1]};
       add(map_.isolated_points, std::move(point));
     }
-    for (const loci::pose::OpenPoses& own : found.open) {
+    for (const loci::pose::OpenPoses& open_poses : found.open) {
       core::OpenRegion& region = map_.open.emplace_back();
-      describe(region, own.zero, mode);
-      region.lower = own.lower;
-      region.upper = own.upper;
+      describe(region, open_poses.zero, mode);
+      region.lower = open_poses.lower;
+      region.upper = open_poses.upper;
     }
     if (over_two()) map_.workspace.push_back({mode.mode, found.rings});
     return found.cells;
@@ -241,9 +241,9 @@ class Followed {
     } else if (zero.doubt == Doubt::singularity) {
       place.kind = LocusKind::direct_singularity;
     } else {
-      const core::TaskDemand& own = mode.statics.demands[static_cast<std::size_t>(zero.demand)].demand;
-      place.kind = locus_kind_of(own);
-      place.vanishing = {{own.joint, own.quantity, 1}};
+      const core::TaskDemand& demand = mode.statics.demands[static_cast<std::size_t>(zero.demand)].demand;
+      place.kind = locus_kind_of(demand);
+      place.vanishing = {{demand.joint, demand.quantity, 1}};
     }
   }
 
@@ -252,17 +252,17 @@ class Followed {
     return !numeric::posture(model_, pose, sides).broken;
   }
 
-  void add(const loci::pose::PoseLocus& own, const Mode& mode) {
+  void add(const loci::pose::PoseLocus& locus, const Mode& mode) {
     if (over_two())
-      add_curve(own, mode);
+      add_curve(locus, mode);
     else
-      add_surface(own, mode);
+      add_surface(locus, mode);
   }
 
-  void add_curve(const loci::pose::PoseLocus& own, const Mode& mode) {
+  void add_curve(const loci::pose::PoseLocus& locus, const Mode& mode) {
     core::LocusCurve curve;
-    describe(curve, own.zero, mode);
-    for (const core::Polyline& points : own.arcs) {
+    describe(curve, locus.zero, mode);
+    for (const core::Polyline& points : locus.arcs) {
       const core::Point2& middle = points[points.size() / 2];
       if (!is_rigid({middle[0], middle[1]}, mode.sides)) continue;
       core::Arc& arc = curve.arcs.emplace_back();
@@ -296,23 +296,23 @@ class Followed {
   }
 
   template <class Locus>
-  void add(std::vector<Locus>& all, Locus own) const {
+  void add(std::vector<Locus>& all, Locus locus) const {
     for (Locus& other : all) {
-      if (other.mode != own.mode || !is_same(other, own)) continue;
-      other.kind = std::min(other.kind, own.kind);
-      other.vanishing.insert(other.vanishing.end(), own.vanishing.begin(), own.vanishing.end());
+      if (other.mode != locus.mode || !is_same(other, locus)) continue;
+      other.kind = std::min(other.kind, locus.kind);
+      other.vanishing.insert(other.vanishing.end(), locus.vanishing.begin(), locus.vanishing.end());
       return;
     }
-    all.push_back(std::move(own));
+    all.push_back(std::move(locus));
   }
 
-  void add_surface(const loci::pose::PoseLocus& own, const Mode& mode) {
-    const core::Point3& first = own.vertices.front();
+  void add_surface(const loci::pose::PoseLocus& locus, const Mode& mode) {
+    const core::Point3& first = locus.vertices.front();
     if (!is_rigid({first.begin(), first.end()}, mode.sides)) return;
     core::LocusSurface surface;
-    describe(surface, own.zero, mode);
-    surface.vertices = own.vertices;
-    surface.triangles = own.triangles;
+    describe(surface, locus.zero, mode);
+    surface.vertices = locus.vertices;
+    surface.triangles = locus.triangles;
     loci::measure(surface);
     add(map_.surfaces, std::move(surface));
   }
@@ -331,9 +331,9 @@ class Followed {
     std::stable_sort(map_.curves.begin(), map_.curves.end(), before);
     std::stable_sort(map_.surfaces.begin(), map_.surfaces.end(), before);
     int number = 0;
-    for (core::LocusCurve& own : map_.curves) own.id = "c" + std::to_string(++number);
+    for (core::LocusCurve& curve : map_.curves) curve.id = "c" + std::to_string(++number);
     number = 0;
-    for (core::LocusSurface& own : map_.surfaces) own.id = "s" + std::to_string(++number);
+    for (core::LocusSurface& surface : map_.surfaces) surface.id = "s" + std::to_string(++number);
   }
 
   const Mechanism& mechanism_;
@@ -344,8 +344,8 @@ class Followed {
 };
 
 core::LocusMap followed(const Mechanism& mechanism, const LociRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
-    return from_frame(followed(own->mechanism, in_frame(request, own->frame)), mechanism, own->frame);
+  if (const std::optional<Framed> scaled = framed(mechanism, Scaling::none))
+    return from_frame(followed(scaled->mechanism, in_frame(request, scaled->frame)), mechanism, scaled->frame);
   return Followed(mechanism, request).follow();
 }
 

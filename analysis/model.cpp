@@ -18,9 +18,9 @@ std::string link_name(const mechanism::Mechanism& mechanism, mechanism::LinkInde
 }
 
 /// With what the import of its file said.
-mechanism::Mechanism with_notes(mechanism::Mechanism own, const std::vector<std::string>& notes) {
-  own.notes.insert(own.notes.begin(), notes.begin(), notes.end());
-  return own;
+mechanism::Mechanism with_notes(mechanism::Mechanism parsed, const std::vector<std::string>& notes) {
+  parsed.notes.insert(parsed.notes.begin(), notes.begin(), notes.end());
+  return parsed;
 }
 
 }  // namespace
@@ -44,10 +44,10 @@ const symbolic::LocusFamily& SharedDesign::family() const {
 
 namespace {
 
-std::shared_ptr<const Model::Content> content_of(mechanism::ModelText own, const std::vector<Model::Value>& values) {
-  mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(own.text, own.file, values), own.notes);
+std::shared_ptr<const Model::Content> content_of(mechanism::ModelText text, const std::vector<Model::Value>& values) {
+  mechanism::Mechanism read = with_notes(mechanism::parse_mechanism(text.text, text.file, values), text.notes);
   auto shared =
-      std::make_shared<const SharedDesign>(std::move(own.text), std::move(own.file), std::move(own.notes), read);
+      std::make_shared<const SharedDesign>(std::move(text.text), std::move(text.file), std::move(text.notes), read);
   return std::make_shared<const Model::Content>(Model::Content{std::move(shared), values, std::move(read), false});
 }
 
@@ -57,9 +57,10 @@ Model Model::parse(std::string text, std::string file, const std::vector<Value>&
   return Model(content_of(mechanism::model_text(std::move(text), std::move(file)), values));
 }
 
-Model Model::Content::of(mechanism::Mechanism own) {
-  auto shared = std::make_shared<const SharedDesign>(std::string(), own.file, std::vector<std::string>(), own);
-  return Model(std::make_shared<const Content>(Content{std::move(shared), {}, std::move(own), false}));
+Model Model::Content::of(mechanism::Mechanism mechanism) {
+  auto shared =
+      std::make_shared<const SharedDesign>(std::string(), mechanism.file, std::vector<std::string>(), mechanism);
+  return Model(std::make_shared<const Content>(Content{std::move(shared), {}, std::move(mechanism), false}));
 }
 
 Model Model::read(const std::string& path, const std::vector<Value>& values) {
@@ -71,8 +72,8 @@ Model Model::with(const std::vector<Value>& values) const {
   for (const Value& old : content_->values)
     if (std::none_of(values.begin(), values.end(), [&](const Value& v) { return v.first == old.first; }))
       all.push_back(old);
-  mechanism::Mechanism own = with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
-  return Model(std::make_shared<const Content>(Content{content_->shared, std::move(all), std::move(own), true}));
+  mechanism::Mechanism parsed = with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
+  return Model(std::make_shared<const Content>(Content{content_->shared, std::move(all), std::move(parsed), true}));
 }
 
 const std::string& Model::name() const { return content_->mechanism.name; }
@@ -84,39 +85,39 @@ bool Model::spatial() const { return content_->mechanism.space == mechanism::Spa
 
 std::vector<Model::Parameter> Model::parameters() const {
   std::vector<Parameter> list;
-  for (const mechanism::Parameter& own : content_->mechanism.parameters)
-    list.push_back({own.name, own.exact ? core::to_string(own.value) : core::to_string(own.expression),
-                    core::to_double(own.value)});
+  for (const mechanism::Parameter& current : content_->mechanism.parameters)
+    list.push_back({current.name, current.exact ? core::to_string(current.value) : core::to_string(current.expression),
+                    core::to_double(current.value)});
   return list;
 }
 
 std::vector<Model::Coordinate> Model::coordinates() const {
   std::vector<Coordinate> list;
-  for (const mechanism::Coordinate& own : content_->mechanism.coordinates)
-    list.push_back({own.name, own.angle, core::to_double(own.lower), core::to_double(own.upper)});
+  for (const mechanism::Coordinate& current : content_->mechanism.coordinates)
+    list.push_back({current.name, current.angle, core::to_double(current.lower), core::to_double(current.upper)});
   return list;
 }
 
 std::vector<Model::Joint> Model::joints() const {
   const mechanism::Mechanism& mechanism = content_->mechanism;
   std::vector<Joint> list;
-  for (const mechanism::Joint& own : mechanism.joints)
-    list.push_back({.name = own.name,
-                    .type = mechanism::to_string(own.type),
-                    .actuated = own.actuated,
-                    .clearance = own.clearance.has_value(),
-                    .from = link_name(mechanism, own.from),
-                    .to = link_name(mechanism, own.to),
-                    .at = point_name(mechanism, own.at)});
+  for (const mechanism::Joint& joint : mechanism.joints)
+    list.push_back({.name = joint.name,
+                    .type = mechanism::to_string(joint.type),
+                    .actuated = joint.actuated,
+                    .clearance = joint.clearance.has_value(),
+                    .from = link_name(mechanism, joint.from),
+                    .to = link_name(mechanism, joint.to),
+                    .at = point_name(mechanism, joint.at)});
   return list;
 }
 
 std::vector<Model::Link> Model::links() const {
   const mechanism::Mechanism& mechanism = content_->mechanism;
   std::vector<Link> list;
-  for (const mechanism::Link& own : mechanism.links) {
-    Link& link = list.emplace_back(Link{own.name, {}});
-    for (const mechanism::PointIndex point : own.points) link.points.push_back(point_name(mechanism, point));
+  for (const mechanism::Link& entry : mechanism.links) {
+    Link& link = list.emplace_back(Link{entry.name, {}});
+    for (const mechanism::PointIndex point : entry.points) link.points.push_back(point_name(mechanism, point));
   }
   return list;
 }
@@ -127,13 +128,14 @@ Model::EndEffector Model::end_effector() const {
 }
 
 std::vector<Model::Dyad> Model::dyads() const {
-  const mechanism::Mechanism& own = content_->mechanism;
-  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(own);
-  const std::vector<int> sides = mechanism::working_mode(own);
+  const mechanism::Mechanism& current = content_->mechanism;
+  const std::vector<mechanism::PointIndex> points = mechanism::dyad_points(current);
+  const std::vector<int> sides = mechanism::working_mode(current);
   std::vector<Dyad> list;
   for (std::size_t j = 0; j < points.size(); ++j)
-    list.push_back({own.points[static_cast<std::size_t>(points[j])].name, mechanism::side_name(own, points[j], 1),
-                    mechanism::side_name(own, points[j], -1), sides[j]});
+    list.push_back({current.points[static_cast<std::size_t>(points[j])].name,
+                    mechanism::side_name(current, points[j], 1), mechanism::side_name(current, points[j], -1),
+                    sides[j]});
   return list;
 }
 

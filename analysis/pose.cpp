@@ -63,9 +63,9 @@ void put_in_motion(const mechanism::Mechanism& mechanism, const DyadSides& sides
   const numeric::Motion motion = numeric::compile_motion(mechanism, sides);
   std::vector<numeric::Series> coordinates;
   for (std::size_t c = 0; c < pose.at.size(); ++c) {
-    numeric::Series& own = coordinates.emplace_back(pose.at[c]);
-    if (!request.velocity.empty()) own.c[1] = request.velocity[c];
-    if (!request.acceleration.empty()) own.c[2] = request.acceleration[c] / 2;
+    numeric::Series& series = coordinates.emplace_back(pose.at[c]);
+    if (!request.velocity.empty()) series.c[1] = request.velocity[c];
+    if (!request.acceleration.empty()) series.c[2] = request.acceleration[c] / 2;
   }
   const numeric::Instant instant = numeric::instant_of(motion, coordinates);
   constexpr double second = 1;  // the period of a single instant
@@ -114,11 +114,11 @@ void solve_at(const numeric::NumericModel& model, const std::vector<numeric::Bou
 /// Coordinates outside the range that is searched, as of degrees that were meant and taken for rad.
 void note_outside(const mechanism::Mechanism& mechanism, Pose& pose) {
   for (std::size_t c = 0; c < pose.at.size(); ++c) {
-    const mechanism::Coordinate& own = mechanism.coordinates[c];
-    const double lower = core::to_double(own.lower), upper = core::to_double(own.upper);
+    const mechanism::Coordinate& coordinate = mechanism.coordinates[c];
+    const double lower = core::to_double(coordinate.lower), upper = core::to_double(coordinate.upper);
     if (lower <= pose.at[c] && pose.at[c] <= upper) continue;
-    const auto told = [&](double value) { return core::told(value, own.angle ? "rad" : "m", mechanism.units); };
-    pose.notes.push_back(own.name + " = " + told(pose.at[c]) + " is outside its range, " + told(lower) + " to " +
+    const auto told = [&](double value) { return core::told(value, coordinate.angle ? "rad" : "m", mechanism.units); };
+    pose.notes.push_back(coordinate.name + " = " + told(pose.at[c]) + " is outside its range, " + told(lower) + " to " +
                          told(upper));
   }
 }
@@ -130,14 +130,14 @@ void note_beyond_bounds(const mechanism::Mechanism& mechanism, Pose& pose) {
     if (!joint.actuated || !joint.within) continue;
     const double least = core::to_double(joint.within->first), most = core::to_double(joint.within->second);
     const double hair = 1e-9 * (most - least);  // of rounding, where a choice is at a bound
-    for (const ReactionComponent& own : pose.reactions[j].components) {
-      if (own.quantity != mechanism::actuator_quantity(joint) ||
-          (least - hair <= own.value && own.value <= most + hair))
+    for (const ReactionComponent& component : pose.reactions[j].components) {
+      if (component.quantity != mechanism::actuator_quantity(joint) ||
+          (least - hair <= component.value && component.value <= most + hair))
         continue;
       const auto told = [&](double value) {
-        return core::told(value, core::unit_of(own.quantity), mechanism.units, 4);
+        return core::told(value, core::unit_of(component.quantity), mechanism.units, 4);
       };
-      pose.notes.push_back(core::to_string(own.quantity) + "_" + joint.name + " = " + told(own.value) +
+      pose.notes.push_back(core::to_string(component.quantity) + "_" + joint.name + " = " + told(component.value) +
                            " is beyond its bounds, " + told(least) + " to " + told(most));
     }
   }
@@ -149,7 +149,8 @@ void require_values(const mechanism::Mechanism& mechanism, std::size_t count) {
   const std::size_t wanted = mechanism.coordinates.size();
   if (count == wanted) return;
   std::string names;
-  for (const mechanism::Coordinate& own : mechanism.coordinates) names += (names.empty() ? "" : ", ") + own.name;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    names += (names.empty() ? "" : ", ") + coordinate.name;
   throw core::InputError({mechanism.file},
                          "a pose has " + std::to_string(wanted) + " values, not " + std::to_string(count),
                          "give one for each free coordinate: " + names);
@@ -165,12 +166,12 @@ std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mec
 }
 
 DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides) {
-  DyadSides own = mechanism::working_mode(mechanism);
-  if (sides.empty()) return own;
+  DyadSides dyad_sides = mechanism::working_mode(mechanism);
+  if (sides.empty()) return dyad_sides;
   const bool signs = std::all_of(sides.begin(), sides.end(), [](int side) { return side == 1 || side == -1; });
-  if (sides.size() != own.size() || !signs)
+  if (sides.size() != dyad_sides.size() || !signs)
     throw core::InputError({mechanism.file}, "the working mode is none of this mechanism",
-                           "give +1 or -1 for each of its " + std::to_string(own.size()) + " dyads and sliders");
+                           "give +1 or -1 for each of its " + std::to_string(dyad_sides.size()) + " dyads and sliders");
   return sides;
 }
 
@@ -180,10 +181,10 @@ namespace {
 Pose solve_given(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                  const PoseRequest& request) {
   const std::vector<numeric::Bounded> values = with_rounding(at);
-  if (const std::optional<Framed> own = framed_where_far(mechanism)) {
+  if (const std::optional<Framed> framed = framed_where_far(mechanism)) {
     std::vector<core::Rational> inside = at;
-    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] -= own->frame.from[i];
-    Pose pose = from_frame(solve_given(own->mechanism, inside, request), mechanism, own->frame);
+    for (std::size_t i = 0; i < inside.size(); ++i) inside[i] -= framed->frame.from[i];
+    Pose pose = from_frame(solve_given(framed->mechanism, inside, request), mechanism, framed->frame);
     for (std::size_t i = 0; i < values.size(); ++i) pose.at[i] = values[i].value;
     note_outside(mechanism, pose);
     return pose;
@@ -215,11 +216,11 @@ Pose solve_on_flanks(const mechanism::Mechanism& mechanism, const std::vector<co
     pose.notes.push_back("a span of belt " + belt + " is slack");
   const std::vector<std::string> pulled = pulled_gears(mechanism, pose);
   if (pulled.empty()) return pose;
-  PoseRequest own = request;
+  PoseRequest pose_request = request;
   if (request.working_mode.empty())
     for (const DyadSides& sides : modes_of_flanks(mechanism, mechanism::working_mode(mechanism))) {
-      own.working_mode = sides;
-      if (Pose other = solve_given(mechanism, at, own); pulled_gears(mechanism, other).empty()) return other;
+      pose_request.working_mode = sides;
+      if (Pose other = solve_given(mechanism, at, pose_request); pulled_gears(mechanism, other).empty()) return other;
     }
   pose.notes.push_back(words_of_pulled(pulled) + ": in this working mode its teeth would have to pull");
   return pose;

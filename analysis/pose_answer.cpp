@@ -93,21 +93,21 @@ std::vector<JointTakeUp> take_up_of(const mechanism::Mechanism& mechanism,
     const numeric::JointContact& joint = contacts[j];
     const numeric::TakeUp& t = take_up[j];
     if (!joint.clearance.any()) continue;
-    JointTakeUp own;
-    own.joint = mechanism.joints[j].name;
+    JointTakeUp told;
+    told.joint = mechanism.joints[j].name;
     const bool lost = t.force_vanishes && joint.presses();
     // A pin in the plane that has play but no radial clearance is displaced by nothing, in a direction.
     const bool pin = planar && mechanism::traits(joint.type).pinned && !mechanism::traits(joint.type).slides;
     if (joint.presses() || pin)
-      own.displacement = components(mechanism.space, lost ? Eigen::Vector3d::Constant(nan) : t.displacement);
-    if (pin) own.beta = t.beta.value_or(nan);
-    if (joint.clearance.angular > 0) own.rotation = t.actuator_vanishes ? nan : t.turn;
-    if (joint.clearance.axial > 0) own.axial = t.actuator_vanishes ? nan : t.travel;
+      told.displacement = components(mechanism.space, lost ? Eigen::Vector3d::Constant(nan) : t.displacement);
+    if (pin) told.beta = t.beta.value_or(nan);
+    if (joint.clearance.angular > 0) told.rotation = t.actuator_vanishes ? nan : t.turn;
+    if (joint.clearance.axial > 0) told.axial = t.actuator_vanishes ? nan : t.travel;
     if (joint.is_guided()) {
-      own.normal = t.guide_vanishes() ? nan : t.normal;
-      own.tilt = t.guide_vanishes() ? nan : t.tilt;
+      told.normal = t.guide_vanishes() ? nan : t.normal;
+      told.tilt = t.guide_vanishes() ? nan : t.tilt;
     }
-    list.push_back(std::move(own));
+    list.push_back(std::move(told));
   }
   return list;
 }
@@ -119,14 +119,14 @@ JointReaction reaction_in_space(const mechanism::Mechanism& mechanism, std::size
 
   constexpr std::array forces = {core::Quantity::fx, core::Quantity::fy, core::Quantity::fz};
   constexpr std::array couples = {core::Quantity::mx, core::Quantity::my, core::Quantity::mz};
-  JointReaction own{joint.name, {}};
+  JointReaction reaction{joint.name, {}};
   for (std::size_t c = 0; c < 3; ++c) {
-    own.components.push_back({forces[c], r.force(static_cast<Eigen::Index>(c))});
+    reaction.components.push_back({forces[c], r.force(static_cast<Eigen::Index>(c))});
     if (mechanism::traits(joint).couple != mechanism::BorneCouple::none)
-      own.components.push_back({couples[c], r.couple(static_cast<Eigen::Index>(c))});
+      reaction.components.push_back({couples[c], r.couple(static_cast<Eigen::Index>(c))});
   }
-  if (joint.actuated) own.components.push_back({mechanism::actuator_quantity(joint), r.actuator});
-  return own;
+  if (joint.actuated) reaction.components.push_back({mechanism::actuator_quantity(joint), r.actuator});
+  return reaction;
 }
 
 bool is_held_turning(const mechanism::Mechanism& mechanism, const mechanism::Unknown& unknown) {
@@ -168,12 +168,12 @@ ActualPose actual_of(const numeric::NumericModel& model, const std::vector<numer
   actual.residual = found.residual;
   for (std::size_t i = 0; i < model.mechanism.links.size(); ++i) {
     const mechanism::Link& link = model.mechanism.links[i];
-    DisplacedLink own{link.name, {}};
+    DisplacedLink displaced{link.name, {}};
     for (std::size_t k = 0; k < link.points.size(); ++k) {
-      own.points.push_back(
+      displaced.points.push_back(
           {name_of(model.mechanism, link.points[k]), components(model.mechanism.space, found.link_points[i][k])});
     }
-    actual.links.push_back(std::move(own));
+    actual.links.push_back(std::move(displaced));
   }
   return actual;
 }

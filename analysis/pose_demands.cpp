@@ -11,7 +11,7 @@ std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>&
                                        std::vector<TaskDemand> demands, const std::vector<std::vector<double>>& poses,
                                        std::vector<std::string>& notes) {
   numeric::WitnessLoads loads;
-  for (const numeric::NumericModel& own : models) loads.ends.push_back(&own);
+  for (const numeric::NumericModel& model : models) loads.ends.push_back(&model);
   const numeric::TaskWitness all(loads, sides, demands, poses, numeric::TaskWitness::Rounding::of_coordinates);
   std::vector<TaskDemand> loaded;
   std::string names;

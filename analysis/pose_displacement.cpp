@@ -31,15 +31,15 @@ struct Displaced {
 Displaced displaced_by(const WidenedTask& widened, const DyadSides& sides) {
   const std::vector<mechanism::Mechanism> unit = under_unit_forces(widened.loads().front());
   std::vector<const mechanism::Mechanism*> list;
-  for (const mechanism::Mechanism& own : widened.loads()) list.push_back(&own);
-  for (const mechanism::Mechanism& own : unit) list.push_back(&own);
+  for (const mechanism::Mechanism& mechanism : widened.loads()) list.push_back(&mechanism);
+  for (const mechanism::Mechanism& mechanism : unit) list.push_back(&mechanism);
   std::vector<core::TaskDemand> demands;
-  for (core::TaskDemand& own : take_up_demands(widened.loads().front()))
-    if (widened.clearance({own.joint, own.quantity, 1}).upper() > 0) demands.push_back(std::move(own));
+  for (core::TaskDemand& demand : take_up_demands(widened.loads().front()))
+    if (widened.clearance({demand.joint, demand.quantity, 1}).upper() > 0) demands.push_back(std::move(demand));
   Displaced result{symbolic::pose_statics(list, sides, demands), {}};
-  for (core::PoseDemand& own : std::exchange(result.statics.demands, {})) {
-    const core::Interval clearance = widened.clearance({own.demand.joint, own.demand.quantity, 1});
-    result.take_ups.push_back({std::move(own.components), {clearance.lower(), clearance.upper()}});
+  for (core::PoseDemand& demand : std::exchange(result.statics.demands, {})) {
+    const core::Interval clearance = widened.clearance({demand.demand.joint, demand.demand.quantity, 1});
+    result.take_ups.push_back({std::move(demand.components), {clearance.lower(), clearance.upper()}});
   }
   return result;
 }

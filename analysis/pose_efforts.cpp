@@ -36,20 +36,20 @@ std::vector<Cluster> clusters_of(std::vector<EffortGap> gaps) {
   std::sort(gaps.begin(), gaps.end(), [](const EffortGap& a, const EffortGap& b) { return a.from < b.from; });
   std::vector<Cluster> clusters;
   for (const EffortGap& gap : gaps) {
-    const core::Vanishing own{gap.demand.joint, gap.demand.quantity, 1};
+    const core::Vanishing vanishing{gap.demand.joint, gap.demand.quantity, 1};
     if (clusters.empty() || gap.from > clusters.back().to) {
-      clusters.push_back({gap.from, gap.to, {own}, {own}});
+      clusters.push_back({gap.from, gap.to, {vanishing}, {vanishing}});
       continue;
     }
     // Of a zero that several reactions share the enclosures differ by roundings.
     Cluster& last = clusters.back();
     constexpr double rounding = 1e-12;
     const auto alike = [](double a, double b) { return std::abs(a - b) <= rounding * (1 + std::abs(b)); };
-    if (alike(gap.from, last.from)) last.lowest.push_back(own);
+    if (alike(gap.from, last.from)) last.lowest.push_back(vanishing);
     if (alike(gap.to, last.to))
-      last.highest.push_back(own);
+      last.highest.push_back(vanishing);
     else if (gap.to > last.to)
-      last.highest = {own};
+      last.highest = {vanishing};
     last.to = std::max(last.to, gap.to);
   }
   return clusters;
@@ -80,15 +80,15 @@ void set_ranges(const std::vector<EffortGap>& gaps, FeasibleEfforts& efforts) {
   const double least = efforts.within ? (*efforts.within)[0] : -infinity,
                most = efforts.within ? (*efforts.within)[1] : infinity;
   EffortRange open{least, most, {}, {}};
-  for (const Cluster& own : clusters_of(gaps)) {
-    if (own.to < least || own.from > most) continue;
-    if (own.from > open.from) {
+  for (const Cluster& cluster : clusters_of(gaps)) {
+    if (cluster.to < least || cluster.from > most) continue;
+    if (cluster.from > open.from) {
       EffortRange before = open;
-      before.to = own.from;
-      before.above = own.lowest;
+      before.to = cluster.from;
+      before.above = cluster.lowest;
       efforts.ranges.push_back(std::move(before));
     }
-    open = {own.to, most, own.highest, {}};
+    open = {cluster.to, most, cluster.highest, {}};
   }
   if (open.from < open.to) efforts.ranges.push_back(std::move(open));
 }
@@ -99,7 +99,7 @@ namespace {
 std::vector<std::vector<double>> usual_poses(const Mechanism& mechanism, const std::vector<numeric::Bounded>& at) {
   constexpr int poses = 12;
   std::vector<std::vector<double>> all(1);
-  for (const numeric::Bounded& own : at) all.front().push_back(own.value);
+  for (const numeric::Bounded& value : at) all.front().push_back(value.value);
   for (int s = 1; s <= poses; ++s) {
     std::vector<double>& pose = all.emplace_back();
     for (std::size_t c = 0; c < mechanism.coordinates.size(); ++c) {
@@ -124,13 +124,15 @@ FeasibleEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const s
       !(std::abs(determinant.value) > determinant.error))
     return efforts;
   std::vector<EffortGap> gaps = numeric::effort_gaps(models[0], models[1], at, sides, demands);
-  if (const auto own = own_gap(mechanism, joint.name, asked)) gaps.push_back(*own);
+  if (const auto gap = own_gap(mechanism, joint.name, asked)) gaps.push_back(*gap);
   set_ranges(gaps, efforts);
   return efforts;
 }
 
 core::Rational smallest_of(const std::vector<EffortRange>& ranges) {
-  const auto nearest = [](const EffortRange& own) { return own.from > 0 ? own.from : own.to < 0 ? own.to : 0; };
+  const auto nearest = [](const EffortRange& range) {
+    return range.from > 0 ? range.from : range.to < 0 ? range.to : 0;
+  };
   const auto smallest = std::min_element(ranges.begin(), ranges.end(), [&](const EffortRange& a, const EffortRange& b) {
     return std::abs(nearest(a)) < std::abs(nearest(b));
   });
@@ -140,11 +142,12 @@ core::Rational smallest_of(const std::vector<EffortRange>& ranges) {
 }  // namespace
 
 std::optional<EffortGap> own_gap(const Mechanism& mechanism, const std::string& joint, const LociRequest& request) {
-  for (const mechanism::Joint& own : mechanism.joints) {
-    if (own.name != joint || !own.clearance) continue;
-    core::TaskDemand demand{joint, mechanism::actuator_quantity(own)};
+  for (const mechanism::Joint& entry : mechanism.joints) {
+    if (entry.name != joint || !entry.clearance) continue;
+    core::TaskDemand demand{joint, mechanism::actuator_quantity(entry)};
     const bool force = demand.quantity == core::Quantity::F;
-    if (mechanism::value_of(force ? own.clearance->axial : own.clearance->angular, mechanism) == 0) return std::nullopt;
+    if (mechanism::value_of(force ? entry.clearance->axial : entry.clearance->angular, mechanism) == 0)
+      return std::nullopt;
     demand.least = (force ? request.min_force : request.min_couple).value_or(0);
     const double least = core::to_double(demand.least);
     return EffortGap{-least, least, std::move(demand), 0, 1};
@@ -161,11 +164,11 @@ PoseEfforts pose_efforts(const Mechanism& mechanism, const std::vector<numeric::
     mechanism::give_effort(all.mechanism, joint, within ? nearest_to_none(within->first, within->second) : 0);
   }
   for (const JointIndex joint : wanted) {
-    const FeasibleEfforts own = efforts_of(all.mechanism, joint, at, sides, request, all.notes);
-    if (!own.ranges.empty()) mechanism::give_effort(all.mechanism, joint, smallest_of(own.ranges));
-    all.notes = {"the effort of joint " + own.joint +
+    const FeasibleEfforts efforts = efforts_of(all.mechanism, joint, at, sides, request, all.notes);
+    if (!efforts.ranges.empty()) mechanism::give_effort(all.mechanism, joint, smallest_of(efforts.ranges));
+    all.notes = {"the effort of joint " + efforts.joint +
                  " is free: the reactions are those under the smallest feasible effort; give another by --preload " +
-                 own.joint + "=VALUE"};
+                 efforts.joint + "=VALUE"};
   }
   std::vector<std::string> notes;
   for (const JointIndex joint : mechanism::preloaded_joints(mechanism)) {

@@ -139,8 +139,8 @@ class Placing {
 
   bool fits(const std::array<RationalPose, 2>& bounds) const {
     for (std::size_t c = 0; c < moves_.size(); ++c) {
-      const mechanism::Coordinate& own = mechanism_.coordinates[c];
-      if (bounds[0][c] < own.lower || bounds[1][c] > own.upper) return false;
+      const mechanism::Coordinate& coordinate = mechanism_.coordinates[c];
+      if (bounds[0][c] < coordinate.lower || bounds[1][c] > coordinate.upper) return false;
     }
     return true;
   }
@@ -170,8 +170,8 @@ class Placing {
     for (;;) {
       RationalPose by(moves_.size(), Rational(0));
       for (std::size_t c = 0; c < at.size(); ++c) {
-        const mechanism::Coordinate& own = mechanism_.coordinates[c];
-        const Rational least = own.lower - bounds_[0][c], greatest = own.upper - bounds_[1][c];
+        const mechanism::Coordinate& coordinate = mechanism_.coordinates[c];
+        const Rational least = coordinate.lower - bounds_[0][c], greatest = coordinate.upper - bounds_[1][c];
         if (moves_[c] && greatest > least)
           by[c] = short_of(least + (greatest - least) * Rational(2 * at[c] + 1, 2 * steps));
       }
@@ -191,8 +191,8 @@ class Placing {
   /// Along the coordinates while there is more room, in steps that get smaller.
   void climb(Place& place) const {
     double size = 0;
-    for (const mechanism::Coordinate& own : mechanism_.coordinates)
-      size = std::max(size, core::to_double(own.upper - own.lower));
+    for (const mechanism::Coordinate& coordinate : mechanism_.coordinates)
+      size = std::max(size, core::to_double(coordinate.upper - coordinate.lower));
     for (double part = 1.0 / 32; part > 1e-3; part /= 2) {
       bool better = true;
       for (int round = 0; better && round < 8; ++round) {

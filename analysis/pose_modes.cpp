@@ -24,23 +24,23 @@ namespace {
 
 ModePose solve_in(const mechanism::Mechanism& mechanism, const std::vector<core::Rational>& at,
                   const PoseRequest& request) {
-  ModePose own{named_mode(mechanism, request.working_mode), {}};
+  ModePose mode_pose{named_mode(mechanism, request.working_mode), {}};
   try {
     Pose pose = solve_pose(mechanism, at, request);
     if (!pose.unreachable.empty())
-      own.why_not = "point " + pose.unreachable + " cannot be placed";
+      mode_pose.why_not = "point " + pose.unreachable + " cannot be placed";
     else if (!pose.beyond_limit.empty())
-      own.why_not = "beyond the limit of the " + pose.beyond_limit;
+      mode_pose.why_not = "beyond the limit of the " + pose.beyond_limit;
     else if (pose.actual && !pose.actual->converged)
-      own.why_not = "the pose error cannot be iterated: " + pose.actual->reason;
+      mode_pose.why_not = "the pose error cannot be iterated: " + pose.actual->reason;
     else if (const std::vector<std::string> pulled = pulled_gears(mechanism, pose); !pulled.empty())
-      own.why_not = words_of_pulled(pulled);
+      mode_pose.why_not = words_of_pulled(pulled);
     else
-      own.pose = std::move(pose);
+      mode_pose.pose = std::move(pose);
   } catch (const core::InputError& error) {  // singular in every pose of this mode
-    own.why_not = error.problem();
+    mode_pose.why_not = error.problem();
   }
-  return own;
+  return mode_pose;
 }
 
 /// How many assemblies a group has at most. Of three points of a body at given distances from each other, with six
@@ -86,17 +86,17 @@ std::vector<Assembly> assemblies_at(const mechanism::Mechanism& mechanism, const
   std::vector<Assembly> all = {{}};
   for (std::size_t g = 0; g < mechanism.groups.size(); ++g) {
     std::vector<Assembly> longer;
-    for (const Assembly& own : all) {
+    for (const Assembly& assembly : all) {
       mechanism::Mechanism until = mechanism::up_to_group(mechanism, g);
-      put_assembly(until, own.unknowns);
+      put_assembly(until, assembly.unknowns);
       const auto box = mechanism::group_reach(until, pose, sides);
       loci::pose::AllSolutions found;
       if (box)
-        found = loci::pose::all_solutions(mechanism::group_program(until, sides), pose, own.enclosed, *box,
+        found = loci::pose::all_solutions(mechanism::group_program(until, sides), pose, assembly.enclosed, *box,
                                           most_assemblies(mechanism, mechanism.groups[g]));
       complete = complete && found.complete;
       for (std::size_t i = 0; i < found.found.size(); ++i) {
-        Assembly next{std::move(found.found[i]), own.enclosed};
+        Assembly next{std::move(found.found[i]), assembly.enclosed};
         const loci::pose::UnknownsBox& here = found.enclosed[i];
         next.enclosed.insert(next.enclosed.end(), here.begin(), here.end());
         // Of one that meets another nothing is proven of what stands on it.
@@ -116,22 +116,22 @@ void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<cor
                     const PoseRequest& request, std::vector<ModePose>& modes) {
   std::vector<double> pose;
   for (const core::Rational& value : at) pose.push_back(core::to_double(value));
-  mechanism::Mechanism own = mechanism;
-  own.near = at;
+  mechanism::Mechanism in_mode = mechanism;
+  in_mode.near = at;
   // Nothing is asked of other poses.
   for (std::size_t c = 0; c < at.size(); ++c) {
-    mechanism::Coordinate& coordinate = own.coordinates[c];
+    mechanism::Coordinate& coordinate = in_mode.coordinates[c];
     const core::Rational near = (coordinate.upper - coordinate.lower) / 1'000'000;
     coordinate.lower = at[c] - near;
     coordinate.upper = at[c] + near;
   }
   bool complete = true;
-  std::vector<Assembly> all = assemblies_at(own, pose, request.working_mode, complete);
+  std::vector<Assembly> all = assemblies_at(in_mode, pose, request.working_mode, complete);
   // No link is bent or turned over.
   const mechanism::HeldByLinks held = mechanism::held_by_links(mechanism);
   std::erase_if(all, [&](const Assembly& assembly) {
-    put_assembly(own, assembly.unknowns);
-    const auto posture = mechanism::sample_posture(own, pose, request.working_mode);
+    put_assembly(in_mode, assembly.unknowns);
+    const auto posture = mechanism::sample_posture(in_mode, pose, request.working_mode);
     return posture && !mechanism::keeps(held, *posture);
   });
   std::string names;
@@ -142,8 +142,8 @@ void add_assemblies(const mechanism::Mechanism& mechanism, const std::vector<cor
     return;
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
-    put_assembly(own, all[i].unknowns);
-    modes.push_back(solve_in(own, at, request));
+    put_assembly(in_mode, all[i].unknowns);
+    modes.push_back(solve_in(in_mode, at, request));
     modes.back().working_mode.emplace_back(names, "assembly " + std::to_string(i + 1) + " of " +
                                                       std::to_string(all.size()) + (complete ? "" : " or more"));
   }
@@ -156,13 +156,13 @@ PoseInModes solve_pose_in_modes(const mechanism::Mechanism& mechanism, const std
   require_values(mechanism, at.size());
   require_rates(mechanism, request);
   PoseInModes all{mechanism.name, mechanism::told_parameters(mechanism), {}};
-  PoseRequest own = request;
+  PoseRequest pose_request = request;
   for (const DyadSides& sides : requested_modes(mechanism, {.all_working_modes = true})) {
-    own.working_mode = sides;
+    pose_request.working_mode = sides;
     if (mechanism.groups.empty())
-      all.modes.push_back(solve_in(mechanism, at, own));
+      all.modes.push_back(solve_in(mechanism, at, pose_request));
     else
-      add_assemblies(mechanism, at, own, all.modes);
+      add_assemblies(mechanism, at, pose_request, all.modes);
   }
   return all;
 }

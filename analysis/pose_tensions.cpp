@@ -27,7 +27,7 @@ class PoseTensions {
   PoseTensions(const Mechanism& mechanism, const std::vector<numeric::Bounded>& at, const DyadSides& sides)
       : all_{mechanism, {}, {}} {
     std::vector<double> pose;
-    for (const numeric::Bounded& own : at) pose.push_back(own.value);
+    for (const numeric::Bounded& value : at) pose.push_back(value.value);
     if (const auto free = mechanism::best_free_cables(mechanism, pose))
       mechanism::set_free_cables(all_.mechanism, *free);
     if (auto rows = effort_rows(all_.mechanism, at, sides)) rows_ = std::move(*rows);
@@ -54,10 +54,10 @@ class PoseTensions {
           "smallest; others are given by --preload CABLE=VALUE");
     }
     for (std::size_t i = 0; i < free.size(); ++i) mechanism::give_effort(all_.mechanism, free[i], efforts[i]);
-    for (const Tension& own : tensions_) {
-      FeasibleEfforts& told = all_.efforts.emplace_back(told_of(own, efforts));
+    for (const Tension& tension : tensions_) {
+      FeasibleEfforts& told = all_.efforts.emplace_back(told_of(tension, efforts));
       if (feasible)
-        add_range(own, told);
+        add_range(tension, told);
       else if (deepest)
         told.never = reactions_of(deepest->binding);
     }
@@ -67,9 +67,9 @@ class PoseTensions {
  private:
   const mechanism::Joint& joint_of(JointIndex j) const { return all_.mechanism.joints[static_cast<std::size_t>(j)]; }
 
-  Rational tension_at(const Tension& own, const std::vector<Rational>& efforts) const {
-    const EffortPolytope::Row& row = polytope_.rows[own.row];
-    Rational value = row.offset + own.least;
+  Rational tension_at(const Tension& tension, const std::vector<Rational>& efforts) const {
+    const EffortPolytope::Row& row = polytope_.rows[tension.row];
+    Rational value = row.offset + tension.least;
     for (std::size_t k = 0; k < efforts.size(); ++k) value += row.slope[k] * efforts[k];
     return value;
   }
@@ -79,11 +79,11 @@ class PoseTensions {
     EffortPolytope sized = polytope_;
     ++sized.efforts;
     for (EffortPolytope::Row& row : sized.rows) row.slope.emplace_back(0);
-    for (const Tension& own : tensions_) {
-      EffortPolytope::Row row = sized.rows[own.row];
-      row.offset = -row.offset - own.least;
+    for (const Tension& tension : tensions_) {
+      EffortPolytope::Row row = sized.rows[tension.row];
+      row.offset = -row.offset - tension.least;
       for (Rational& slope : row.slope) slope = -slope;
-      row.slope.back() = own.most;
+      row.slope.back() = tension.most;
       sized.rows.push_back(std::move(row));
     }
     std::vector<Rational> size(sized.efforts);
@@ -94,23 +94,23 @@ class PoseTensions {
     return std::move(found->at);
   }
 
-  FeasibleEfforts told_of(const Tension& own, const std::vector<Rational>& efforts) const {
+  FeasibleEfforts told_of(const Tension& tension, const std::vector<Rational>& efforts) const {
     FeasibleEfforts told;
-    told.joint = joint_of(own.joint).name;
+    told.joint = joint_of(tension.joint).name;
     told.force = told.cable = true;
-    told.effort = core::to_double(tension_at(own, efforts));
-    told.within = {core::to_double(own.least), core::to_double(own.most)};
+    told.effort = core::to_double(tension_at(tension, efforts));
+    told.within = {core::to_double(tension.least), core::to_double(tension.most)};
     return told;
   }
 
-  void add_range(const Tension& own, FeasibleEfforts& told) const {
-    const EffortPolytope::Row& row = polytope_.rows[own.row];
+  void add_range(const Tension& tension, FeasibleEfforts& told) const {
+    const EffortPolytope::Row& row = polytope_.rows[tension.row];
     std::vector<Rational> opposite;
     for (const Rational& slope : row.slope) opposite.emplace_back(-slope);
     const auto low = polytope_.least(row.slope), high = polytope_.least(opposite);
     if (!low || !high) return;
-    const auto end = [&](const EffortPolytope::Deepest& at) { return core::to_double(tension_at(own, at.at)); };
-    told.ranges.push_back({end(*low), end(*high), others(own, low->binding), others(own, high->binding)});
+    const auto end = [&](const EffortPolytope::Deepest& at) { return core::to_double(tension_at(tension, at.at)); };
+    told.ranges.push_back({end(*low), end(*high), others(tension, low->binding), others(tension, high->binding)});
   }
 
   std::vector<core::Vanishing> reactions_of(const std::vector<std::size_t>& rows) const {
@@ -121,9 +121,9 @@ class PoseTensions {
   }
 
   /// Without the cable's own bound, which ends its range by itself.
-  std::vector<core::Vanishing> others(const Tension& own, const std::vector<std::size_t>& rows) const {
+  std::vector<core::Vanishing> others(const Tension& tension, const std::vector<std::size_t>& rows) const {
     std::vector<core::Vanishing> all = reactions_of(rows);
-    std::erase_if(all, [&](const core::Vanishing& each) { return each.joint == joint_of(own.joint).name; });
+    std::erase_if(all, [&](const core::Vanishing& each) { return each.joint == joint_of(tension.joint).name; });
     return all;
   }
 

@@ -134,12 +134,12 @@ class PreloadSearch {
   /// Ranges that are neither proven to verify nor to fail, but for those at the ends of others.
   std::vector<std::string> undecided() const {
     std::vector<core::StudyCell> open = cells_;
-    std::erase_if(open, [](const core::StudyCell& own) { return own.status != Status::undecided; });
+    std::erase_if(open, [](const core::StudyCell& cell) { return cell.status != Status::undecided; });
     std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.lower[0] < b.lower[0]; });
     std::vector<std::array<double, 2>> joined;
-    for (const core::StudyCell& own : open) {
-      if (joined.empty() || own.lower[0] > joined.back()[1]) joined.push_back({own.lower[0], own.lower[0]});
-      joined.back()[1] = own.upper[0];
+    for (const core::StudyCell& cell : open) {
+      if (joined.empty() || cell.lower[0] > joined.back()[1]) joined.push_back({cell.lower[0], cell.lower[0]});
+      joined.back()[1] = cell.upper[0];
     }
     constexpr double at_an_end = 1.0 / 256;
     const double least = at_an_end * core::to_double(wanted_.upper - wanted_.lower);
@@ -183,16 +183,16 @@ struct ConstantAnswer {
 ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffort>& wanted, const Task& task,
                                const VerifyRequest& request) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  ConstantAnswer own;
-  own.answer.size = {0, none};
+  ConstantAnswer answer;
+  answer.answer.size = {0, none};
   std::vector<core::StudyCell> cells;
   if (wanted.size() == 1) {
     // The search knows efforts that are given: those that are looked for are open in it.
     PreloadSearch search(model.content().mechanism, wanted.front(), task, request);
-    own.answer = search.run();
-    if (own.answer.value) own.smallest = {search.smallest()};
+    answer.answer = search.run();
+    if (answer.answer.value) answer.smallest = {search.smallest()};
     cells = search.cells();
-    own.undecided = search.undecided();
+    answer.undecided = search.undecided();
   }
   const ConstantEfforts patterns =
       constant_efforts(model, wanted, task, request, wanted.size() == 1 ? &cells : nullptr);
@@ -201,24 +201,24 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
     const core::PreloadPattern& pattern = patterns.patterns[i];
     least = std::min(least, pattern.size[0]);
     constexpr double smaller = 0.99;
-    const double beside = own.answer.value && wanted.size() == 1 ? smaller : 1;
-    if (pattern.verdict == core::Verdict::verified && pattern.size[1] < beside * own.answer.size[1]) {
-      own.answer.size[1] = pattern.size[1];
-      own.answer.value = pattern.value;
-      own.smallest = patterns.values[i];
+    const double beside = answer.answer.value && wanted.size() == 1 ? smaller : 1;
+    if (pattern.verdict == core::Verdict::verified && pattern.size[1] < beside * answer.answer.size[1]) {
+      answer.answer.size[1] = pattern.size[1];
+      answer.answer.value = pattern.value;
+      answer.smallest = patterns.values[i];
     }
-    if (!patterns.words[i].empty()) own.words.push_back(patterns.words[i] + ": these exclude each other");
+    if (!patterns.words[i].empty()) answer.words.push_back(patterns.words[i] + ": these exclude each other");
   }
-  own.answer.size[0] = std::min(std::max(own.answer.size[0], least), own.answer.size[1]);
-  own.answer.cells += patterns.cells;
-  own.answer.patterns = patterns.patterns;
+  answer.answer.size[0] = std::min(std::max(answer.answer.size[0], least), answer.answer.size[1]);
+  answer.answer.cells += patterns.cells;
+  answer.answer.patterns = patterns.patterns;
   for (const WantedEffort& each : wanted) {
-    own.answer.joints.push_back(each.joint);
-    own.answer.forces.push_back(each.force);
-    own.answer.lower.push_back(core::to_double(each.lower));
-    own.answer.upper.push_back(core::to_double(each.upper));
+    answer.answer.joints.push_back(each.joint);
+    answer.answer.forces.push_back(each.force);
+    answer.answer.lower.push_back(core::to_double(each.lower));
+    answer.answer.upper.push_back(core::to_double(each.upper));
   }
-  return own;
+  return answer;
 }
 
 }  // namespace
@@ -252,24 +252,24 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
     Verification law = verify_with_law(model, task, request);
     return law.verdict == core::Verdict::undecided ? verify_with_choices(model, task, request) : law;
   }
-  ConstantAnswer own = constant_answer(model, wanted, task, request);
-  const bool found = own.answer.value.has_value();
-  std::vector<Rational> efforts = own.smallest;
+  ConstantAnswer answer = constant_answer(model, wanted, task, request);
+  const bool found = answer.answer.value.has_value();
+  std::vector<Rational> efforts = answer.smallest;
   if (!found)
     for (const WantedEffort& each : wanted) efforts.push_back(nearest_to_none(each.lower, each.upper));
   Verification result = verify(with_efforts(model, wanted, efforts), task, request);
-  if (!found && own.answer.size[0] < std::numeric_limits<double>::infinity()) {
+  if (!found && answer.answer.size[0] < std::numeric_limits<double>::infinity()) {
     result.verdict = core::Verdict::undecided;
     result.witness.reset();
     result.notes.emplace_back("no preload was found that verifies, and not all are proven to fail");
   } else if (!found) {
     result.notes.emplace_back("no constant preload within these ranges verifies the task: each fails, proven");
     constexpr std::size_t most_notes = 12;
-    own.words.resize(std::min(own.words.size(), most_notes));
-    result.notes.insert(result.notes.end(), own.words.begin(), own.words.end());
+    answer.words.resize(std::min(answer.words.size(), most_notes));
+    result.notes.insert(result.notes.end(), answer.words.begin(), answer.words.end());
   }
-  result.notes.insert(result.notes.end(), own.undecided.begin(), own.undecided.end());
-  result.preload = std::move(own.answer);
+  result.notes.insert(result.notes.end(), answer.undecided.begin(), answer.undecided.end());
+  result.preload = std::move(answer.answer);
   return result;
 }
 

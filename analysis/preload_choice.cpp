@@ -48,10 +48,10 @@ ChoiceOrder choice_of(const std::vector<EffortRow>& rows) {
     return std::vector<int>{depth > 0 ? 1 : 0};
   }
   Bound low{-infinity, -1, false}, high{infinity, -1, false};
-  for (const EffortRow& own : rows) {
-    const double slope = own.slope[0].value, offset = own.offset.value;
-    if (!(std::abs(slope) > own.slope[0].error)) return std::nullopt;
-    const int row = 2 * static_cast<int>(own.joint) + (own.side > 0 ? 1 : 0);
+  for (const EffortRow& effort_row : rows) {
+    const double slope = effort_row.slope[0].value, offset = effort_row.offset.value;
+    if (!(std::abs(slope) > effort_row.slope[0].error)) return std::nullopt;
+    const int row = 2 * static_cast<int>(effort_row.joint) + (effort_row.side > 0 ? 1 : 0);
     tighten(slope > 0 ? low : high, -offset / slope, row, slope > 0);
   }
   if (are_near(low.at, high.at)) return std::nullopt;
@@ -67,7 +67,7 @@ numeric::FindChoice choice_of_effort(const Mechanism& mechanism, JointIndex inde
   if (const auto& within = joint.free_effort->within)
     range = {core::to_double(within->first), core::to_double(within->second)};
   std::optional<std::array<double, 2>> gap;
-  if (const auto own = own_gap(mechanism, joint.name, request)) gap = {own->from, own->to};
+  if (const auto found_gap = own_gap(mechanism, joint.name, request)) gap = {found_gap->from, found_gap->to};
   return [models = models_under_efforts(mechanism, {index}), demands = demands_of(mechanism, request), range, gap](
              std::span<const numeric::Bounded> pose, const std::vector<int>& sides) {
     return numeric::order_of_efforts(models[0], models[1], pose, sides, demands, range, gap);

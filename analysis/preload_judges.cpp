@@ -46,7 +46,8 @@ class PatternRows {
       std::vector<EffortInequality>& rows = patterns_.emplace_back(system.rows_of_efforts(signs));
       for (std::size_t i = 0; i < samples.size(); i += i < most_poses / 2 ? 1 : stride)
         for (const loci::pose::Pose& place : system.places(samples[i]))
-          if (const auto own = system.rows(place, signs)) rows.insert(rows.end(), own->begin(), own->end());
+          if (const auto load_rows = system.rows(place, signs))
+            rows.insert(rows.end(), load_rows->begin(), load_rows->end());
     }
   }
 
@@ -70,13 +71,13 @@ class PatternRows {
 
 std::vector<core::Interval> intervals_of(const std::vector<ExactRange>& efforts) {
   std::vector<core::Interval> box;
-  for (const ExactRange& own : efforts) box.push_back(core::range_of(own.first, own.second));
+  for (const ExactRange& range : efforts) box.push_back(core::range_of(range.first, range.second));
   return box;
 }
 
 std::vector<ParameterRange> ranges_of(const std::vector<WantedEffort>& wanted) {
   std::vector<ParameterRange> ranges;
-  for (const WantedEffort& own : wanted) ranges.push_back({own.parameter, own.lower, own.upper});
+  for (const WantedEffort& effort : wanted) ranges.push_back({effort.parameter, effort.lower, effort.upper});
   return ranges;
 }
 
@@ -128,9 +129,9 @@ class StaticsPreload : public PreloadJudge {
     const DyadSides sides = requested_modes(mechanism, request_).front();
     std::vector<numeric::NumericModel> models;
     std::vector<const Mechanism*> loads;
-    for (const Mechanism& own : widened_.loads()) {
-      models.push_back(numeric::compile(own));
-      loads.push_back(&own);
+    for (const Mechanism& load : widened_.loads()) {
+      models.push_back(numeric::compile(load));
+      loads.push_back(&load);
     }
     std::vector<std::string> notes;
     const std::vector<core::TaskDemand> demands =
@@ -151,12 +152,12 @@ class StaticsPreload : public PreloadJudge {
       reason = suspect.kind == Doubt::demand ? failing(suspect, ranges) : std::string();
       return !reason.empty();
     };
-    for (const PoseSuspect& known : turning_)
-      if (all_fail(known)) return {Verdict::refuted, reason};
+    for (const PoseSuspect& suspect : turning_)
+      if (all_fail(suspect)) return {Verdict::refuted, reason};
     std::vector<loci::pose::Pose> too_small;
     const std::vector<PoseSuspect> unlike = unlike_samples(region, too_small);
-    for (const PoseSuspect& own : unlike)
-      if (all_fail(own)) return {Verdict::refuted, reason};
+    for (const PoseSuspect& suspect : unlike)
+      if (all_fail(suspect)) return {Verdict::refuted, reason};
     for (const loci::pose::Pose& pose : too_small)
       if (reason = all_too_small(pose, ranges); !reason.empty()) return {Verdict::refuted, reason};
     if (!unlike.empty() || !too_small.empty()) return {};  // the box as a whole does not verify
@@ -168,9 +169,9 @@ class StaticsPreload : public PreloadJudge {
 
  private:
   static Task with_efforts(const Mechanism& mechanism, const std::vector<ParameterRange>& wanted, Task task) {
-    for (const ParameterRange& own : wanted) {
-      const core::Rational value = mechanism::parameter_named(mechanism, own.name)->value;
-      task.tolerances.push_back({own.name, own.lower - value, own.upper - value});
+    for (const ParameterRange& range : wanted) {
+      const core::Rational value = mechanism::parameter_named(mechanism, range.name)->value;
+      task.tolerances.push_back({range.name, range.lower - value, range.upper - value});
     }
     return task;
   }
@@ -193,7 +194,8 @@ class StaticsPreload : public PreloadJudge {
         if (small && (too_small.empty() || too_small.back() != pose)) too_small.push_back(pose);
         const int sign = sign_of(*at, d);
         if (sign == 0) continue;
-        if (Extreme& own = extremes[d][sign > 0 ? 0 : 1]; own.at.empty() || size > own.size) own = {size, pose};
+        if (Extreme& extreme = extremes[d][sign > 0 ? 0 : 1]; extreme.at.empty() || size > extreme.size)
+          extreme = {size, pose};
       }
     }
     std::vector<PoseSuspect> unlike;
@@ -220,9 +222,9 @@ class StaticsPreload : public PreloadJudge {
     int sign = 0;
     for (const loci::pose::PosePiece& piece :
          PoseRegion(core::TaskBox{place, place}, metric_, std::move(beside)).pieces(0)) {
-      const int own = sign_in(piece, static_cast<std::size_t>(demand));
-      if (own == 0 || (sign != 0 && own != sign)) return 0;
-      sign = own;
+      const int sign_here = sign_in(piece, static_cast<std::size_t>(demand));
+      if (sign_here == 0 || (sign != 0 && sign_here != sign)) return 0;
+      sign = sign_here;
     }
     return sign;
   }
@@ -233,8 +235,8 @@ class StaticsPreload : public PreloadJudge {
         if (const auto at = cell_->at(piece.chart.at(loci::pose::middle_of(piece.box)))) return sign_of(*at, demand);
         return 0;
       case PoseCell::State::in_doubt: {
-        const PoseCell::Known known = cell_->known();
-        return demand < known.signs.size() ? known.signs[demand] : 0;
+        const PoseCell::Known sides_known = cell_->known();
+        return demand < sides_known.signs.size() ? sides_known.signs[demand] : 0;
       }
       case PoseCell::State::outside:
         // The pose can be assembled: some effort is beyond its bound in all of the cell, be it this one or another.
@@ -251,9 +253,9 @@ class StaticsPreload : public PreloadJudge {
     int sign = 0;
     for (const std::vector<double>& components : at.components[demand]) {
       if (components.size() != 1 || components[0] == 0) return 0;
-      const int own = components[0] > 0 ? 1 : -1;
-      if (sign != 0 && own != sign) return 0;
-      sign = own;
+      const int effort_sign = components[0] > 0 ? 1 : -1;
+      if (sign != 0 && effort_sign != sign) return 0;
+      sign = effort_sign;
     }
     return sign;
   }
@@ -261,8 +263,8 @@ class StaticsPreload : public PreloadJudge {
   /// Which reaction bears less than it has to at a pose, whatever the free efforts.
   std::string all_too_small(const loci::pose::Pose& at, const Ranges& efforts) const {
     std::vector<std::array<double, 2>> box;
-    for (const ParameterRange& own : wanted_) {
-      const core::Interval& range = efforts.at(own.name);
+    for (const ParameterRange& parameter_range : wanted_) {
+      const core::Interval& range = efforts.at(parameter_range.name);
       box.push_back({range.lower(), range.upper()});
     }
     const core::TaskDemand* const demand = system_.too_small(widened_.pose_of(at), box);

@@ -55,9 +55,9 @@ class LawSearch {
   }
 
   VerifyRequest of_depth(VerifyDepth depth) const {
-    VerifyRequest own = request_;
-    own.depth = depth;
-    return own;
+    VerifyRequest request = request_;
+    request.depth = depth;
+    return request;
   }
 
   Model with(const std::string& law) const { return model_.with({{wanted_.parameter, law}}); }
@@ -71,8 +71,8 @@ class LawSearch {
   }
 
   void try_constant_zero() {
-    if (std::any_of(patterns_.begin(), patterns_.end(), [](const EffortPattern& own) {
-          return std::all_of(own.corridors.begin(), own.corridors.end(),
+    if (std::any_of(patterns_.begin(), patterns_.end(), [](const EffortPattern& pattern) {
+          return std::all_of(pattern.corridors.begin(), pattern.corridors.end(),
                              [](const EffortCorridor& each) { return nearest_to_zero(each) == 0; });
         }))
       try_law(wanted_.force ? "0 N" : "0 N m", {0, 0});
@@ -82,18 +82,18 @@ class LawSearch {
     EffortPolynomial law(model_.content().mechanism, box_, degree, wanted_.force);
     if (law.terms() > pattern.corridors.size() / 2) return;
     double needed = 0;
-    for (const EffortCorridor& own : pattern.corridors) {
-      if (own.empty()) return;
-      needed = std::max(needed, nearest_to_zero(own));
+    for (const EffortCorridor& corridor : pattern.corridors) {
+      if (corridor.empty()) return;
+      needed = std::max(needed, nearest_to_zero(corridor));
     }
     for (const double stretch : stretches) {
       const double most = needed > 0 ? stretch * needed : infinity;
       std::vector<std::vector<double>> poses;
       std::vector<std::array<double, 2>> between;
-      for (const EffortCorridor& own : pattern.corridors) {
-        poses.push_back(own.at);
-        between.push_back({std::max({own.lower.effort, -most, core::to_double(wanted_.lower)}),
-                           std::min({own.upper.effort, most, core::to_double(wanted_.upper)})});
+      for (const EffortCorridor& corridor : pattern.corridors) {
+        poses.push_back(corridor.at);
+        between.push_back({std::max({corridor.lower.effort, -most, core::to_double(wanted_.lower)}),
+                           std::min({corridor.upper.effort, most, core::to_double(wanted_.upper)})});
       }
       if (law.fit(poses, between)) try_law(law.told(), law.range());
       if (found_ || needed == 0) return;
@@ -101,19 +101,20 @@ class LawSearch {
   }
 
   core::PreloadAnswer answer() const {
-    core::PreloadAnswer own;
-    own.joints = {wanted_.joint};
-    own.forces = {wanted_.force};
-    own.lower = {core::to_double(wanted_.lower)};
-    own.upper = {core::to_double(wanted_.upper)};
+    core::PreloadAnswer answer;
+    answer.joints = {wanted_.joint};
+    answer.forces = {wanted_.force};
+    answer.lower = {core::to_double(wanted_.lower)};
+    answer.upper = {core::to_double(wanted_.upper)};
     double least = infinity;
     for (const EffortPattern& pattern : patterns_) least = std::min(least, pattern.excluded ? infinity : pattern.least);
     if (patterns_.empty()) least = 0;
-    own.size = {least * wanted_.size_of_one, infinity};
-    if (found_) own.size[1] = std::max(std::abs(found_->within[0]), std::abs(found_->within[1])) * wanted_.size_of_one;
-    own.law = found_;
-    own.cells = laws_;
-    return own;
+    answer.size = {least * wanted_.size_of_one, infinity};
+    if (found_)
+      answer.size[1] = std::max(std::abs(found_->within[0]), std::abs(found_->within[1])) * wanted_.size_of_one;
+    answer.law = found_;
+    answer.cells = laws_;
+    return answer;
   }
 
   Verification verified() const {
@@ -128,11 +129,11 @@ class LawSearch {
     result.preload = answer();
     const bool none =
         !patterns_.empty() && std::all_of(patterns_.begin(), patterns_.end(),
-                                          [](const EffortPattern& own) { return own.excluded.has_value(); });
+                                          [](const EffortPattern& pattern) { return pattern.excluded.has_value(); });
     if (none) {
       result.notes.emplace_back("no effort of " + wanted_.joint +
                                 " that varies with the pose verifies the task: proven");
-      for (const EffortPattern& own : patterns_) result.notes.push_back(excluded_words(*own.excluded));
+      for (const EffortPattern& pattern : patterns_) result.notes.push_back(excluded_words(*pattern.excluded));
     } else if (!fails_under_any(result)) {
       result.verdict = core::Verdict::undecided;
       result.witness.reset();
@@ -143,24 +144,25 @@ class LawSearch {
   }
 
   /// Out of reach, or where |A| vanishes, whatever the effort.
-  static bool fails_under_any(const Verification& own) {
+  static bool fails_under_any(const Verification& verification) {
     using Kind = core::TaskWitness::Kind;
-    return own.witness && own.witness->kind != Kind::vanishing && own.witness->kind != Kind::too_small &&
-           own.witness->kind != Kind::beyond_bound && own.witness->kind != Kind::displaced;
+    return verification.witness && verification.witness->kind != Kind::vanishing &&
+           verification.witness->kind != Kind::too_small && verification.witness->kind != Kind::beyond_bound &&
+           verification.witness->kind != Kind::displaced;
   }
 
   /// "at (0.1, 0.5) M_A1 asks for more than 12 N m and M_A2 for less than 7 N m".
-  std::string excluded_words(const EffortCorridor& own) const {
+  std::string excluded_words(const EffortCorridor& corridor) const {
     const mechanism::Mechanism& mechanism = model_.content().mechanism;
     const auto told = [&](double effort) {
       return core::told(effort, wanted_.force ? "N" : "N m", mechanism.units, 4);
     };
     std::string at;
-    for (std::size_t c = 0; c < own.at.size(); ++c)
+    for (std::size_t c = 0; c < corridor.at.size(); ++c)
       at += (c == 0 ? "" : ", ") +
-            core::told(own.at[c], mechanism.coordinates[c].angle ? "rad" : "m", mechanism.units, 4);
-    return "at (" + at + ") " + own.lower.reaction + " asks for more than " + told(own.lower.effort) + " and " +
-           own.upper.reaction + " for less than " + told(own.upper.effort);
+            core::told(corridor.at[c], mechanism.coordinates[c].angle ? "rad" : "m", mechanism.units, 4);
+    return "at (" + at + ") " + corridor.lower.reaction + " asks for more than " + told(corridor.lower.effort) +
+           " and " + corridor.upper.reaction + " for less than " + told(corridor.upper.effort);
   }
 
   const Model& model_;

@@ -18,11 +18,11 @@ std::vector<core::ProvenRange> joined_ranges(std::vector<core::StudyCell> cells)
     std::size_t after = last + 1;
     while (is(before, core::StudyDesign::Status::undecided)) --before;
     while (is(after, core::StudyDesign::Status::undecided)) ++after;
-    core::ProvenRange& own = ranges.emplace_back();
-    own.from = {before < cells.size() ? cells[before].upper[0] : cells.front().lower[0], cells[first].lower[0]};
-    own.to = {cells[last].upper[0], after < cells.size() ? cells[after].lower[0] : cells.back().upper[0]};
-    if (before < cells.size()) own.below = cells[before].reason;
-    if (after < cells.size()) own.above = cells[after].reason;
+    core::ProvenRange& range = ranges.emplace_back();
+    range.from = {before < cells.size() ? cells[before].upper[0] : cells.front().lower[0], cells[first].lower[0]};
+    range.to = {cells[last].upper[0], after < cells.size() ? cells[after].lower[0] : cells.back().upper[0]};
+    if (before < cells.size()) range.below = cells[before].reason;
+    if (after < cells.size()) range.above = cells[after].reason;
     first = last;
   }
   return ranges;

@@ -77,4 +77,36 @@ bool pose_is_place(const Model& model) {
   return mechanism.space == mechanism::Space::planar && pose_is_place_of_end_effector(mechanism);
 }
 
+bool pose_is_place_of_end_effector(const mechanism::Mechanism& mechanism) {
+  const auto index = static_cast<std::size_t>(mechanism.end_effector_point);
+  const auto* const place = std::get_if<mechanism::ExplicitPoint>(&mechanism.points[index].form);
+  if (place == nullptr || mechanism.coordinates.size() != 2) return false;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const core::Expression& expression = place->coordinates[i];
+    if (expression.kind() != core::Expression::Kind::symbol || expression.name() != mechanism.coordinates[i].name)
+      return false;
+  }
+  return true;
+}
+
+std::vector<core::ModeSketch> sample_sketches(const mechanism::Mechanism& mechanism, const core::LocusMap& map) {
+  const bool beside = mechanism.space == mechanism::Space::spatial || !pose_is_place_of_end_effector(mechanism);
+  const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
+  std::vector<core::ModeSketch> sketches;
+  std::vector<core::WorkingMode> modes;
+  const auto add = [&](const core::WorkingMode& mode) {
+    if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
+  };
+  for (const core::WorkspaceRegion& region : map.workspace) add(region.mode);
+  for (const core::ReachableInterval& interval : map.reachable) add(interval.mode);
+  for (const core::LocusSurface& surface : map.surfaces) add(surface.mode);
+  for (const core::SpaceCurve& curve : map.space_curves) add(curve.mode);
+  for (const core::WorkingMode& mode : modes) {
+    const std::vector<int> sides = numeric::dyad_signs(model, map.tower, mode);
+    if (const std::optional<std::vector<double>> pose = numeric::sample_pose(model, sides, model.box))
+      sketches.push_back({mode, numeric::sketch(model, *pose, sides), beside});
+  }
+  return sketches;
+}
+
 }  // namespace clearloci

@@ -21,9 +21,9 @@ class SmallerEfforts {
                  const std::vector<loci::pose::Pose>& poses, PreloadJudge& judge, double to)
       : system_(system), rows_(rows), poses_(poses), judge_(judge), to_(to) {
     Box all;
-    for (const WantedEffort& own : system.wanted()) {
-      const double most = to / own.size_of_one;
-      all.emplace_back(std::max(Rational(-most), own.lower), std::min(Rational(most), own.upper));
+    for (const WantedEffort& effort : system.wanted()) {
+      const double most = to / effort.size_of_one;
+      all.emplace_back(std::max(Rational(-most), effort.lower), std::min(Rational(most), effort.upper));
     }
     push(std::move(all));
   }
@@ -51,8 +51,8 @@ class SmallerEfforts {
     for (std::size_t k = 0; k < box.size(); ++k)
       if (core::to_double(box[k].second - box[k].first) * size_of_one(k) > small * to_) return false;
     loci::pose::PoseBox enclosed;
-    for (const ExactRange& own : box) {
-      const core::Interval range = core::range_of(own.first, own.second);
+    for (const ExactRange& exact_range : box) {
+      const core::Interval range = core::range_of(exact_range.first, exact_range.second);
       enclosed.push_back({range.lower(), range.upper()});
     }
     for (const loci::pose::Pose& pose : poses_)

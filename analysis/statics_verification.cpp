@@ -48,15 +48,15 @@ struct Metrics {
 };
 
 Metrics metrics_of(const Mechanism& mechanism, const Task& task, const WidenedTask& widened) {
-  Metrics own{widened.metric(mechanism, task), {}, false};
+  Metrics metrics{widened.metric(mechanism, task), {}, false};
   bool any_angle = false, any_length = false;
   for (const mechanism::Coordinate& c : mechanism.coordinates) (c.angle ? any_angle : any_length) = true;
-  own.is_angle = !any_length && !task.angle_length;
-  if (!any_angle || !any_length || task.angle_length) return own;
-  own.angles.emplace(PoseMetric{std::vector<double>(own.asked.weights.size(), 1.0), {}});
-  for (const mechanism::Coordinate& c : mechanism.coordinates) own.angles->grows.push_back(c.angle);
-  own.angles->grows.resize(own.asked.grows.size(), false);
-  return own;
+  metrics.is_angle = !any_length && !task.angle_length;
+  if (!any_angle || !any_length || task.angle_length) return metrics;
+  metrics.angles.emplace(PoseMetric{std::vector<double>(metrics.asked.weights.size(), 1.0), {}});
+  for (const mechanism::Coordinate& c : mechanism.coordinates) metrics.angles->grows.push_back(c.angle);
+  metrics.angles->grows.resize(metrics.asked.grows.size(), false);
+  return metrics;
 }
 
 class StaticsVerifier {
@@ -71,7 +71,7 @@ class StaticsVerifier {
         margin_(core::to_double(task.margin)),
         sides_(requested_modes(mechanism, request_).front()) {
     side_names(mechanism, sides_);  // there is one for every dyad
-    for (const Mechanism& own : widened_.loads()) models_.push_back(numeric::compile(own));
+    for (const Mechanism& load : widened_.loads()) models_.push_back(numeric::compile(load));
     constexpr std::size_t poses = 24;
     std::vector<PoseAt> samples = region_.samples();
     if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
@@ -80,7 +80,7 @@ class StaticsVerifier {
     demands_ = demands;
     witness_.emplace(witness_for(demands));
     std::vector<const Mechanism*> list;
-    for (const Mechanism& own : widened_.loads()) list.push_back(&own);
+    for (const Mechanism& load : widened_.loads()) list.push_back(&load);
     statics_ = symbolic::pose_statics(list, sides_, demands);
     cover_groups();
     cell_.emplace(statics_);
@@ -170,13 +170,13 @@ class StaticsVerifier {
       result.verdict = core::Verdict::refuted;
       return result;
     }
-    for (const NearPose& own : near)
-      if (own.distance <= margin_ && refuted({own.kind, own.demand, own.at})) {
+    for (const NearPose& pose : near)
+      if (pose.distance <= margin_ && refuted({pose.kind, pose.demand, pose.at})) {
         result.verdict = core::Verdict::refuted;
         return result;
       }
-    for (const PoseSuspect& own : turned_along_pins())
-      if (refuted(own)) {
+    for (const PoseSuspect& turned : turned_along_pins())
+      if (refuted(turned)) {
         result.verdict = core::Verdict::refuted;
         return result;
       }
@@ -202,21 +202,21 @@ class StaticsVerifier {
 
   numeric::TaskWitness witness_for(const std::vector<TaskDemand>& demands) const {
     numeric::WitnessLoads loads;
-    for (const numeric::NumericModel& own : models_) loads.ends.push_back(&own);
+    for (const numeric::NumericModel& model : models_) loads.ends.push_back(&model);
     return {std::move(loads), sides_, demands, region_.samples(), numeric::TaskWitness::Rounding::of_coordinates};
   }
 
   core::TaskWitness told(const PoseAt& at, const numeric::TaskFailure& failure) const {
     using Kind = numeric::TaskFailure::Kind;
-    core::TaskWitness own = told_failure(mechanism_, models_.front(), at, sides_, failure);
-    own.at = widened_.pose_of(at);
-    own.distance = region_.distance(at);
-    own.design = widened_.design(at);
+    core::TaskWitness witness = told_failure(mechanism_, models_.front(), at, sides_, failure);
+    witness.at = widened_.pose_of(at);
+    witness.distance = region_.distance(at);
+    witness.design = widened_.design(at);
     const bool of_reaction = failure.kind == Kind::vanishing || failure.kind == Kind::too_small;
-    if (!of_reaction && failure.kind != Kind::beyond_bound) return own;
-    if (models_.size() > 1) own.load = load_between(*task_.loads, failure.load);
-    add_loads(at, failure.load, own);
-    return own;
+    if (!of_reaction && failure.kind != Kind::beyond_bound) return witness;
+    if (models_.size() > 1) witness.load = load_between(*task_.loads, failure.load);
+    add_loads(at, failure.load, witness);
+    return witness;
   }
 
   /// What loads are that may differ.
@@ -253,9 +253,9 @@ class StaticsVerifier {
       const TaskDemand& demand = statics_.demands[d].demand;
       if (demand.quantity != core::Quantity::f || demand.bound || !is_along_pins(demand.joint)) continue;
       for (const PoseAt& pose : poses) {
-        const PoseSuspect own{Doubt::demand, static_cast<int>(d), pose, poses.front()};
-        if (is_alike(*reference, pose, own)) continue;
-        turned.push_back(own);
+        const PoseSuspect suspect{Doubt::demand, static_cast<int>(d), pose, poses.front()};
+        if (is_alike(*reference, pose, suspect)) continue;
+        turned.push_back(suspect);
         break;
       }
     }
@@ -263,8 +263,8 @@ class StaticsVerifier {
   }
 
   bool is_along_pins(const std::string& joint) const {
-    return std::any_of(mechanism_.joints.begin(), mechanism_.joints.end(), [&](const mechanism::Joint& own) {
-      return own.name == joint && mechanism::pins_along_force(mechanism_, own);
+    return std::any_of(mechanism_.joints.begin(), mechanism_.joints.end(), [&](const mechanism::Joint& candidate) {
+      return candidate.name == joint && mechanism::pins_along_force(mechanism_, candidate);
     });
   }
 
@@ -329,12 +329,12 @@ class StaticsVerifier {
   void tell_nearest(const std::vector<NearPose>& near, Verification& result) const {
     if (near.empty()) return;
     const NearPose& first = near.front();
-    core::NearestOfTask own;
-    own.at = widened_.pose_of(first.at);
-    own.distance = first.distance;
-    own.kind = first.kind == Doubt::workspace     ? core::LocusKind::workspace_boundary
-               : first.kind == Doubt::singularity ? core::LocusKind::direct_singularity
-                                                  : core::LocusKind::contact_loss;
+    core::NearestOfTask nearest;
+    nearest.at = widened_.pose_of(first.at);
+    nearest.distance = first.distance;
+    nearest.kind = first.kind == Doubt::workspace     ? core::LocusKind::workspace_boundary
+                   : first.kind == Doubt::singularity ? core::LocusKind::direct_singularity
+                                                      : core::LocusKind::contact_loss;
     // All that vanish there together.
     constexpr double together = 1e-6;
     bool gravest = false;
@@ -344,13 +344,13 @@ class StaticsVerifier {
       const TaskDemand& demand = statics_.demands[static_cast<std::size_t>(other.demand)].demand;
       // A force and a bound of it may be 0 together.
       const core::Vanishing what{demand.joint, demand.quantity, 1};
-      if (std::find(own.vanishing.begin(), own.vanishing.end(), what) == own.vanishing.end())
-        own.vanishing.push_back(what);
+      if (std::find(nearest.vanishing.begin(), nearest.vanishing.end(), what) == nearest.vanishing.end())
+        nearest.vanishing.push_back(what);
       const core::LocusKind kind = locus_kind_of(demand);
-      own.kind = gravest ? std::min(own.kind, kind) : kind;
+      nearest.kind = gravest ? std::min(nearest.kind, kind) : kind;
       gravest = true;
     }
-    result.nearest = own;
+    result.nearest = nearest;
   }
 
   std::vector<NearPose> near_loci(const PoseRegion& region) const {
@@ -358,10 +358,7 @@ class StaticsVerifier {
   }
 
   double limit_of(const PoseMetric& metric, const std::vector<NearPose>& near) const {
-    double limit = margin_;
-    for (std::size_t c = 0; c < mechanism_.coordinates.size(); ++c)
-      if (metric.grows[c])
-        limit += metric.weights[c] * core::to_double(mechanism_.coordinates[c].upper - mechanism_.coordinates[c].lower);
+    const double limit = widest_margin(mechanism_, margin_, &metric);
     return near.empty() ? limit : std::min(limit, near.front().distance);
   }
 
@@ -369,9 +366,9 @@ class StaticsVerifier {
   void measure(const std::vector<NearPose>& near, VerifyDepth depth, Verification& result) {
     loci::SearchBudget budget{.most_cells = cells_of_a_margin, .deadline = request_.deadline};
     progress("margin");
-    const double own =
+    const double pose_clearance =
         loci::pose::pose_clearance(statics_, region_, margin_, limit_of(metrics_.asked, near), margin_accuracy, budget);
-    (metrics_.is_angle ? result.angle_margin : result.margin) = own;
+    (metrics_.is_angle ? result.angle_margin : result.margin) = pose_clearance;
     if (metrics_.angles) {
       const PoseRegion turned(task_.shape, *metrics_.angles, widened_.beside());
       const std::vector<NearPose> nearer = near_loci(turned);
@@ -419,9 +416,9 @@ Verification verify_by_statics(const Mechanism& mechanism, const Task& task, con
                            "write such as clearance: {radial: 10e-6} at a joint, or leave pose_error out");
   // Tolerances are of the file's parameters.
   const auto parameters = task.tolerances.empty() ? mechanism::Parameters::valued : mechanism::Parameters::kept;
-  if (const std::optional<Framed> own = framed(mechanism, Scaling::none, parameters))
-    return from_frame(verify_by_statics(own->mechanism, in_frame(task, own->frame), request), task, mechanism,
-                      own->frame);
+  if (const std::optional<Framed> scaled = framed(mechanism, Scaling::none, parameters))
+    return from_frame(verify_by_statics(scaled->mechanism, in_frame(task, scaled->frame), request), task, mechanism,
+                      scaled->frame);
   if (request.fit == TaskFit::none) return StaticsVerifier(mechanism, task, request.loci).verify(request.depth);
   StaticsVerifier verifier(mechanism, task, request.loci);
   const PoseJudge judge{[&](const core::TaskShape& shape) {

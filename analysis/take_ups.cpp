@@ -17,11 +17,11 @@ const Expression& clearance_of(const mechanism::OpenDesign& open, const core::Va
   std::size_t k = 0;
   for (const mechanism::Joint& joint : open.mechanism.joints) {
     if (!joint.clearance) continue;
-    const mechanism::Clearance& own = open.clearances[k++];
+    const mechanism::Clearance& clearance = open.clearances[k++];
     if (joint.name != reaction.joint) continue;
-    if (reaction.quantity == Quantity::f) return own.radial;
-    if (core::is_guide_end(reaction.quantity)) return own.gap;
-    return mechanism::actuator_quantity(joint) == Quantity::F ? own.axial : own.angular;
+    if (reaction.quantity == Quantity::f) return clearance.radial;
+    if (core::is_guide_end(reaction.quantity)) return clearance.gap;
+    return mechanism::actuator_quantity(joint) == Quantity::F ? clearance.axial : clearance.angular;
   }
   core::ensure(false, "a take-up is of a joint with a clearance");
   return open.clearances.front().radial;
@@ -57,11 +57,11 @@ mechanism::Mechanism with_clearances(const mechanism::OpenDesign& open, mechanis
   std::size_t k = 0;
   for (mechanism::Joint& joint : loaded.joints) {
     if (!joint.clearance) continue;
-    const mechanism::Clearance& own = open.clearances[k++];
-    joint.clearance->radial = number(own.radial);
-    joint.clearance->angular = number(own.angular);
-    joint.clearance->gap = number(own.gap);
-    joint.clearance->axial = number(own.axial);
+    const mechanism::Clearance& clearance = open.clearances[k++];
+    joint.clearance->radial = number(clearance.radial);
+    joint.clearance->angular = number(clearance.angular);
+    joint.clearance->gap = number(clearance.gap);
+    joint.clearance->axial = number(clearance.axial);
   }
   return loaded;
 }
@@ -70,7 +70,7 @@ std::vector<mechanism::Mechanism> under_unit_forces(const mechanism::Mechanism& 
   const std::size_t dimension = mechanism::dimension(open);
   std::vector<mechanism::Mechanism> all;
   for (std::size_t c = 0; c < dimension; ++c) {
-    mechanism::Mechanism& own = all.emplace_back(unloaded(open));
+    mechanism::Mechanism& bare = all.emplace_back(unloaded(open));
     const auto push = [&](mechanism::LinkIndex link, int size) {
       mechanism::Load load;
       load.link = link;
@@ -78,7 +78,7 @@ std::vector<mechanism::Mechanism> under_unit_forces(const mechanism::Mechanism& 
       load.force.assign(dimension, Expression::number(0));
       load.force[c] = Expression::number(size);
       load.couple = Expression::number(0);
-      own.loads.push_back(std::move(load));
+      bare.loads.push_back(std::move(load));
     };
     push(open.end_effector_link, 1);
     if (open.relative_to != mechanism::ground) push(open.relative_to, -1);
@@ -87,7 +87,7 @@ std::vector<mechanism::Mechanism> under_unit_forces(const mechanism::Mechanism& 
 }
 
 loci::DesignClearances design_clearances(const mechanism::OpenDesign& open, const core::TaskConditions& conditions) {
-  loci::DesignClearances own;
+  loci::DesignClearances clearances;
   std::vector<std::vector<Expression>> meanings;
   for (const core::TaskCondition& take_up : conditions.take_ups) {
     std::vector<Expression>& together = meanings.emplace_back();
@@ -96,18 +96,18 @@ loci::DesignClearances design_clearances(const mechanism::OpenDesign& open, cons
       together.push_back(clearance_of(open, reaction));
       names.merge(core::symbols(together.back()));
     }
-    std::vector<std::size_t>& parameters = own.parameters.emplace_back();
+    std::vector<std::size_t>& parameters = clearances.parameters.emplace_back();
     for (std::size_t p = 0; p < open.varied.size(); ++p)
       if (names.contains(open.varied[p])) parameters.push_back(p);
   }
-  own.enclosure = [&open, meanings = std::move(meanings)](std::size_t k, const loci::DesignBox& values) {
+  clearances.enclosure = [&open, meanings = std::move(meanings)](std::size_t k, const loci::DesignBox& values) {
     Ranges ranges;
     for (std::size_t p = 0; p < open.varied.size(); ++p) ranges[open.varied[p]] = values[p];
     core::Interval sum = 0.0;
     for (const Expression& meaning : meanings[k]) sum = sum + enclosure(meaning, ranges);
     return sum;
   };
-  return own;
+  return clearances;
 }
 
 }  // namespace clearloci

@@ -23,12 +23,12 @@ void require_certifiable(const core::Task& task) {
 core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, const core::Task& task,
                                      const LociRequest& asked) {
   const LociRequest request = request_of(task, asked);
-  core::TaskCertificate own{
+  core::TaskCertificate certificate{
       {}, task, sides_that_push(mechanism, task, requested_modes(mechanism, request).front()), {}, {}};
-  for (const mechanism::Coordinate& c : mechanism.coordinates) own.coordinates.push_back(c.name);
+  for (const mechanism::Coordinate& c : mechanism.coordinates) certificate.coordinates.push_back(c.name);
   for (const core::Tolerance& tolerance : task.tolerances) {
     const Rational& value = mechanism::parameter_named(mechanism, tolerance.parameter)->value;
-    own.parameters.push_back({tolerance.parameter, value + tolerance.below, value + tolerance.above});
+    certificate.parameters.push_back({tolerance.parameter, value + tolerance.below, value + tolerance.above});
   }
   const WidenedTask widened(mechanism, task);
   const loci::pose::PoseRegion region(task.shape, widened.metric(mechanism, task), widened.beside());
@@ -41,10 +41,11 @@ core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, cons
       if (effort == 0 || !open.empty()) models.push_back(numeric::compile(given));
     }
   std::vector<std::string> notes;
-  own.demands = loaded_demands(models, own.sides, demands_of(mechanism, request), region.samples(), notes);
+  certificate.demands =
+      loaded_demands(models, certificate.sides, demands_of(mechanism, request), region.samples(), notes);
   // Bounds of efforts are the model's.
-  std::erase_if(own.demands, [](const core::TaskDemand& demand) { return demand.bound.has_value(); });
-  return own;
+  std::erase_if(certificate.demands, [](const core::TaskDemand& demand) { return demand.bound.has_value(); });
+  return certificate;
 }
 
 }  // namespace clearloci

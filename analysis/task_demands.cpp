@@ -99,8 +99,8 @@ std::vector<TaskDemand> demands_of(const mechanism::Mechanism& mechanism, const 
   }
   // The teeth of a gear keep their flank all over a task.
   for (const mechanism::Joint& joint : mechanism.joints)
-    if (has_teeth(joint) &&
-        std::none_of(demands.begin(), demands.end(), [&](const TaskDemand& own) { return own.joint == joint.name; }))
+    if (has_teeth(joint) && std::none_of(demands.begin(), demands.end(),
+                                         [&](const TaskDemand& demand) { return demand.joint == joint.name; }))
       demands.push_back({joint.name, Quantity::F, 0});
   add_bounds(mechanism, demands);
   return demands;

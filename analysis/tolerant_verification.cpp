@@ -35,8 +35,8 @@ class Tolerant {
         depth_(request.depth),
         task_(mechanism, {}, task, request.loci),
         judge_(task_.judge()) {
-    for (const mechanism::Mechanism& own : task_.loads()) loads_.push_back(numeric::compile(own));
-    for (const mechanism::Mechanism& own : task_.directions()) directions_.push_back(numeric::compile(own));
+    for (const mechanism::Mechanism& load : task_.loads()) loads_.push_back(numeric::compile(load));
+    for (const mechanism::Mechanism& direction : task_.directions()) directions_.push_back(numeric::compile(direction));
   }
 
   void decide(Verification& result) {
@@ -57,7 +57,8 @@ class Tolerant {
     if (result.verified()) {
       if (request_.progress) request_.progress(0, "margin");
       budget = {.most_cells = cells_of_a_margin, .deadline = request_.deadline};
-      result.margin = judge_->clearance(*designs, task_.margin(), limit(), margin_accuracy, budget);
+      result.margin = judge_->clearance(*designs, task_.margin(), widest_margin(mechanism_, task_.margin()),
+                                        margin_accuracy, budget);
       if (task_.task().pose_error)  // proven where the verdict is, whether this bound comes closer or not
         result.pose_error = std::min(core::to_double(*task_.task().pose_error),
                                      judge_->greatest_displacement(*designs, error_accuracy, budget).upper());
@@ -75,13 +76,6 @@ class Tolerant {
   }
 
  private:
-  double limit() const {
-    double limit = task_.margin();
-    for (std::size_t c = 0; c < 2; ++c)
-      limit += core::to_double(mechanism_.coordinates[c].upper - mechanism_.coordinates[c].lower);
-    return limit;
-  }
-
   std::optional<core::TaskWitness> witness_of(const DesignFailure& failure) {
     if (failure.kind == DesignFailure::Kind::displaced) return displaced_at(failure);
     if (!failure.watched) return confirmed(failure.at, failure.parameters);
@@ -91,9 +85,9 @@ class Tolerant {
     const auto& to = failure.parameters;
     const int sign = judge_->sign_at(w, failure.other, from);
     const auto design = [&](double t) {
-      std::vector<double> own;
-      for (std::size_t p = 0; p < from.size(); ++p) own.push_back(t == 1 ? to[p] : from[p] + t * (to[p] - from[p]));
-      return own;
+      std::vector<double> witness;
+      for (std::size_t p = 0; p < from.size(); ++p) witness.push_back(t == 1 ? to[p] : from[p] + t * (to[p] - from[p]));
+      return witness;
     };
     if (judge_->sign_at(w, failure.other, to) != sign)
       return between(w, sign, [&](double t) { return std::pair(failure.other, design(t)); });
@@ -127,17 +121,17 @@ class Tolerant {
   numeric::TaskWitness& witness(const std::vector<double>& parameters) {
     if (witness_) return *witness_;
     numeric::WitnessLoads loads;
-    for (const numeric::NumericModel& own : loads_) loads.ends.push_back(&own);
-    for (const numeric::NumericModel& own : directions_) loads.directions.push_back(&own);
+    for (const numeric::NumericModel& model : loads_) loads.ends.push_back(&model);
+    for (const numeric::NumericModel& model : directions_) loads.directions.push_back(&model);
     loads.balls = task_.balls();
-    for (core::LoadBall& own : loads.balls) {
-      own.force = inwards(own.force);
-      own.couple_size = inwards(own.couple_size);
+    for (core::LoadBall& ball : loads.balls) {
+      ball.force = inwards(ball.force);
+      ball.couple_size = inwards(ball.couple_size);
     }
     std::vector<std::vector<double>> usual;
     for (const Point2& pose : task_.region().samples()) {
       std::vector<double>& at = usual.emplace_back();
-      for (const Bounded& own : bounded(pose, parameters)) at.push_back(own.value);
+      for (const Bounded& value : bounded(pose, parameters)) at.push_back(value.value);
     }
     return witness_.emplace(std::move(loads), task_.sides(), task_.demands(), usual,
                             numeric::TaskWitness::Rounding::of_plane);
@@ -148,8 +142,8 @@ class Tolerant {
 
   std::vector<Bounded> bounded(const Point2& pose, const std::vector<double>& parameters) const {
     std::vector<Bounded> at;
-    for (const core::Interval& own : judge_->coordinates(pose, parameters))
-      at.emplace_back(own.middle(), 0.5 * own.width());
+    for (const core::Interval& coordinate : judge_->coordinates(pose, parameters))
+      at.emplace_back(coordinate.middle(), 0.5 * coordinate.width());
     return at;
   }
 
@@ -199,14 +193,14 @@ class Tolerant {
     std::size_t ball = 0;
     for (const core::LoadWithin& within : task_.task().loads_within) {
       if (!(within.force > 0) && !(within.couple > 0)) continue;
-      const core::LoadBall& own = task_.balls()[ball++];
+      const core::LoadBall& load_ball = task_.balls()[ball++];
       mechanism::Load& load = open.loads[within.load];
-      if (own.fx >= 0) {
+      if (load_ball.fx >= 0) {
         if (load.force.size() != 2) return false;
-        add(load.force[0], factors[static_cast<std::size_t>(own.fx)]);
-        add(load.force[1], factors[static_cast<std::size_t>(own.fy)]);
+        add(load.force[0], factors[static_cast<std::size_t>(load_ball.fx)]);
+        add(load.force[1], factors[static_cast<std::size_t>(load_ball.fy)]);
       }
-      if (own.couple >= 0) add(load.couple, factors[static_cast<std::size_t>(own.couple)]);
+      if (load_ball.couple >= 0) add(load.couple, factors[static_cast<std::size_t>(load_ball.couple)]);
     }
     return true;
   }
@@ -249,7 +243,7 @@ class Tolerant {
 
   std::vector<double> values(const Point2& pose, const std::vector<double>& parameters) const {
     std::vector<double> list;
-    for (const Bounded& own : bounded(pose, parameters)) list.push_back(own.value);
+    for (const Bounded& value : bounded(pose, parameters)) list.push_back(value.value);
     return list;
   }
 
@@ -275,9 +269,9 @@ void decide_tolerant(const mechanism::Mechanism& mechanism, const core::Task& ta
   if (result.verdict == core::Verdict::refuted) return;
   result.zone = result.verified() ? result.zone : "";
   // Tolerances are of the file's parameters: moved alone, its lengths keep their units.
-  if (const auto own = framed(mechanism, Scaling::none, mechanism::Parameters::kept)) {
-    Tolerant(own->mechanism, in_frame(task, own->frame), request).decide(result);
-    move_from_frame(result.witness, result.open, mechanism, own->frame);
+  if (const auto scaled = framed(mechanism, Scaling::none, mechanism::Parameters::kept)) {
+    Tolerant(scaled->mechanism, in_frame(task, scaled->frame), request).decide(result);
+    move_from_frame(result.witness, result.open, mechanism, scaled->frame);
   } else {
     Tolerant(mechanism, task, request).decide(result);
   }

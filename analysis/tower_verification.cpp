@@ -44,7 +44,7 @@ struct LoadCase {
 
 std::vector<LoadCase> load_cases(const mechanism::Mechanism& mechanism, const Task& task) {
   std::vector<LoadCase> cases;
-  for (mechanism::Mechanism& own : under_loads_of(task, mechanism)) cases.emplace_back(std::move(own));
+  for (mechanism::Mechanism& loaded : under_loads_of(task, mechanism)) cases.emplace_back(std::move(loaded));
   return cases;
 }
 
@@ -57,9 +57,9 @@ TracedProblem on_sheet_of(const Task& task, TracedProblem traced) {
       return loci::is_on_sheet(sheet.problem.tower, sheet.problem.modes.front(), at);
     });
   };
-  auto own = std::find_if(traced.sheets.begin(), traced.sheets.end(), holds);
-  if (own == traced.sheets.end()) own = traced.sheets.begin();
-  return {std::move(own->problem), std::move(own->map)};
+  auto sheet = std::find_if(traced.sheets.begin(), traced.sheets.end(), holds);
+  if (sheet == traced.sheets.end()) sheet = traced.sheets.begin();
+  return {std::move(sheet->problem), std::move(sheet->map)};
 }
 
 class TowerVerifier {
@@ -125,8 +125,8 @@ class TowerVerifier {
 
   /// The loci under each load, traced once by an effort; fewer where the deadline came first.
   void trace(TraceEffort effort) {
-    const bool known = traced_ && (effort_ == TraceEffort::full || effort == TraceEffort::sketch);
-    if (known || !notes_.empty()) return;
+    const bool is_traced = traced_ && (effort_ == TraceEffort::full || effort == TraceEffort::sketch);
+    if (is_traced || !notes_.empty()) return;
     effort_ = effort;
     std::vector<TracedProblem> all;
     for (const LoadCase& one : cases_) {
@@ -274,11 +274,9 @@ class TowerVerifier {
 
   /// Cells look for what ends the margin, also outside the box and under every load of a range.
   void prove_margin(const loci::TaskRegion& region, double wanted, Verification& result) const {
-    double limit = wanted;
-    for (const mechanism::Coordinate& coordinate : mechanism_.coordinates)
-      limit += core::to_double(coordinate.upper - coordinate.lower);
-    const loci::TaskClearance clearance = loci::proven_clearance(
-        conditions_, mode_, region, wanted, limit, {.most_cells = cells_of_a_margin, .deadline = request_.deadline});
+    const loci::TaskClearance clearance =
+        loci::proven_clearance(conditions_, mode_, region, wanted, widest_margin(mechanism_, wanted),
+                               {.most_cells = cells_of_a_margin, .deadline = request_.deadline});
     result.margin = clearance.margin;
     if (!clearance.at) return;
     NearestOfTask nearest;
@@ -365,8 +363,8 @@ namespace {
 /// The longest side of the box, m.
 double extent(const mechanism::Mechanism& mechanism) {
   double longest = 0;
-  for (const mechanism::Coordinate& own : mechanism.coordinates)
-    longest = std::max(longest, core::to_double(own.upper - own.lower));
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    longest = std::max(longest, core::to_double(coordinate.upper - coordinate.lower));
   return longest;
 }
 
@@ -417,10 +415,11 @@ Verification verify_by_tower(const mechanism::Mechanism& mechanism, const Task& 
     decide_tolerant(mechanism, task, request, result);
     return result;
   }
-  if (const std::optional<Framed> own = framed(mechanism)) {
+  if (const std::optional<Framed> scaled = framed(mechanism)) {
     VerifyRequest inside = request;
-    inside.loci = in_frame(request.loci, own->frame);
-    return from_frame(verify_by_tower(own->mechanism, in_frame(task, own->frame), inside), task, mechanism, own->frame);
+    inside.loci = in_frame(request.loci, scaled->frame);
+    return from_frame(verify_by_tower(scaled->mechanism, in_frame(task, scaled->frame), inside), task, mechanism,
+                      scaled->frame);
   }
   require_regular(mechanism, requested_modes(mechanism, request.loci).front());
   if (request.fit != TaskFit::none) return placed_in_tower(mechanism, task, request);

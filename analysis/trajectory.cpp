@@ -33,7 +33,7 @@ std::string distance_unit(const numeric::Motion& motion) {
   const mechanism::Mechanism& mechanism = motion.model.mechanism;
   if (motion.timeline.timed) return "s";
   const auto angles = std::count_if(mechanism.coordinates.begin(), mechanism.coordinates.end(),
-                                    [](const mechanism::Coordinate& own) { return own.angle; });
+                                    [](const mechanism::Coordinate& coordinate) { return coordinate.angle; });
   if (angles == 0) return "m";
   return static_cast<std::size_t>(angles) == mechanism.coordinates.size() ? "rad" : "";
 }
@@ -59,8 +59,8 @@ void put_motion(TableRows& row, const numeric::Motion& motion, const Instant& at
     row.put(name + "_acceleration", unit + "/s^2", 2 * s.c[2] / (period * period));
   };
   for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
-    const mechanism::Coordinate& own = motion.model.mechanism.coordinates[c];
-    put("q_" + own.name, own.angle ? "rad" : "m", at.coordinates[c]);
+    const mechanism::Coordinate& coordinate = motion.model.mechanism.coordinates[c];
+    put("q_" + coordinate.name, coordinate.angle ? "rad" : "m", at.coordinates[c]);
   }
   const auto& p = at.points[static_cast<std::size_t>(motion.model.mechanism.end_effector_point)];
   for (std::size_t c = 0; c < dimension(motion); ++c) put(axis_named("p", c), "m", p[c]);
@@ -127,19 +127,21 @@ std::vector<TrajectoryStage> stages_of(const numeric::Motion& motion, double per
   std::vector<TrajectoryStage> stages;
   for (std::size_t k = 0; k < motion.timeline.stages.size(); ++k) {
     const numeric::Stage& stage = motion.timeline.stages[k];
-    TrajectoryStage own;
-    own.from = waypoint_name(motion, stage.from_waypoint);
-    own.to = waypoint_name(motion, stage.to_waypoint);
-    own.begins = stage.begin * period;
-    own.ends = stage.end * period;
-    own.starts_at = stage.from;
-    own.stops_at = stage.to;
+    TrajectoryStage trajectory_stage;
+    trajectory_stage.from = waypoint_name(motion, stage.from_waypoint);
+    trajectory_stage.to = waypoint_name(motion, stage.to_waypoint);
+    trajectory_stage.begins = stage.begin * period;
+    trajectory_stage.ends = stage.end * period;
+    trajectory_stage.starts_at = stage.from;
+    trajectory_stage.stops_at = stage.to;
     for (const int p : stage.carried)
-      own.carried += core::to_double(motion.timeline.trajectory.payloads[static_cast<std::size_t>(p)].mass);
-    own.critical_period = critical[k].period;
+      trajectory_stage.carried +=
+          core::to_double(motion.timeline.trajectory.payloads[static_cast<std::size_t>(p)].mass);
+    trajectory_stage.critical_period = critical[k].period;
     if (critical[k].joint >= 0)
-      own.lost_last = LostLast{joint_name(motion, critical[k].joint), critical[k].quantity, critical[k].distance};
-    stages.push_back(std::move(own));
+      trajectory_stage.lost_last =
+          LostLast{joint_name(motion, critical[k].joint), critical[k].quantity, critical[k].distance};
+    stages.push_back(std::move(trajectory_stage));
   }
   return stages;
 }
@@ -159,21 +161,21 @@ LossKind kind_of(numeric::LossKind kind) {
 std::vector<ContactLoss> losses_of(const numeric::Motion& motion, const std::vector<numeric::ContactLoss>& found) {
   std::vector<ContactLoss> losses;
   for (const numeric::ContactLoss& loss : found) {
-    ContactLoss own{kind_of(loss.kind),
-                    joint_name(motion, loss.joint),
-                    loss.quantity,
-                    loss.time,
-                    loss.distance,
-                    loss.stage + 1,
-                    loss.force,
-                    loss.from,
-                    loss.to,
-                    loss.payload};
-    own.crossed = loss.effect.crossed;
-    own.displacement = loss.effect.jump.dp.norm();
-    own.rotation = loss.effect.jump.dalpha.norm();
-    own.earles_wu = loss.earles_wu;
-    losses.push_back(std::move(own));
+    ContactLoss contact_loss{kind_of(loss.kind),
+                             joint_name(motion, loss.joint),
+                             loss.quantity,
+                             loss.time,
+                             loss.distance,
+                             loss.stage + 1,
+                             loss.force,
+                             loss.from,
+                             loss.to,
+                             loss.payload};
+    contact_loss.crossed = loss.effect.crossed;
+    contact_loss.displacement = loss.effect.jump.dp.norm();
+    contact_loss.rotation = loss.effect.jump.dalpha.norm();
+    contact_loss.earles_wu = loss.earles_wu;
+    losses.push_back(std::move(contact_loss));
   }
   return losses;
 }
@@ -210,16 +212,16 @@ void check(const TrajectoryRequest& request) {
 TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                                    const TrajectoryRequest& request) {
   check(request);
-  if (const std::optional<Framed> own = framed_where_far(mechanism))
-    return from_frame(follow_trajectory(own->mechanism, in_frame(trajectory, own->frame), request), mechanism,
-                      own->frame);
+  if (const std::optional<Framed> framed = framed_where_far(mechanism))
+    return from_frame(follow_trajectory(framed->mechanism, in_frame(trajectory, framed->frame), request), mechanism,
+                      framed->frame);
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
   const FlankMotions motions(mechanism, trajectory, sides, request.samples);
   const numeric::Motion& motion = motions.motion();
-  const double own = trajectory.speed ? motion.timeline.length() / core::to_double(*trajectory.speed)
-                                      : core::to_double(trajectory.period);
-  const double period = request.period.value_or(own);
+  const double duration = trajectory.speed ? motion.timeline.length() / core::to_double(*trajectory.speed)
+                                           : core::to_double(trajectory.period);
+  const double period = request.period.value_or(duration);
   const InstantSamples samples = motions.samples(period);
   numeric::LossThresholds thresholds =
       numeric::default_thresholds(motion, motions.samples(std::numeric_limits<double>::infinity()));

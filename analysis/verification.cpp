@@ -66,6 +66,15 @@ core::WitnessLoad load_at(const numeric::Posture& posture, std::size_t load, con
   return {load, {at.force.begin(), at.force.end()}, {at.couple.begin(), at.couple.end()}};
 }
 
+double widest_margin(const mechanism::Mechanism& mechanism, double margin, const loci::pose::PoseMetric* metric) {
+  for (std::size_t c = 0; c < mechanism.coordinates.size(); ++c) {
+    if (metric != nullptr && !metric->grows[c]) continue;
+    const double side = core::to_double(mechanism.coordinates[c].upper - mechanism.coordinates[c].lower);
+    margin += metric == nullptr ? side : metric->weights[c] * side;
+  }
+  return margin;
+}
+
 core::OpenTask open_part(const loci::CoverProof& proof) {
   using Reason = core::OpenTask::Reason;
   return {proof.open, proof.lower, proof.upper,
@@ -124,12 +133,14 @@ bool is_better(const Verification& a, const Verification& b, TaskFit fit) {
   if (a.verified() != b.verified()) return a.verified();
   if (fit == TaskFit::best) return a.margin.value_or(0) > b.margin.value_or(0);
   if (fit == TaskFit::largest) return a.scaled_by.value_or(0) > b.scaled_by.value_or(0);
-  const auto way = [](const Verification& own) {
+  const auto way = [](const Verification& verification) {
     double square = 0;
-    for (std::size_t c = 0; own.moved_by && c < own.moved_by->size(); ++c)
-      square += std::pow(core::to_double((*own.moved_by)[c]) *
-                             (own.angles[c] && own.task.angle_length ? core::to_double(*own.task.angle_length) : 1),
-                         2);
+    for (std::size_t c = 0; verification.moved_by && c < verification.moved_by->size(); ++c)
+      square += std::pow(
+          core::to_double((*verification.moved_by)[c]) * (verification.angles[c] && verification.task.angle_length
+                                                              ? core::to_double(*verification.task.angle_length)
+                                                              : 1),
+          2);
     return square;
   };
   return way(a) < way(b);
@@ -167,8 +178,8 @@ Verification placed_on_flanks(Mechanism mechanism, const Task& task, VerifyReque
   std::optional<Verification> best;
   for (const DyadSides& sides : modes) {
     request.loci.working_modes = {sides};
-    Verification own = verified_in(mechanism, task, request);
-    if (!best || is_better(own, *best, request.fit)) best = std::move(own);
+    Verification verification = verified_in(mechanism, task, request);
+    if (!best || is_better(verification, *best, request.fit)) best = std::move(verification);
   }
   return std::move(*best);
 }
@@ -190,8 +201,8 @@ VerifyRequest on_flanks(const Mechanism& mechanism, const Task& task, VerifyRequ
 bool depends_on(const core::Expression& expression, const std::string& parameter, const Mechanism& mechanism) {
   const std::set<std::string> all = core::symbols(expression);
   return all.contains(parameter) ||
-         std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(), [&](const mechanism::Parameter& own) {
-           return all.contains(own.name) && depends_on(own.expression, parameter, mechanism);
+         std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(), [&](const mechanism::Parameter& other) {
+           return all.contains(other.name) && depends_on(other.expression, parameter, mechanism);
          });
 }
 
@@ -213,7 +224,8 @@ void tell_mechanism(const Mechanism& mechanism, const VerifyRequest& request, Ve
   // A free effort without a value is part of the question.
   for (const mechanism::Joint& joint : mechanism.joints)
     if (joint.free_effort && !joint.free_effort->given)
-      std::erase_if(result.parameters, [&](const auto& own) { return own.first == joint.free_effort->parameter; });
+      std::erase_if(result.parameters,
+                    [&](const auto& parameter) { return parameter.first == joint.free_effort->parameter; });
   result.units = mechanism.units;
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
     result.coordinates.push_back(coordinate.name);

@@ -34,6 +34,11 @@ core::TaskWitness told_failure(const mechanism::Mechanism& mechanism, const nume
 std::string limit_at(const mechanism::Mechanism& mechanism, const numeric::NumericModel& model,
                      std::span<const double> at, const DyadSides& sides, double passes = 1e-9);
 
+/// A margin that reaches every place of the workspace: `margin` and the lengths of its sides, measured as `metric` does
+/// and without those that it leaves out; null: as the coordinates stand.
+double widest_margin(const mechanism::Mechanism& mechanism, double margin,
+                     const loci::pose::PoseMetric* metric = nullptr);
+
 /// What a proof leaves open.
 core::OpenTask open_part(const loci::CoverProof& proof);
 /// Of a task over poses, designs and loads.

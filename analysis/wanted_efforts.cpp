@@ -29,13 +29,13 @@ Model with_efforts(const Model& model, const std::vector<WantedEffort>& wanted, 
 std::vector<Mechanism> under_larger_loads(const Mechanism& mechanism, const Task& task) {
   std::vector<Mechanism> all = {mechanism};
   if (task.loads)
-    for (Mechanism& own : under_loads_of(task, mechanism)) all.push_back(std::move(own));
+    for (Mechanism& loaded : under_loads_of(task, mechanism)) all.push_back(std::move(loaded));
   const auto add = [&](std::size_t load, const Rational& most, const auto& part_of) {
     for (const Rational& by : {most, Rational(-most)}) {
-      Mechanism own = mechanism;
-      core::Expression& part = part_of(own.loads[load]);
+      Mechanism with_effort = mechanism;
+      core::Expression& part = part_of(with_effort.loads[load]);
       part = core::Expression::apply(core::Expression::Kind::add, {part, core::Expression::number(by)});
-      all.push_back(std::move(own));
+      all.push_back(std::move(with_effort));
     }
   };
   for (const core::LoadWithin& within : task.loads_within) {
@@ -50,12 +50,12 @@ std::vector<Mechanism> under_larger_loads(const Mechanism& mechanism, const Task
 namespace {
 
 /// Beyond which effort no reaction changes its sign at some poses of the task, times eight: reactions are linear in it.
-Rational range_without_bounds(const Model& model, const std::vector<WantedEffort>& wanted, std::size_t own,
+Rational range_without_bounds(const Model& model, const std::vector<WantedEffort>& wanted, std::size_t varied,
                               const Task& task, const VerifyRequest& request) {
   std::vector<Rational> efforts(wanted.size(), 0);
   const std::vector<Mechanism> without =
       under_larger_loads(with_efforts(model, wanted, efforts).content().mechanism, task);
-  efforts[own] = 1;
+  efforts[varied] = 1;
   const Model with_one = with_efforts(model, wanted, efforts);
   PoseRequest asked;
   asked.working_mode = requested_modes(model.content().mechanism, request.loci).front();
@@ -99,14 +99,14 @@ std::vector<WantedEffort> wanted_efforts(const Model& model, const Task& task, c
     wanted.push_back(
         {joint->name, joint->free_effort->parameter, mechanism::traits(*joint).actuator == core::Quantity::F});
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    WantedEffort& own = wanted[i];
+    WantedEffort& effort = wanted[i];
     if (const auto& within = joints[i]->free_effort->within) {
-      own.lower = within->first;
-      own.upper = within->second;
-      own.size_of_one = 1 / core::to_double(reference_effort(*joints[i]->free_effort));
+      effort.lower = within->first;
+      effort.upper = within->second;
+      effort.size_of_one = 1 / core::to_double(reference_effort(*joints[i]->free_effort));
     } else {
-      own.upper = range_without_bounds(model, wanted, i, task, request);
-      own.lower = -own.upper;
+      effort.upper = range_without_bounds(model, wanted, i, task, request);
+      effort.lower = -effort.upper;
     }
   }
   return wanted;
@@ -114,7 +114,7 @@ std::vector<WantedEffort> wanted_efforts(const Model& model, const Task& task, c
 
 std::string named_efforts(const std::vector<WantedEffort>& wanted) {
   std::string names;
-  for (const WantedEffort& own : wanted) names += (names.empty() ? "" : ", ") + own.joint;
+  for (const WantedEffort& effort : wanted) names += (names.empty() ? "" : ", ") + effort.joint;
   return names;
 }
 

@@ -21,10 +21,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 mechanism::OpenDesign opened(const Mechanism& mechanism, const core::Task& task) {
   std::vector<mechanism::ParameterRange> ranges;
-  for (const core::Tolerance& own : task.tolerances) {
-    const mechanism::Parameter* parameter = mechanism::parameter_named(mechanism, own.parameter);
+  for (const core::Tolerance& tolerance : task.tolerances) {
+    const mechanism::Parameter* parameter = mechanism::parameter_named(mechanism, tolerance.parameter);
     core::ensure(parameter != nullptr, "a tolerance of a parameter of the file");
-    ranges.push_back({own.parameter, parameter->value + own.below, parameter->value + own.above});
+    ranges.push_back({tolerance.parameter, parameter->value + tolerance.below, parameter->value + tolerance.above});
   }
   return mechanism::open_design(mechanism, ranges);
 }
@@ -41,10 +41,10 @@ std::size_t parameter_of(const mechanism::OpenDesign& open, const mechanism::Des
 
 WidenedTask::WidenedTask(const Mechanism& mechanism, const core::Task& task)
     : poses_(mechanism.coordinates.size()), open_(opened(mechanism, task)) {
-  for (const core::Tolerance& own : task.tolerances) {
-    const Rational& value = mechanism::parameter_named(mechanism, own.parameter)->value;
-    values_[own.parameter] = core::range_of(value + own.below, value + own.above);
-    ranges_.emplace_back(core::to_double(value + own.below), core::to_double(value + own.above));
+  for (const core::Tolerance& tolerance : task.tolerances) {
+    const Rational& value = mechanism::parameter_named(mechanism, tolerance.parameter)->value;
+    values_[tolerance.parameter] = core::range_of(value + tolerance.below, value + tolerance.above);
+    ranges_.emplace_back(core::to_double(value + tolerance.below), core::to_double(value + tolerance.above));
   }
   for (const Expression& length : open_.lengths)
     if (!(enclosure(length, values_).lower() > 0))
@@ -164,16 +164,16 @@ Interval WidenedTask::clearance(const core::Vanishing& reaction) const {
 Mechanism WidenedTask::at_place(const std::vector<double>& at, double load) const {
   Ranges design;
   for (const auto& [name, value] : this->design(at)) design[name] = Interval(value);
-  Mechanism own = with_clearances(open_, loads_.front(), design);
-  if (loads_.size() < 2) return own;
-  std::vector<Expression>& force = own.loads.front().force;
+  Mechanism mechanism = with_clearances(open_, loads_.front(), design);
+  if (loads_.size() < 2) return mechanism;
+  std::vector<Expression>& force = mechanism.loads.front().force;
   const std::vector<Expression>& last = loads_.back().loads.front().force;
   const auto part = [](double t, const Expression& of) {
     return Expression::apply(Expression::Kind::multiply, {Expression::number(Rational(t)), of});
   };
   for (std::size_t c = 0; c < force.size(); ++c)
     force[c] = Expression::apply(Expression::Kind::add, {part(1 - load, force[c]), part(load, last[c])});
-  return own;
+  return mechanism;
 }
 
 std::vector<std::pair<std::string, double>> WidenedTask::design(const std::vector<double>& at) const {

@@ -44,12 +44,12 @@ std::vector<std::size_t> cells_in(const core::Zones& zones, std::size_t number, 
   const core::Zone& zone = zones.zones[number];
   if (!zones.by_cells) return cells_in_rings(zone, map);
   if (map.dimension() == 1) return cells_between_ends(zone, map);
-  const auto own = std::find_if(zones.modes.begin(), zones.modes.end(),
-                                [&](const core::ZonedMode& mode) { return mode.mode == zone.mode; });
-  core::ensure(own != zones.modes.end() && own->labels.size() == map.size(), "zones have labels on the map's grid");
+  const auto found = std::find_if(zones.modes.begin(), zones.modes.end(),
+                                  [&](const core::ZonedMode& mode) { return mode.mode == zone.mode; });
+  core::ensure(found != zones.modes.end() && found->labels.size() == map.size(), "zones have labels on the map's grid");
   std::vector<std::size_t> cells;
-  for (std::size_t k = 0; k < own->labels.size(); ++k)
-    if (own->labels[k] == static_cast<int>(number) + 1) cells.push_back(k);
+  for (std::size_t k = 0; k < found->labels.size(); ++k)
+    if (found->labels[k] == static_cast<int>(number) + 1) cells.push_back(k);
   return cells;
 }
 

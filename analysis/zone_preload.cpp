@@ -53,7 +53,7 @@ class SampleEfforts {
     const numeric::Bounded determinant = numeric::bounded_numerators(models_[0], exactly(pose), sides).determinant;
     if (!(std::abs(determinant.value) > determinant.error)) return std::nullopt;
     std::vector<EffortGap> gaps = numeric::effort_gaps(models_[0], models_[1], exactly(pose), sides, demands);
-    if (const auto own = own_gap(mechanism_, joint_.name, request_)) gaps.push_back(*own);
+    if (const auto gap = own_gap(mechanism_, joint_.name, request_)) gaps.push_back(*gap);
     core::ZonePreload preload;
     FeasibleEfforts& efforts = preload.efforts.emplace_back(efforts_without_ranges(joint_));
     set_ranges(gaps, efforts);
@@ -100,10 +100,10 @@ void add_cells(const Mechanism& mechanism, const LociRequest& request, core::Zon
 core::ZonePreload tensions_at(const Mechanism& mechanism, const std::vector<double>& pose, const DyadSides& sides) {
   core::ZonePreload preload;
   preload.efforts = pose_tensions(mechanism, exactly(pose), sides).efforts;
-  for (const FeasibleEfforts& own : preload.efforts) {
-    if (own.ranges.empty()) continue;
+  for (const FeasibleEfforts& efforts : preload.efforts) {
+    if (efforts.ranges.empty()) continue;
     preload.feasible = true;
-    preload.smallest = std::max(preload.smallest.value_or(0), std::abs(own.effort) / (*own.within)[1]);
+    preload.smallest = std::max(preload.smallest.value_or(0), std::abs(efforts.effort) / (*efforts.within)[1]);
   }
   return preload;
 }
@@ -115,14 +115,14 @@ void add_tensions(const Mechanism& mechanism, core::Zones& map) {
 }
 
 Signs sorted(Signs signs) {
-  const auto key = [](const auto& own) { return std::pair(own.first.joint, own.first.quantity); };
+  const auto key = [](const auto& zone) { return std::pair(zone.first.joint, zone.first.quantity); };
   std::sort(signs.begin(), signs.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   return signs;
 }
 
 bool has_pattern(const core::Zone& zone, const Signs& signs) {
   return zone.preload && std::any_of(zone.preload->patterns.begin(), zone.preload->patterns.end(),
-                                     [&](const Signs& own) { return sorted(own) == signs; });
+                                     [&](const Signs& pattern) { return sorted(pattern) == signs; });
 }
 
 /// All zones that efforts with these signs reach from a first one.
@@ -133,8 +133,8 @@ core::PreloadRegion region_from(const core::Zones& map, const core::Zone& first,
     const std::string name = open.back();
     open.pop_back();
     if (std::find(region.zones.begin(), region.zones.end(), name) != region.zones.end()) continue;
-    const auto zone =
-        std::find_if(map.zones.begin(), map.zones.end(), [&](const core::Zone& own) { return own.id == name; });
+    const auto zone = std::find_if(map.zones.begin(), map.zones.end(),
+                                   [&](const core::Zone& candidate) { return candidate.id == name; });
     if (zone == map.zones.end() || !has_pattern(*zone, signs)) continue;
     region.zones.push_back(name);
     region.size += zone->size;
@@ -148,17 +148,17 @@ void find_regions(core::Zones& map) {
   std::vector<core::PreloadRegion>& regions = map.preload_regions;
   for (const core::Zone& zone : map.zones) {
     if (!zone.preload) continue;
-    for (const Signs& own : zone.preload->patterns) {
-      const Signs signs = sorted(own);
-      const bool known = std::any_of(regions.begin(), regions.end(), [&](const core::PreloadRegion& region) {
+    for (const Signs& pattern : zone.preload->patterns) {
+      const Signs signs = sorted(pattern);
+      const bool is_present = std::any_of(regions.begin(), regions.end(), [&](const core::PreloadRegion& region) {
         return region.mode == zone.mode && region.signs == signs &&
                std::find(region.zones.begin(), region.zones.end(), zone.id) != region.zones.end();
       });
-      if (!known) regions.push_back(region_from(map, zone, signs));
+      if (!is_present) regions.push_back(region_from(map, zone, signs));
     }
   }
   std::vector<core::WorkingMode> modes;
-  for (const core::ZonedMode& own : map.modes) modes.push_back(own.mode);
+  for (const core::ZonedMode& mode : map.modes) modes.push_back(mode.mode);
   const auto key = [&](const core::PreloadRegion& region) {
     return std::pair(std::find(modes.begin(), modes.end(), region.mode) - modes.begin(), -region.size);
   };

@@ -34,8 +34,8 @@ using loci::pose::PoseCell;
 core::ZoneBorder border_of(const core::PoseStatics& statics, Doubt doubt, int demand) {
   if (doubt == Doubt::workspace) return {.kind = core::LocusKind::workspace_boundary};
   if (doubt == Doubt::singularity) return {.kind = core::LocusKind::direct_singularity};
-  const core::TaskDemand& own = statics.demands[static_cast<std::size_t>(demand)].demand;
-  return {.kind = locus_kind_of(own), .vanishing = {{own.joint, own.quantity, 1}}};
+  const core::TaskDemand& task_demand = statics.demands[static_cast<std::size_t>(demand)].demand;
+  return {.kind = locus_kind_of(task_demand), .vanishing = {{task_demand.joint, task_demand.quantity, 1}}};
 }
 
 /// Of |A| and of what has one component, at the zone's sample: they are those of all of it.
@@ -47,10 +47,12 @@ void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& mo
   // Of a group that continuation did not lead to the sample it is not told.
   zone.assembly_mode = determinant.value > 0 ? 1 : determinant.value < 0 ? -1 : 0;
   for (std::size_t d = 0; d < statics.demands.size(); ++d) {
-    const std::vector<double>& own = at->components[d].front();
+    const std::vector<double>& component = at->components[d].front();
     const core::TaskDemand& demand = statics.demands[d].demand;
-    if (own.size() == 1 && !demand.bound)
-      zone.signs.emplace_back(core::Vanishing{demand.joint, demand.quantity, 1}, own[0] > 0 ? 1 : own[0] < 0 ? -1 : 0);
+    if (component.size() == 1 && !demand.bound)
+      zone.signs.emplace_back(core::Vanishing{demand.joint, demand.quantity, 1}, component[0] > 0   ? 1
+                                                                                 : component[0] < 0 ? -1
+                                                                                                    : 0);
   }
 }
 
@@ -105,8 +107,8 @@ class Ends {
   /// Where the zone beyond an end begins; the end itself where there is none so near.
   static double start_beyond(const std::vector<loci::pose::CellZone>& all, bool upper, double at, double reach) {
     double best = at, nearest = reach;
-    for (const loci::pose::CellZone& own : all) {
-      const double start = upper ? own.lower[0] : own.upper[0], apart = upper ? start - at : at - start;
+    for (const loci::pose::CellZone& zone : all) {
+      const double start = upper ? zone.lower[0] : zone.upper[0], apart = upper ? start - at : at - start;
       if (apart < 0 || apart > nearest) continue;
       nearest = apart;
       best = start;
@@ -116,59 +118,59 @@ class Ends {
 
   /// `beyond`: where the next zone begins.
   core::ZoneEnd end_at(double at, double beyond, double apart, const std::set<std::pair<Doubt, int>>& open) {
-    core::ZoneEnd own;
-    own.at = at;
+    core::ZoneEnd end;
+    end.at = at;
     const std::vector<double> before = {std::min(at, beyond) - apart}, behind = {std::max(at, beyond) + apart};
     const auto holds = [&](Doubt doubt) {
       return std::any_of(open.begin(), open.end(), [&](const auto& one) { return one.first == doubt; });
     };
     if (holds(Doubt::workspace)) {
-      own.kind = core::LocusKind::workspace_boundary;
+      end.kind = core::LocusKind::workspace_boundary;
       for (const double beside_it : {at - apart, at + apart})  // the one beyond the end breaks the limit
-        if (own.limit.empty())
-          own.limit = limit_at(model_.mechanism, model_, std::vector<double>{beside_it}, sides_, 0);
+        if (end.limit.empty())
+          end.limit = limit_at(model_.mechanism, model_, std::vector<double>{beside_it}, sides_, 0);
       for (const loci::pose::SheetEnd& sheet : dead_centres_)
         if (sheet.lower <= at + 0.1 * apart && sheet.upper >= at - 0.1 * apart) {
-          own.cause = "dead centre of group " + statics_.program.blocks[sheet.block].name;
-          own.certified = sheet.proven;
+          end.cause = "dead centre of group " + statics_.program.blocks[sheet.block].name;
+          end.certified = sheet.proven;
         }
-      return own;
+      return end;
     }
     if (holds(Doubt::singularity)) {
-      own.kind = core::LocusKind::direct_singularity;
-      return own;
+      end.kind = core::LocusKind::direct_singularity;
+      return end;
     }
-    add_vanishing(own, before, behind, apart, open);
-    own.limit = flank_of(own, before, behind);
-    if (own.zero)
-      add_jump(own, *own.zero - apart, *own.zero + apart);
+    add_vanishing(end, before, behind, apart, open);
+    end.limit = flank_of(end, before, behind);
+    if (end.zero)
+      add_jump(end, *end.zero - apart, *end.zero + apart);
     else if (std::abs(beyond - at) <= apart)
-      add_jump(own, before.front(), behind.front());
-    return own;
+      add_jump(end, before.front(), behind.front());
+    return end;
   }
 
   /// Of what may vanish at an end that which turns; where nothing does, all of it.
-  void add_vanishing(core::ZoneEnd& own, const std::vector<double>& before, const std::vector<double>& behind,
+  void add_vanishing(core::ZoneEnd& end, const std::vector<double>& before, const std::vector<double>& behind,
                      double apart, const std::set<std::pair<Doubt, int>>& open) {
     bool elsewhere = false;
     const auto add = [&](Doubt doubt, int demand) {
       const core::ZoneBorder border = border_of(statics_, doubt, demand);
-      own.kind = own.vanishing.empty() ? *border.kind : std::min(own.kind, *border.kind);
-      own.vanishing.push_back(border.vanishing.front());
+      end.kind = end.vanishing.empty() ? *border.kind : std::min(end.kind, *border.kind);
+      end.vanishing.push_back(border.vanishing.front());
     };
     for (const auto& [doubt, demand] : open) {
       if (!turns(cell_, before, behind, demand)) continue;
-      own.turns = true;
+      end.turns = true;
       const double zero = zero_between(before, behind, demand);
-      if (!own.zero) own.zero = zero;
-      elsewhere = elsewhere || std::abs(zero - *own.zero) > 4 * apart;
+      if (!end.zero) end.zero = zero;
+      elsewhere = elsewhere || std::abs(zero - *end.zero) > 4 * apart;
       add(doubt, demand);
     }
-    if (own.vanishing.empty())
+    if (end.vanishing.empty())
       for (const auto& [doubt, demand] : open) add(doubt, demand);
     if (!elsewhere) return;
-    own.turns = false;  // where each of them vanishes is not told
-    own.zero.reset();
+    end.turns = false;  // where each of them vanishes is not told
+    end.zero.reset();
   }
 
   /// Where what turns between two poses does so.
@@ -193,8 +195,8 @@ class Ends {
     return {};
   }
 
-  void add_jump(core::ZoneEnd& own, double before, double behind) const {
-    if (!jumps_ || (own.kind != core::LocusKind::contact_loss && own.kind != core::LocusKind::backlash)) return;
+  void add_jump(core::ZoneEnd& end, double before, double behind) const {
+    if (!jumps_ || (end.kind != core::LocusKind::contact_loss && end.kind != core::LocusKind::backlash)) return;
     const std::array<double, 2> poses = {before, behind};
     const numeric::ErrorSamples errors = numeric::error_samples(model_, poses, sides_, true, false);
     // A difference this much smaller than the errors is no jump, but rounding and the way between the two poses.
@@ -215,7 +217,7 @@ class Ends {
     constexpr double least_turn = 1e-6;  // 1/m
     subtract(jump.rotation, first.rotation,
              std::max(errors.error[0].dalpha.norm(), least_turn * errors.error[0].dp.norm()));
-    if (finite) own.jump = std::move(jump);
+    if (finite) end.jump = std::move(jump);
   }
 
   const core::PoseStatics& statics_;
@@ -248,8 +250,8 @@ void leave_rigid(loci::pose::CellZones& found, const numeric::NumericModel& mode
   }
   for (int& label : found.raster) {
     if (label <= 0) continue;
-    const std::size_t own = place[static_cast<std::size_t>(label) - 1];
-    label = own < place.size() ? static_cast<int>(own) + 1 : -1;
+    const std::size_t new_label = place[static_cast<std::size_t>(label) - 1];
+    label = new_label < place.size() ? static_cast<int>(new_label) + 1 : -1;
   }
   found.zones = std::move(kept);
 }
@@ -336,13 +338,13 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   loci::pose::CellZones found = loci::pose::cell_zones(statics, ground.lower, ground.upper, effort);
   const std::vector<loci::pose::CellZone> all = found.zones;
   leave_rigid(found, model, sides);
-  core::ZonedMode own;
-  own.mode = mode_of(sides, map.loci.tower);
-  own.outside = found.outside;
-  own.in_doubt = found.in_doubt;
-  own.cells = found.cells;
-  own.workspace = found.in_doubt;
-  for (const loci::pose::CellZone& cells : found.zones) own.workspace += cells.at_least;
+  core::ZonedMode mode;
+  mode.mode = mode_of(sides, map.loci.tower);
+  mode.outside = found.outside;
+  mode.in_doubt = found.in_doubt;
+  mode.cells = found.cells;
+  mode.workspace = found.in_doubt;
+  for (const loci::pose::CellZone& cells : found.zones) mode.workspace += cells.at_least;
   if (found.out_of_time) map.loci.complete = false, map.loci.out_of_time = true;
   const std::size_t before = map.zones.size();
   PoseCell cell(statics);
@@ -351,7 +353,7 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   for (std::size_t z = 0; z < found.zones.size(); ++z) {
     Zone zone = zone_of(found.zones[z], statics, before);
     zone.id = zone_name(before + z);
-    zone.mode = own.mode;
+    zone.mode = mode.mode;
     if (const auto ball =
             loci::pose::largest_ball(found.zones[z], z, found.raster, map.grid, ground.lower, ground.upper))
       zone.ball = *ball;
@@ -360,26 +362,26 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
     map.zones.push_back(std::move(zone));
   }
   part_at_zeros(ground.mechanism, std::span(map.zones).subspan(before));
-  own.labels = std::move(found.raster);
-  for (int& label : own.labels)
+  mode.labels = std::move(found.raster);
+  for (int& label : mode.labels)
     if (label > 0) label += static_cast<int>(before);
   if (ground.lower.size() == 1 && ground.mechanism.coordinates.front().angle)
-    note_meeting_ends(own.mode, {ground.lower[0], ground.upper[0]}, map);
-  map.modes.push_back(std::move(own));
+    note_meeting_ends(mode.mode, {ground.lower[0], ground.upper[0]}, map);
+  map.modes.push_back(std::move(mode));
 }
 
 }  // namespace
 
 bool changes_through_zero(const mechanism::Mechanism& mechanism, const core::Vanishing& what) {
   return what.quantity != core::Quantity::f ||
-         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& own) {
-           return own.name == what.joint && mechanism::keeps_to_known_line(mechanism, own);
+         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
+           return joint.name == what.joint && mechanism::keeps_to_known_line(mechanism, joint);
          });
 }
 
 Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& request) {
-  if (const std::optional<Framed> own = framed(mechanism, Scaling::none))
-    return from_frame(zones_by_cells(own->mechanism, request), mechanism, own->frame);
+  if (const std::optional<Framed> scaled = framed(mechanism, Scaling::none))
+    return from_frame(zones_by_cells(scaled->mechanism, request), mechanism, scaled->frame);
   require_coordinates(mechanism, 1, 3, "zones are cut");
   check_sides(mechanism, request.loci);
   Zones map;

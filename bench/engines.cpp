@@ -183,18 +183,18 @@ Covering branch_and_prune(const SheetProgram& program, const clearloci::core::Wo
   Covering covering;
   std::vector<Box> open = {box};
   while (!open.empty()) {
-    const Box own = open.back();
+    const Box next_box = open.back();
     open.pop_back();
     ++covering.examined;
-    if (!cell.enter(own.x, own.y) || !cell.value(0).contains_zero()) continue;
-    if (std::max(own.x.width(), own.y.width()) <= width) {
-      covering.middles.push_back({own.x.middle(), own.y.middle()});
+    if (!cell.enter(next_box.x, next_box.y) || !cell.value(0).contains_zero()) continue;
+    if (std::max(next_box.x.width(), next_box.y.width()) <= width) {
+      covering.middles.push_back({next_box.x.middle(), next_box.y.middle()});
       continue;
     }
-    Box halves[2] = {own, own};
-    const bool across = own.x.width() >= own.y.width();
+    Box halves[2] = {next_box, next_box};
+    const bool across = next_box.x.width() >= next_box.y.width();
     for (const bool upper : {false, true}) {
-      const Interval& whole = across ? own.x : own.y;
+      const Interval& whole = across ? next_box.x : next_box.y;
       Interval& part = across ? halves[upper].x : halves[upper].y;
       part = upper ? Interval(whole.middle(), whole.upper()) : Interval(whole.lower(), whole.middle());
     }
@@ -207,7 +207,7 @@ Covering branch_and_prune(const SheetProgram& program, const clearloci::core::Wo
 double deviation(Factor& factor, const Covering& covering) {
   std::vector<double> off;
   for (const Point2& middle : covering.middles)
-    if (const std::optional<double> own = factor.distance(middle)) off.push_back(*own);
+    if (const std::optional<double> distance = factor.distance(middle)) off.push_back(*distance);
   if (off.empty()) return std::numeric_limits<double>::infinity();
   const auto last = off.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(off.size() - 1));
   std::nth_element(off.begin(), last, off.end());
@@ -306,10 +306,10 @@ int main(int argc, char** argv) {
   request.quantities = {clearloci::core::Quantity::M};
   request.engine = clearloci::Engine::adaptive;
   const clearloci::core::LocusProblem problem = clearloci::trace_problem(mechanism, request).problem;
-  const auto own = std::find_if(problem.factors.begin(), problem.factors.end(), [](const auto& factor) {
+  const auto found = std::find_if(problem.factors.begin(), problem.factors.end(), [](const auto& factor) {
     return factor.role == clearloci::core::FactorRole::reaction;
   });
-  Factor factor(problem, *own);
+  Factor factor(problem, *found);
 
   nlohmann::ordered_json result;
   double accuracy = 0;
@@ -331,7 +331,7 @@ int main(int argc, char** argv) {
     accuracy = result["cost"].back()["deviation"];
     result["limit"] = limit(factor, box_of(problem), vertices);
   }
-  clearloci::core::LocusFactor expanded = *own;
+  clearloci::core::LocusFactor expanded = *found;
   expanded.line = {};
   Factor by_polynomial(problem, expanded);
   result["branch_and_prune"] = {

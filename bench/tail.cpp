@@ -46,12 +46,12 @@ std::optional<Drawn> draw(int number, unsigned seed) {
   Drawn drawn{number, number % test::task_design_kinds, number / test::task_design_kinds % 2 == 0, {}, {}};
   drawn.model = test::random_design(random, drawn.kind, drawn.lattice);
   try {
-    const mechanism::Mechanism own = mechanism::parse_mechanism(drawn.model, "random.yaml");
-    const auto shape = test::random_shape(random, own, drawn.lattice);
+    const mechanism::Mechanism parse_mechanism = mechanism::parse_mechanism(drawn.model, "random.yaml");
+    const auto shape = test::random_shape(random, parse_mechanism, drawn.lattice);
     if (!shape) return std::nullopt;
     drawn.task = "format: 1\n" + *shape;
-    const core::Task alone = mechanism::parse_task(drawn.task, "task.yaml", own);
-    drawn.task += test::random_wishes(random, own, alone.shape, drawn.lattice) + "\n";
+    const core::Task alone = mechanism::parse_task(drawn.task, "task.yaml", parse_mechanism);
+    drawn.task += test::random_wishes(random, parse_mechanism, alone.shape, drawn.lattice) + "\n";
   } catch (const core::InputError&) {
     return std::nullopt;
   }

@@ -72,14 +72,14 @@ class ArcCheck {
   }
 
   void run() {
-    for (KnownArc& known : arcs_) {
-      if (known.curve->mode != curve_.claim.mode || !kind_fits(known.curve->kind, curve_.claim.role)) continue;
-      if (!is_mine(*known.curve, *known.arc)) continue;
-      if (known.curve->certified)
-        match(*known.arc);
+    for (KnownArc& arc : arcs_) {
+      if (arc.curve->mode != curve_.claim.mode || !kind_fits(arc.curve->kind, curve_.claim.role)) continue;
+      if (!is_mine(*arc.curve, *arc.arc)) continue;
+      if (arc.curve->certified)
+        match(*arc.arc);
       else
         uncertain_ = true;
-      known.sheet = part_.number;
+      arc.sheet = part_.number;
     }
     for (std::size_t p = 0; p < covered_.size(); ++p) check_path(curve_.paths[p], covered_[p]);
   }
@@ -165,7 +165,8 @@ class ArcCheck {
     bool open = false;
     const std::vector<Spot> there = curve_.spots(arc.points[next], reach_of(arc, next), open);
     std::stable_partition(here.begin(), here.end(), [&](const Spot& spot) {
-      return std::any_of(there.begin(), there.end(), [&](const Spot& own) { return own.path == spot.path; });
+      return std::any_of(there.begin(), there.end(),
+                         [&](const Spot& candidate) { return candidate.path == spot.path; });
     });
   }
 
@@ -177,12 +178,12 @@ class ArcCheck {
     double step = 0;
     for (const Spot& spot : here) {
       if (runs.empty() || spot.path != runs.back().path) continue;
-      double own = spot.along - runs.back().last;
+      double behind = spot.along - runs.back().last;
       const double n = length_of(path_of(spot.path));
-      if (path_of(spot.path).closed) own -= n * std::nearbyint(own / n);
-      if (best != nullptr && std::abs(own) >= std::abs(step)) continue;
+      if (path_of(spot.path).closed) behind -= n * std::nearbyint(behind / n);
+      if (best != nullptr && std::abs(behind) >= std::abs(step)) continue;
       best = &spot;
-      step = own;
+      step = behind;
     }
     // What comes out of an open cell elsewhere on the same path has passed that cell.
     if (best == nullptr || (was_open && std::abs(step) > 1)) {
@@ -352,8 +353,8 @@ class ArcCheck {
     return std::all_of(path.steps.begin(), path.steps.end(), [&](const Step& step) {
       return std::all_of(std::begin(curve_.piece(step).ends), std::end(curve_.piece(step).ends), [&](const End& end) {
         const Point2 at = curve_.junction(end.junction).place.at();
-        return std::any_of(arcs_.begin(), arcs_.end(), [&](const KnownArc& known) {
-          return known.sheet == part_.number && passes_near(known.arc->points, at, 1.5 * c_.tolerance);
+        return std::any_of(arcs_.begin(), arcs_.end(), [&](const KnownArc& arc) {
+          return arc.sheet == part_.number && passes_near(arc.arc->points, at, 1.5 * c_.tolerance);
         });
       });
     });
@@ -405,7 +406,7 @@ class ArcCheck {
     std::vector<const core::StraightLine*> functions = {&curve_.program};
     for (const core::StraightLine& root : roots_) functions.push_back(&root);
     Sheet all(parts_of(c_, curve_.claim.mode, curve_.claim.at_zero), functions);
-    bool nothing = false, known = true;
+    bool nothing = false, decided = true;
     const double tiny = smallest_box * curve_.size;
     const bool done = explore(path, gap, all, [&](const Left& left, bool entered) {
       const Rectangle& box = left.box;
@@ -421,10 +422,10 @@ class ArcCheck {
       if (inside)
         nothing = is_missing(place->at());
       else
-        known = known && place && !all.enter(place->x, place->y);
+        decided = decided && place && !all.enter(place->x, place->y);
       return true;
     });
-    if (!done || !known)
+    if (!done || !decided)
       note(fmt::format("whether its piece from ({}, {}) to ({}, {}) lies in the workspace", gap.a[0], gap.a[1],
                        gap.b[0], gap.b[1]));
     return !nothing;
@@ -474,12 +475,12 @@ class ArcCheck {
       if (!sheet.enter(around(at[0], reach), around(at[1], reach))) continue;
       for (int f = 1; f < n; ++f) {
         const int sign = sheet.value(f).sign();
-        int& known = signs[static_cast<std::size_t>(f)];
-        if (sign * known < 0 && !is_corner(sheet, part.points, i))
+        int& claimed_sign = signs[static_cast<std::size_t>(f)];
+        if (sign * claimed_sign < 0 && !is_corner(sheet, part.points, i))
           curve_.fail(fmt::format("|A| changes its sign along an arc from ({}, {}) to ({}, {}), which is not cut there",
                                   part.a[0], part.a[1], part.b[0], part.b[1]));
-        touched = touched || sign * known < 0;
-        if (sign != 0) known = sign;
+        touched = touched || sign * claimed_sign < 0;
+        if (sign != 0) claimed_sign = sign;
         if (!sheet.enter(around(at[0], reach), around(at[1], reach))) break;
       }
     }

@@ -49,9 +49,10 @@ class Reader {
     for (const Json& name : array(root, "quantities")) c.quantities.push_back(quantity(text(name)));
     for (const Json& entry : array(root, "roots")) {
       c.root_points.push_back(text(entry, "point"));
-      const std::string own = text(entry, "role");
-      if (own == "limit") c.limit_roots.push_back(static_cast<int>(c.root_roles.size()));
-      c.root_roles.push_back(own == "length" || own == "limit" ? core::RootRole::length : core::RootRole::working_mode);
+      const std::string role = text(entry, "role");
+      if (role == "limit") c.limit_roots.push_back(static_cast<int>(c.root_roles.size()));
+      c.root_roles.push_back(role == "length" || role == "limit" ? core::RootRole::length
+                                                                 : core::RootRole::working_mode);
       c.squares.push_back(program(text(entry, "square"), 2 + c.squares.size()));
     }
     if (c.squares.size() > most_roots) fail("too many roots");
@@ -183,18 +184,18 @@ class Reader {
         continue;
       }
       StraightLine::Step step;
-      const std::size_t known = line.steps.size(), comma = rest.find(',');
+      const std::size_t count_before = line.steps.size(), comma = rest.find(',');
       if (word[0] == 'v') {
         step.operation = StraightLine::Operation::variable;
         step.first = small(rest, variables - 1);
       } else {
-        if (known == 0) fail("a program begins with nothing");
-        step.first = small(rest.substr(0, comma), known - 1);
+        if (count_before == 0) fail("a program begins with nothing");
+        step.first = small(rest.substr(0, comma), count_before - 1);
         if (word[0] == 'i') {
           step.operation = StraightLine::Operation::inverse;
         } else {
           if (comma == std::string::npos) fail("a step lacks a number");
-          step.second = small(rest.substr(comma + 1), known - 1);
+          step.second = small(rest.substr(comma + 1), count_before - 1);
           const std::string operations = "+-*a";
           const std::size_t which = operations.find(word[0]);
           if (which == std::string::npos) fail("an unknown step");
@@ -267,11 +268,11 @@ class Reader {
 
   CurveClaim curve(const Json& entry, const CertificateFile& c) const {
     CurveClaim curve{mode(entry, c), kind(text(entry, "kind")), vanishing(entry), boolean(entry, "certified"), {}};
-    for (const Json& own : array(entry, "arcs")) {
+    for (const Json& value : array(entry, "arcs")) {
       core::Arc arc;
-      arc.closed = boolean(own, "closed");
-      for (std::size_t i = 0; i < 2; ++i) arc.ends[i] = end(text(array(own, "ends"), i));
-      arc.points = polyline(at(own, "points"));
+      arc.closed = boolean(value, "closed");
+      for (std::size_t i = 0; i < 2; ++i) arc.ends[i] = end(text(array(value, "ends"), i));
+      arc.points = polyline(at(value, "points"));
       if (arc.points.size() < 2) fail("an arc needs two points");
       curve.arcs.push_back(std::move(arc));
     }

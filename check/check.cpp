@@ -87,7 +87,8 @@ class Check {
     std::set<core::WorkingMode> different(c_.modes.begin(), c_.modes.end());
     if (c_.modes.empty() || different.size() != c_.modes.size()) throw FalseClaim("modes: there is none, or one twice");
     for (const std::string& joint : c_.joints)
-      if (std::none_of(m_.joints.begin(), m_.joints.end(), [&](const auto& own) { return own.name == joint; }))
+      if (std::none_of(m_.joints.begin(), m_.joints.end(),
+                       [&](const auto& candidate) { return candidate.name == joint; }))
         throw FalseClaim("joints: '" + joint.substr(0, 40) + "' is none of the model's");
   }
 
@@ -170,10 +171,10 @@ class Check {
     check_points(m_, c_, mode, orders, examination_);
     for (SheetCells& sheet : sheets) {
       for (const int j : sheet.at_zero) {
-        const auto own = std::find(roots.begin(), roots.end(), j) - roots.begin();
-        if (own == static_cast<std::ptrdiff_t>(roots.size()) ||
+        const auto root = std::find(roots.begin(), roots.end(), j) - roots.begin();
+        if (root == static_cast<std::ptrdiff_t>(roots.size()) ||
             !std::all_of(makers(sheet.function).begin(), makers(sheet.function).end(),
-                         [&](int maker) { return has_zeros(orders.squares[static_cast<std::size_t>(own)], maker); }))
+                         [&](int maker) { return has_zeros(orders.squares[static_cast<std::size_t>(root)], maker); }))
           throw FalseClaim(name(sheet.function) + ": it does not vanish with the root that is said to be zero");
       }
       check_sheet(sheet, {0, singular, vanishing_with(orders, makers(sheet.function))});
@@ -238,11 +239,12 @@ class Check {
   void need_reactions(const Orders& orders, const Need& need) const {
     const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     for (const std::string& joint : c_.joints) {
-      const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
-      const std::vector<Quantity> parts = mechanism::contact_components(m_, *own);
+      const auto found =
+          std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
+      const std::vector<Quantity> parts = mechanism::contact_components(m_, *found);
       std::vector<const std::vector<int>*> components;
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
-        if (unknowns[k].joint != own - m_.joints.begin() || !orders.reactions[k]) continue;
+        if (unknowns[k].joint != found - m_.joints.begin() || !orders.reactions[k]) continue;
         const Quantity quantity = unknowns[k].quantity;
         if (std::find(parts.begin(), parts.end(), quantity) != parts.end()) components.push_back(&*orders.reactions[k]);
         if (std::find(c_.quantities.begin(), c_.quantities.end(), quantity) == c_.quantities.end()) continue;
@@ -261,9 +263,9 @@ class Check {
   }
 
   bool has_reaction_arc(int mode, const core::Point2& at) const {
-    for (const KnownArc& known : arcs_) {
-      if (known.curve->mode != mode || known.curve->kind > core::LocusKind::component) continue;
-      if (passes_near(known.arc->points, at, 2.5 * c_.tolerance)) return true;
+    for (const KnownArc& arc : arcs_) {
+      if (arc.curve->mode != mode || arc.curve->kind > core::LocusKind::component) continue;
+      if (passes_near(arc.arc->points, at, 2.5 * c_.tolerance)) return true;
     }
     return false;
   }
@@ -284,9 +286,9 @@ class Check {
   }
 
   /// What is wrong with what an arc says near a place; empty: nothing.
-  std::string fault_near(const KnownArc& known, const core::Point2& at, bool& told) const {
-    const CurveClaim& curve = *known.curve;
-    const auto label = label_at(m_, c_, sheets_[static_cast<std::size_t>(known.sheet)], at);
+  std::string fault_near(const KnownArc& arc, const core::Point2& at, bool& told) const {
+    const CurveClaim& curve = *arc.curve;
+    const auto label = label_at(m_, c_, sheets_[static_cast<std::size_t>(arc.sheet)], at);
     const std::set<Reaction> said(curve.vanishing.begin(), curve.vanishing.end());
     const std::string place = fmt::format("near ({}, {})", at[0], at[1]);
     told = label.has_value();
@@ -303,24 +305,24 @@ class Check {
   /// the arc: two of three places decide.
   void check_labels() {
     std::size_t uncertain = 0;
-    for (const KnownArc& known : arcs_) {
-      if (known.sheet == no_pose) continue;
-      if (!known.curve->certified) {
+    for (const KnownArc& arc : arcs_) {
+      if (arc.sheet == no_pose) continue;
+      if (!arc.curve->certified) {
         ++uncertain;
         continue;
       }
-      const std::array<core::Point2, 3> places = places_of(known.arc->points);
+      const std::array<core::Point2, 3> places = places_of(arc.arc->points);
       const std::string place = fmt::format("near ({}, {})", places[0][0], places[0][1]);
-      if (known.sheet < 0) throw FalseClaim("an arc " + place + " is on no curve that the cells prove");
+      if (arc.sheet < 0) throw FalseClaim("an arc " + place + " is on no curve that the cells prove");
       ++examination_.arcs;
-      if (known.curve->kind == core::LocusKind::margin) continue;
+      if (arc.curve->kind == core::LocusKind::margin) continue;
       int told = 0, wrong = 0;
       std::string fault;
       for (const core::Point2& at : places) {
         bool known_here = false;
-        const std::string own = fault_near(known, at, known_here);
+        const std::string near_fault = fault_near(arc, at, known_here);
         told += known_here ? 1 : 0;
-        if (!own.empty()) ++wrong, fault = own;
+        if (!near_fault.empty()) ++wrong, fault = near_fault;
         if (told > 0 && wrong == 0) break;
       }
       if (told == 0)
@@ -354,9 +356,10 @@ std::string bytes_of(const std::string& path) {
 
 /// A model's text is the certificate's. Returns what stands in the file.
 std::string certified_text(const std::string& text, const std::string& file, const std::string& in_certificate) {
-  std::string own = mechanism::model_text(text, file).text;
-  if (!same_text(own, in_certificate)) throw FalseClaim("model: it is not the file that the certificate was made for");
-  return own;
+  std::string certified_text = mechanism::model_text(text, file).text;
+  if (!same_text(certified_text, in_certificate))
+    throw FalseClaim("model: it is not the file that the certificate was made for");
+  return certified_text;
 }
 
 /// Of poses over any coordinates. `head`: with the text of the model.

@@ -51,7 +51,7 @@ class ClaimReader {
   }
   std::vector<Rational> rationals(const Json& json) const {
     std::vector<Rational> all;
-    for (const Json& own : list(json, most_variables)) all.push_back(rational(own));
+    for (const Json& value : list(json, most_variables)) all.push_back(rational(value));
     return all;
   }
   core::Quantity quantity(const std::string& name) const {
@@ -82,8 +82,8 @@ class ClaimReader {
   }
   std::vector<core::TaskDemand> demands(const Json& json) const {
     std::vector<core::TaskDemand> all;
-    for (const Json& own : list(json, most_demands))
-      all.push_back({text(item(own, 0)), quantity(text(item(own, 1))), rational(item(own, 2))});
+    for (const Json& value : list(json, most_demands))
+      all.push_back({text(item(value, 0)), quantity(text(item(value, 1))), rational(item(value, 2))});
     return all;
   }
 

@@ -18,8 +18,8 @@ namespace clearloci::check {
 struct Leaf {
   Rectangle cell;
   core::CellNode claim;
-  int origin = 0;    ///< the cell of the certificate that it is, or a part of
-  bool own = false;  ///< a part of a cell of which nothing was claimed
+  int origin = 0;          ///< the cell of the certificate that it is, or a part of
+  bool unclaimed = false;  ///< a part of a cell of which nothing was claimed
 };
 
 struct Node {

@@ -37,10 +37,10 @@ class GroupAt {
     Jet::Offsets longer = offsets_;
     longer.insert(longer.end(), around.begin(), around.end());
     PoseVariables variables = variables_;
-    for (Jet& own : variables.values) own = own.over(longer);
+    for (Jet& value : variables.values) value = value.over(longer);
     std::vector<VectorOf<Jet>> places;
-    for (const VectorOf<Jet>& own : before_)
-      places.push_back({own[0].over(longer), own[1].over(longer), own[2].over(longer)});
+    for (const VectorOf<Jet>& jet : before_)
+      places.push_back({jet[0].over(longer), jet[1].over(longer), jet[2].over(longer)});
     std::size_t k = 0;
     for (std::size_t i = 0; i < group_.count; ++i) {
       places.emplace_back();
@@ -62,18 +62,18 @@ class GroupAt {
       return points.at(static_cast<std::size_t>(to)) - points.at(static_cast<std::size_t>(from));
     };
     Equations result;
-    const auto add = [&](const Jet& own) {
-      result.middle.push_back(own.middle());
-      std::vector<Interval> slopes = own.slopes();
+    const auto add = [&](const Jet& jet) {
+      result.middle.push_back(jet.middle());
+      std::vector<Interval> slopes = jet.slopes();
       slopes.resize(coordinates, Interval(cell_bits));
       const auto end = slopes.begin() + static_cast<std::ptrdiff_t>(offsets_.size());
       result.by_pose.emplace_back(slopes.begin(), end);
       result.by_unknown.emplace_back(end, slopes.end());
     };
-    for (const Group::Distance& own : group_.distances)
-      add(square_of(way(own.second, own.first)) - squared(values.value(own.length)));
-    for (const Group::Line& own : group_.lines)
-      add(cross(way(own.point, own.base), values.vector(own.along, points))[2]);
+    for (const Group::Distance& distance : group_.distances)
+      add(square_of(way(distance.second, distance.first)) - squared(values.value(distance.length)));
+    for (const Group::Line& line : group_.lines)
+      add(cross(way(line.point, line.base), values.vector(line.along, points))[2]);
     return result;
   }
 
@@ -89,7 +89,7 @@ std::optional<Dense> inverse_of_middle(const Matrix& jacobian) {
   Dense middle;
   for (const std::vector<Interval>& row : jacobian) {
     middle.emplace_back();
-    for (const Interval& own : row) middle.back().push_back(own.middle());
+    for (const Interval& interval : row) middle.back().push_back(interval.middle());
   }
   return inverse_of(std::move(middle));
 }
@@ -109,18 +109,18 @@ std::vector<Interval> column_of(const Matrix& matrix, std::size_t c) {
 /// A zero of g at a pose, to the last bits; nothing where Newton's iteration leads nowhere.
 std::optional<std::vector<Interval>> refined(const GroupAt& pose, std::span<const double> start) {
   std::vector<Interval> u;
-  for (const double own : start) u.emplace_back(own, cell_bits);
+  for (const double component : start) u.emplace_back(component, cell_bits);
   const std::vector<Interval> nothing(u.size(), Interval(cell_bits));
   double last = HUGE_VAL;
   constexpr int most = 60;
   constexpr double done = 0x1p-110;
   for (int i = 0; i < most; ++i) {
-    const std::optional<Equations> own = pose.at(u, nothing);
-    const std::optional<Dense> inverse = own ? inverse_of_middle(own->by_unknown) : std::nullopt;
+    const std::optional<Equations> equations = pose.at(u, nothing);
+    const std::optional<Dense> inverse = equations ? inverse_of_middle(equations->by_unknown) : std::nullopt;
     if (!inverse) return std::nullopt;
     double step = 0, size = 0;
     for (std::size_t k = 0; k < u.size(); ++k) {
-      const Interval way = product((*inverse)[k], own->middle);
+      const Interval way = product((*inverse)[k], equations->middle);
       step = std::max(step, size_of(way));
       u[k] = middle_of(u[k] - way);
       size = std::max(size, size_of(u[k]));
@@ -142,7 +142,7 @@ struct Closed {
 std::optional<std::vector<double>> bound_of(const std::vector<Interval>& b, const Matrix& e) {
   const std::size_t n = b.size();
   double most = 0;
-  for (const Interval& own : b) most = std::max(most, size_of(own));
+  for (const Interval& interval : b) most = std::max(most, size_of(interval));
   std::vector<double> d(n, 0.0);
   constexpr int attempts = 200;
   for (int attempt = 0; attempt < attempts; ++attempt) {
@@ -176,15 +176,15 @@ class Krawczyk {
 
   std::optional<Closed> run(std::vector<double>& spreads) {
     double size = 0;
-    for (const Interval& own : u_) size = std::max(size, size_of(own));
+    for (const Interval& interval : u_) size = std::max(size, size_of(interval));
     std::vector<double> radius(n_, 0x1p-105 * size);
     constexpr int attempts = 8;
     for (int attempt = 0; attempt < attempts; ++attempt) {
       std::vector<Interval> around;
-      for (const double own : radius) around.push_back(between(own));
-      const std::optional<Equations> own = cell_.at(u_, around);
-      if (!own) return std::nullopt;
-      std::optional<Closed> result = step(*own, around, spreads);
+      for (const double component : radius) around.push_back(between(component));
+      const std::optional<Equations> equations = cell_.at(u_, around);
+      if (!equations) return std::nullopt;
+      std::optional<Closed> result = step(*equations, around, spreads);
       if (result) return result;
       for (std::size_t k = 0; k < n_; ++k) {
         if (!(size_of(k_[k]) < size)) return std::nullopt;
@@ -195,22 +195,23 @@ class Krawczyk {
   }
 
  private:
-  std::optional<Closed> step(const Equations& own, const std::vector<Interval>& around, std::vector<double>& spreads) {
+  std::optional<Closed> step(const Equations& equations, const std::vector<Interval>& around,
+                             std::vector<double>& spreads) {
     Matrix rest;
     for (std::size_t k = 0; k < n_; ++k) {
       rest.emplace_back();
       for (std::size_t j = 0; j < n_; ++j)
         rest.back().push_back(Interval(k == j ? 1.0 : 0.0, cell_bits) -
-                              product(inverse_[k], column_of(own.by_unknown, j)));
+                              product(inverse_[k], column_of(equations.by_unknown, j)));
     }
     Matrix slopes(n_);
     k_.clear();
     bool inside_all = true;
     std::fill(spreads.begin(), spreads.end(), 0.0);
     for (std::size_t k = 0; k < n_; ++k) {
-      Interval sum = -product(inverse_[k], own.middle);
+      Interval sum = -product(inverse_[k], equations.middle);
       for (std::size_t c = 0; c < offsets_.size(); ++c) {
-        slopes[k].push_back(-product(inverse_[k], column_of(own.by_pose, c)));
+        slopes[k].push_back(-product(inverse_[k], column_of(equations.by_pose, c)));
         const Interval way = slopes[k].back() * offsets_[c];
         sum = sum + way;
         spreads[c] += size_of(way);
@@ -249,7 +250,7 @@ class Closing {
   Closing(const Mechanism& m, const std::vector<int>& sides, const PoseVariables& variables,
           const Jet::Offsets& offsets)
       : m_(m), sides_(sides), variables_(variables), offsets_(offsets) {
-    for (const Jet& own : variables.values) at_middle_.values.emplace_back(own.middle());
+    for (const Jet& value : variables.values) at_middle_.values.emplace_back(value.middle());
     at_middle_.names = variables.names;
   }
 
@@ -308,9 +309,9 @@ std::optional<GroupCell> closed_over(const mechanism::Mechanism& m, const std::v
   Closing closing(m, sides, variables, offsets);
   std::span<const double> rest(start);
   for (const Group& group : m.groups) {
-    const std::size_t own = group.count * mechanism::dimension(m);
-    if (!closing.add(group, rest.first(own), spreads)) return std::nullopt;
-    rest = rest.subspan(own);
+    const std::size_t count = group.count * mechanism::dimension(m);
+    if (!closing.add(group, rest.first(count), spreads)) return std::nullopt;
+    rest = rest.subspan(count);
   }
   return closing.result();
 }

@@ -158,14 +158,14 @@ class Fit {
       first_ = row.size();
       for (const std::size_t f : order_) row.push_back(log_of(sheet.value(static_cast<int>(f))));
       for (const Interval& q : here->squares) row.push_back(log_of(q));
-      std::size_t own = 0, limit = dyads_ - c_.limit_roots.size();
+      std::size_t root = 0, limit = dyads_ - c_.limit_roots.size();
       for (std::size_t j = 0; j < c_.squares.size(); ++j) {
         const Interval square = log_of(sheet.square(static_cast<int>(j)));
         row.push_back(square);
         const bool of_limit =
             std::find(c_.limit_roots.begin(), c_.limit_roots.end(), static_cast<int>(j)) != c_.limit_roots.end();
         if (of_limit || c_.root_roles[j] == core::RootRole::working_mode)
-          root_row.push_back(square - log_of(here->squares[of_limit ? limit++ : own++]));
+          root_row.push_back(square - log_of(here->squares[of_limit ? limit++ : root++]));
       }
       system_.columns = row.size();
       row.push_back(log_of(solved->determinant));

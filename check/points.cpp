@@ -50,11 +50,11 @@ class PointCheck {
 
  private:
   void check_joint(const std::string& joint) {
-    const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
+    const auto found = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
     const std::vector<mechanism::Unknown> unknowns = reactions_of(m_);
     std::vector<const std::vector<int>*> components;
     for (std::size_t k = 0; k < unknowns.size(); ++k)
-      if (unknowns[k].joint == own - m_.joints.begin() && orders_.reactions[k] &&
+      if (unknowns[k].joint == found - m_.joints.begin() && orders_.reactions[k] &&
           (unknowns[k].quantity == Quantity::fx || unknowns[k].quantity == Quantity::fy))
         components.push_back(&*orders_.reactions[k]);
     if (components.size() != 2) return;
@@ -68,12 +68,12 @@ class PointCheck {
   }
 
   const CommonZeros& zeros_of(int f, int g) {
-    const auto [known, fresh] = known_.try_emplace({std::min(f, g), std::max(f, g)});
-    if (!fresh) return known->second;
+    const auto [found, fresh] = known_.try_emplace({std::min(f, g), std::max(f, g)});
+    if (!fresh) return found->second;
     Sheet sheet(parts_of(c_, mode_), {&c_.functions[static_cast<std::size_t>(f)].program,
                                       &c_.functions[static_cast<std::size_t>(g)].program});
-    known->second = common_zeros(sheet, {{box_[0], box_[1], box_[2], box_[3]}}, size_, most_cells);
-    return known->second;
+    found->second = common_zeros(sheet, {{box_[0], box_[1], box_[2], box_[3]}}, size_, most_cells);
+    return found->second;
   }
 
   void check_pair(const std::string& joint, int f, int g) {

@@ -46,13 +46,13 @@ class Sum {
     form_.c = constant;
     size_ = std::abs(constant);
   }
-  void add(double factor, const PoseForm& own) {
-    form_.c += factor * own.c;
-    form_.r += std::abs(factor) * own.r;
-    double size = std::abs(own.c) + own.r;
-    for (std::size_t i = 0; i < own.a.size(); ++i) {
-      form_.a[i] += factor * own.a[i];
-      size += std::abs(own.a[i]);
+  void add(double factor, const PoseForm& form) {
+    form_.c += factor * form.c;
+    form_.r += std::abs(factor) * form.r;
+    double size = std::abs(form.c) + form.r;
+    for (std::size_t i = 0; i < form.a.size(); ++i) {
+      form_.a[i] += factor * form.a[i];
+      size += std::abs(form.a[i]);
     }
     size_ += std::abs(factor) * size;
     ++terms_;
@@ -72,7 +72,8 @@ class Solved {
  public:
   Solved(const PoseEquations& equations, const Jet::Offsets& offsets, const std::vector<LoadBall>& balls)
       : equations_(equations), balls_(balls), n_(equations.unknowns) {
-    for (const Interval& own : offsets) half_.push_back(std::max(std::abs(own.lower()), std::abs(own.upper())));
+    for (const Interval& offset : offsets)
+      half_.push_back(std::max(std::abs(offset.lower()), std::abs(offset.upper())));
     proof_.spreads.assign(half_.size(), 0.0);
     for (const PoseEntry& entry : equations.matrix) entries_.push_back(form_of(entry.value, half_));
   }
@@ -85,7 +86,7 @@ class Solved {
     for (std::size_t d = 0; d < demands.size(); ++d)
       proof_.demands[d] = keeps(equations_.demands[d], std::nextafter(demands[d].least.get_d(), infinite));
     proof_.positive = true;
-    for (const auto& own : equations_.positive) look_at(own);
+    for (const auto& positive_step : equations_.positive) look_at(positive_step);
     return proof_;
   }
 
@@ -103,8 +104,8 @@ class Solved {
       for (std::size_t k = 0; k < n_; ++k) w0_[k] += inverse_[k][i] * right_[i].c;
     }
     double most = 0;
-    for (const double own : w0_) most = std::max(most, std::abs(own));
-    for (const double own : w0_) scale_.push_back(std::abs(own) + 1e-3 * most + 1e-300);
+    for (const double component : w0_) most = std::max(most, std::abs(component));
+    for (const double component : w0_) scale_.push_back(std::abs(component) + 1e-3 * most + 1e-300);
     return std::isfinite(most);
   }
 
@@ -121,7 +122,7 @@ class Solved {
       of_unknown[entry.unknown].push_back(e);
     }
     std::vector<PoseForm> left;
-    for (Sum& own : residual) left.push_back(own.done());
+    for (Sum& sum : residual) left.push_back(sum.done());
     Dense bound(n_, std::vector<double>(n_, 0.0));
     for (std::size_t k = 0; k < n_; ++k) {
       Sum rho(half_.size());
@@ -191,26 +192,26 @@ class Solved {
     proof_.components.emplace_back();
     for (Sum& sum : sums_of(entries)) {
       components.push_back(sum.done());
-      const PoseForm& own = components.back();
-      square += own.c * own.c;
-      const double off = (spread(own) + own.r) * (1 + 0x1p-40);
+      const PoseForm& form = components.back();
+      square += form.c * form.c;
+      const double off = (spread(form) + form.r) * (1 + 0x1p-40);
       proof_.components.back().push_back(
-          {std::nextafter(own.c - off, -infinite), std::nextafter(own.c + off, infinite)});
+          {std::nextafter(form.c - off, -infinite), std::nextafter(form.c + off, infinite)});
     }
     const double length = std::sqrt(square) * (1 + 8 * ulp);
     if (!(length > 0) || !std::isfinite(length)) return false;
     Sum along(half_.size());
-    for (const PoseForm& own : components) along.add(own.c / length, own);
+    for (const PoseForm& form : components) along.add(form.c / length, form);
     return is_above(along.done(), 1 / length, least);
   }
 
-  void look_at(const PoseEquations::Positive& own) {
-    std::vector<Sum> sums = sums_of(own.entries);
+  void look_at(const PoseEquations::Positive& positive) {
+    std::vector<Sum> sums = sums_of(positive.entries);
     if (sums.size() != 1) {
       proof_.positive = false;
       return;
     }
-    sums.front().add(1, form_of(own.constant, half_));
+    sums.front().add(1, form_of(positive.constant, half_));
     const PoseForm form = sums.front().done();
     proof_.positive = is_above(form, 1 / (std::abs(form.c) + std::numeric_limits<double>::min()), 0) && proof_.positive;
     proof_.broken = form.c + (spread(form) + form.r) * (1 + 0x1p-40) < 0 || proof_.broken;
@@ -251,7 +252,7 @@ class Solved {
 }  // namespace
 
 bool PoseCellProof::holds() const {
-  return regular && positive && std::all_of(demands.begin(), demands.end(), [](bool own) { return own; });
+  return regular && positive && std::all_of(demands.begin(), demands.end(), [](bool demand) { return demand; });
 }
 
 PoseCellProof prove_cell(const PoseEquations& equations, const std::vector<core::TaskDemand>& demands,

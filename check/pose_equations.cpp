@@ -53,22 +53,22 @@ class Assembly {
     const Vector moment = cross(arm(point), force);
     return {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
   }
-  static Wrench couple(const Vector& own) { return {Number(), Number(), Number(), own[0], own[1], own[2]}; }
+  static Wrench couple(const Vector& vector) { return {Number(), Number(), Number(), vector[0], vector[1], vector[2]}; }
 
   void each_row(mechanism::LinkIndex link, const Wrench& wrench, const auto& visit) const {
     if (link == mechanism::ground) return;
     for (std::size_t i = 0; i < rows_of_wrench_.size(); ++i)
-      if (const Number& own = wrench[rows_of_wrench_[i]]; !own.is_zero())
-        visit(rows_of_wrench_.size() * static_cast<std::size_t>(link) + i, own);
+      if (const Number& number = wrench[rows_of_wrench_[i]]; !number.is_zero())
+        visit(rows_of_wrench_.size() * static_cast<std::size_t>(link) + i, number);
   }
 
   std::size_t add_unknown(const mechanism::Joint& joint, const Wrench& wrench) {
     const std::size_t unknown = result_.unknowns++;
-    each_row(joint.to, wrench, [&](std::size_t row, const Number& own) {
-      result_.matrix.push_back({row, unknown, own});
+    each_row(joint.to, wrench, [&](std::size_t row, const Number& number) {
+      result_.matrix.push_back({row, unknown, number});
     });
-    each_row(joint.from, wrench, [&](std::size_t row, const Number& own) {
-      result_.matrix.push_back({row, unknown, -own});
+    each_row(joint.from, wrench, [&](std::size_t row, const Number& number) {
+      result_.matrix.push_back({row, unknown, -number});
     });
     return unknown;
   }
@@ -81,46 +81,47 @@ class Assembly {
   }
 
   std::vector<std::size_t> add_forces(const mechanism::Joint& joint, std::size_t count) {
-    std::vector<std::size_t> own;
+    std::vector<std::size_t> unknowns;
     for (std::size_t c = 0; c < count; ++c)
-      own.push_back(add_unknown(joint, force_at(joint.at, unit_along<Number>(c))));
-    return own;
+      unknowns.push_back(add_unknown(joint, force_at(joint.at, unit_along<Number>(c))));
+    return unknowns;
   }
 
   void add_joint(const mechanism::Joint& joint) {
     using mechanism::BorneCouple;
     const mechanism::JointTraits& traits = mechanism::traits(joint);
-    Columns own;
-    own.axis = axis_of(m_, values_, points_, joint);
+    Columns columns;
+    columns.axis = axis_of(m_, values_, points_, joint);
     if (mechanism::is_cable(joint)) {
       if (joint.holds_turning)
         for (std::size_t c = is_planar() ? 2 : 0; c < 3; ++c)
-          own.couple.push_back(add_unknown(joint, couple(unit_along<Number>(c))));
+          columns.couple.push_back(add_unknown(joint, couple(unit_along<Number>(c))));
     } else if (traits.meshes) {
       // Nothing but what its actuator exerts.
     } else if (is_planar() && traits.slides) {
-      own.normal = add_unknown(joint, force_at(joint.at, cross(unit_along<Number>(2), own.axis)));
-      if (!traits.pinned) own.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
+      columns.normal = add_unknown(joint, force_at(joint.at, cross(unit_along<Number>(2), columns.axis)));
+      if (!traits.pinned) columns.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
     } else if (is_planar()) {
-      own.force = add_forces(joint, 2);
+      columns.force = add_forces(joint, 2);
     } else {
-      own.force = add_forces(joint, 3);
-      if (traits.slides && !joint.actuated) add_side_equation(own.axis, own.force);
+      columns.force = add_forces(joint, 3);
+      if (traits.slides && !joint.actuated) add_side_equation(columns.axis, columns.force);
       if (traits.couple == BorneCouple::cross) {
-        add_unknown(joint, couple(across_both(joint, own.axis)));
+        add_unknown(joint, couple(across_both(joint, columns.axis)));
       } else if (traits.couple != BorneCouple::none) {
-        for (std::size_t c = 0; c < 3; ++c) own.couple.push_back(add_unknown(joint, couple(unit_along<Number>(c))));
-        if (traits.turns_about_axis() && (traits.slides || !joint.actuated)) add_side_equation(own.axis, own.couple);
+        for (std::size_t c = 0; c < 3; ++c) columns.couple.push_back(add_unknown(joint, couple(unit_along<Number>(c))));
+        if (traits.turns_about_axis() && (traits.slides || !joint.actuated))
+          add_side_equation(columns.axis, columns.couple);
       }
     }
-    columns_.push_back(std::move(own));
+    columns_.push_back(std::move(columns));
   }
 
-  void add_actuator(const mechanism::Joint& joint, Columns& own) {
+  void add_actuator(const mechanism::Joint& joint, Columns& columns) {
     if (mechanism::actuator_quantity(joint) == Quantity::F)
-      own.along = add_unknown(joint, force_at(joint.at, own.axis));
+      columns.along = add_unknown(joint, force_at(joint.at, columns.axis));
     else
-      own.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
+      columns.couple = {add_unknown(joint, couple(unit_along<Number>(2)))};
   }
 
   /// About what a universal joint bears its couple.
@@ -131,20 +132,20 @@ class Assembly {
   }
 
   void load(mechanism::LinkIndex link, const Wrench& wrench, int sign = 1) {
-    each_row(link, wrench, [&](std::size_t row, const Number& own) {
-      result_.right[row] = sign > 0 ? result_.right[row] - own : result_.right[row] + own;
+    each_row(link, wrench, [&](std::size_t row, const Number& number) {
+      result_.right[row] = sign > 0 ? result_.right[row] - number : result_.right[row] + number;
     });
   }
 
   void add_loads() {
-    for (const mechanism::Load& own : m_.loads) {
-      Vector c = values_.components(own.couple_vector);
-      if (is_planar()) c[2] = values_.value(own.couple);
-      load(own.link, couple(c));
-      if (own.force_vector)
-        load(own.link, force_at(*own.at, values_.vector(*own.force_vector, points_)));
-      else if (!own.force.empty())
-        load(own.link, force_at(*own.at, values_.components(own.force)));
+    for (const mechanism::Load& entry : m_.loads) {
+      Vector c = values_.components(entry.couple_vector);
+      if (is_planar()) c[2] = values_.value(entry.couple);
+      load(entry.link, couple(c));
+      if (entry.force_vector)
+        load(entry.link, force_at(*entry.at, values_.vector(*entry.force_vector, points_)));
+      else if (!entry.force.empty())
+        load(entry.link, force_at(*entry.at, values_.components(entry.force)));
     }
     for (const mechanism::Spring& spring : m_.springs) add_spring(spring);
     for (const mechanism::Joint& joint : m_.joints)
@@ -182,9 +183,9 @@ class Assembly {
 
   void add_effort(const mechanism::Joint& joint) {
     const Vector along = values_.value(*joint.effort) * axis_of(m_, values_, points_, joint);
-    const Wrench own = mechanism::traits(joint).slides ? force_at(joint.at, along) : couple(along);
-    load(joint.to, own);
-    load(joint.from, own, -1);
+    const Wrench wrench = mechanism::traits(joint).slides ? force_at(joint.at, along) : couple(along);
+    load(joint.to, wrench);
+    load(joint.from, wrench, -1);
   }
 
   std::vector<EntryOf<Number>> entries_of(const std::string& joint, Quantity quantity) {
@@ -194,13 +195,13 @@ class Assembly {
       return {{m_.file}, core::to_string(quantity) + "_" + joint + " is borne by no joint of the model", ""};
     };
     if (found == m_.joints.end()) throw refuse();
-    const Columns& own = columns_[static_cast<std::size_t>(found - m_.joints.begin())];
+    const Columns& columns = columns_[static_cast<std::size_t>(found - m_.joints.begin())];
     std::vector<EntryOf<Number>> entries;
     const auto add = [&](std::size_t row, std::size_t unknown, const Number& value) {
       if (!value.is_zero()) entries.push_back({row, unknown, value});
     };
     const auto along_axis = [&](const std::vector<std::size_t>& unknowns) {
-      for (std::size_t c = 0; c < 3; ++c) add(0, unknowns[c], own.axis[c]);
+      for (std::size_t c = 0; c < 3; ++c) add(0, unknowns[c], columns.axis[c]);
     };
     const auto whole = [&](const std::vector<std::size_t>& unknowns) {
       for (std::size_t c = 0; c < unknowns.size(); ++c) add(c, unknowns[c], Values<Number>::number(1.0));
@@ -208,30 +209,30 @@ class Assembly {
     if (is_guide_end(quantity) && mechanism::has_guide_ends(m_, *found)) {
       const Number half = Values<Number>::number(0.5);
       const Number tilt = half / values_.value(found->clearance->half_length);
-      add(0, *own.normal, half);
-      add(0, own.couple.front(), quantity == Quantity::end_ahead ? tilt : -tilt);
+      add(0, *columns.normal, half);
+      add(0, columns.couple.front(), quantity == Quantity::end_ahead ? tilt : -tilt);
     } else if (quantity == Quantity::F && found->actuated && mechanism::actuator_quantity(*found) == Quantity::F) {
-      if (own.along)
-        add(0, *own.along, Values<Number>::number(1.0));
+      if (columns.along)
+        add(0, *columns.along, Values<Number>::number(1.0));
       else
-        along_axis(own.force);
-    } else if (quantity == Quantity::M && found->actuated && !own.couple.empty() && !own.normal) {
+        along_axis(columns.force);
+    } else if (quantity == Quantity::M && found->actuated && !columns.couple.empty() && !columns.normal) {
       if (is_planar())
-        add(0, own.couple.front(), Values<Number>::number(1.0));
+        add(0, columns.couple.front(), Values<Number>::number(1.0));
       else
-        along_axis(own.couple);
-    } else if (quantity == Quantity::f && own.normal) {
-      add(0, *own.normal, Values<Number>::number(1.0));
-      if (!own.couple.empty()) add(1, own.couple.front(), Values<Number>::number(1.0));
+        along_axis(columns.couple);
+    } else if (quantity == Quantity::f && columns.normal) {
+      add(0, *columns.normal, Values<Number>::number(1.0));
+      if (!columns.couple.empty()) add(1, columns.couple.front(), Values<Number>::number(1.0));
     } else if (quantity == Quantity::f && mechanism::presses_across_axis(m_, *found)) {
       // u x f is as large as the part of f across u.
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        add(i, own.force[k], own.axis[j]);
-        add(i, own.force[j], -own.axis[k]);
+        add(i, columns.force[k], columns.axis[j]);
+        add(i, columns.force[j], -columns.axis[k]);
       }
     } else if (quantity == Quantity::f && mechanism::traits(*found).pinned) {
-      whole(own.force);
+      whole(columns.force);
     } else {
       throw refuse();
     }
@@ -241,8 +242,8 @@ class Assembly {
   /// constant + sign w > 0.
   void add_positive(const mechanism::Joint& joint, const Number& constant, bool negative) {
     std::vector<EntryOf<Number>> entries = entries_of(joint.name, mechanism::actuator_quantity(joint));
-    for (EntryOf<Number>& own : entries)
-      if (negative) own.value = -own.value;
+    for (EntryOf<Number>& entry : entries)
+      if (negative) entry.value = -entry.value;
     result_.positive.push_back({std::move(entries), constant});
   }
 

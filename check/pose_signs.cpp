@@ -18,20 +18,21 @@ bool turns_freely(const Joint& joint) {
 
 /// All that acts on the link, besides its joints, are forces at `point`.
 bool acts_at(const Mechanism& m, mechanism::LinkIndex link, mechanism::PointIndex point) {
-  const bool loaded_elsewhere = std::any_of(m.loads.begin(), m.loads.end(), [&](const mechanism::Load& own) {
-    return own.link == link && (own.at != point || !own.couple.is_zero_literal() || !own.couple_vector.empty());
+  const bool loaded_elsewhere = std::any_of(m.loads.begin(), m.loads.end(), [&](const mechanism::Load& load) {
+    return load.link == link && (load.at != point || !load.couple.is_zero_literal() || !load.couple_vector.empty());
   });
-  const bool sprung = std::any_of(m.springs.begin(), m.springs.end(),
-                                  [&](const mechanism::Spring& own) { return own.from == link || own.to == link; });
-  const mechanism::Link& own = m.links[static_cast<std::size_t>(link)];
-  const bool heavy = !m.gravity.empty() && (!own.mass.is_zero_literal() || !own.masses.empty());
+  const bool sprung = std::any_of(m.springs.begin(), m.springs.end(), [&](const mechanism::Spring& spring) {
+    return spring.from == link || spring.to == link;
+  });
+  const mechanism::Link& body = m.links[static_cast<std::size_t>(link)];
+  const bool heavy = !m.gravity.empty() && (!body.mass.is_zero_literal() || !body.masses.empty());
   return !loaded_elsewhere && !sprung && !heavy;
 }
 
 std::vector<const Joint*> other_joints(const Mechanism& m, mechanism::LinkIndex link, const Joint& joint) {
   std::vector<const Joint*> others;
-  for (const Joint& own : m.joints)
-    if (&own != &joint && (own.from == link || own.to == link)) others.push_back(&own);
+  for (const Joint& neighbour : m.joints)
+    if (&neighbour != &joint && (neighbour.from == link || neighbour.to == link)) others.push_back(&neighbour);
   return others;
 }
 
@@ -50,7 +51,7 @@ const Joint* opposite_pin(const Mechanism& m, const Joint& joint) {
 /// No force acts on the link besides those of its joints.
 bool is_unloaded(const Mechanism& m, mechanism::LinkIndex link) {
   return acts_at(m, link, -1) &&
-         std::none_of(m.loads.begin(), m.loads.end(), [&](const mechanism::Load& own) { return own.link == link; });
+         std::none_of(m.loads.begin(), m.loads.end(), [&](const mechanism::Load& load) { return load.link == link; });
 }
 
 using Line = std::array<mechanism::PointIndex, 2>;
@@ -77,8 +78,8 @@ int sign_of(const Mechanism& m, const core::TaskDemand& demand, const std::vecto
             const PosePosture& posture) {
   const auto part = [&](std::size_t c) { return Interval(components[c][0], components[c][1], cell_bits); };
   if (components.size() == 1) return part(0).sign();
-  const auto joint =
-      std::find_if(m.joints.begin(), m.joints.end(), [&](const Joint& own) { return own.name == demand.joint; });
+  const auto joint = std::find_if(m.joints.begin(), m.joints.end(),
+                                  [&](const Joint& neighbour) { return neighbour.name == demand.joint; });
   if (joint == m.joints.end() || demand.quantity != core::Quantity::f) return 0;
   const std::optional<Line> line = line_of(m, *joint, m.links.size());
   if (!line) return 0;

@@ -43,13 +43,13 @@ class Placing {
   const Vector& at(mechanism::PointIndex point) const { return result_.points.at(static_cast<std::size_t>(point)); }
   Number value(const Expression& e) const { return values_.value(e); }
 
-  Number square(const Number& own) { return noted(own, may_be(own), result_.squares); }
-  Number divisor(const Number& own) { return noted(own, own.sign() > 0, result_.divisors); }
-  Number noted(const Number& own, bool holds, std::vector<Number>& list) {
-    if (result_.stopped_by) return own;
-    list.push_back(own);
-    if (!holds) result_.stopped_by = own;
-    return own;
+  Number square(const Number& number) { return noted(number, may_be(number), result_.squares); }
+  Number divisor(const Number& number) { return noted(number, number.sign() > 0, result_.divisors); }
+  Number noted(const Number& number, bool holds, std::vector<Number>& list) {
+    if (result_.stopped_by) return number;
+    list.push_back(number);
+    if (!holds) result_.stopped_by = number;
+    return number;
   }
   Vector unit(const Vector& v) { return inverse(root_of(divisor(square_of(v)))) * v; }
   Number branch(const Number& q) {
@@ -109,14 +109,14 @@ class Placing {
   }
 
   void hold(const mechanism::Limit& limit) {
-    const auto own = [&](std::size_t i) { return at(limit.points.at(i)); };
+    const auto point = [&](std::size_t i) { return at(limit.points.at(i)); };
     if (!limit.is_angle()) {
-      const Number length2 = square_of(own(1) - own(0));
+      const Number length2 = square_of(point(1) - point(0));
       if (limit.keeps_lower()) square(length2 - squared(value(limit.lower)));
       square(squared(value(limit.upper)) - length2);
       return;
     }
-    const Number cosine = dot(unit(own(0) - own(1)), unit(own(2) - own(1)));
+    const Number cosine = dot(unit(point(0) - point(1)), unit(point(2) - point(1)));
     if (limit.keeps_lower()) square(values_.function(Expression::Kind::cos, limit.lower) - cosine);
     if (limit.keeps_upper()) square(cosine - values_.function(Expression::Kind::cos, limit.upper));
   }

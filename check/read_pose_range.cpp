@@ -12,7 +12,7 @@ class PoseRangeReader : ClaimReader {
     PoseRangeClaim claim;
     read_head(root, claim.head);
     if (claim.head.coordinates.size() != 1) fail("loci on a range have one coordinate");
-    for (const Json& own : list(at(at(root, "pose_range"), "modes"), most_modes)) claim.modes.push_back(mode(own));
+    for (const Json& value : list(at(at(root, "pose_range"), "modes"), most_modes)) claim.modes.push_back(mode(value));
     return claim;
   }
 
@@ -20,12 +20,12 @@ class PoseRangeReader : ClaimReader {
   static constexpr std::size_t most_modes = 4096, most_places = 100'000;
 
   PoseRangeClaim::Mode mode(const Json& json) const {
-    PoseRangeClaim::Mode own{sides(at(json, "sides")), demands(at(json, "demands")), {}, {}, {}};
-    for (const Json& each : list(at(json, "free"), most_places)) own.free.push_back(free(each));
-    for (const Json& each : list(at(json, "points"), most_places)) own.points.push_back(point(each));
+    PoseRangeClaim::Mode mode{sides(at(json, "sides")), demands(at(json, "demands")), {}, {}, {}};
+    for (const Json& each : list(at(json, "free"), most_places)) mode.free.push_back(free(each));
+    for (const Json& each : list(at(json, "points"), most_places)) mode.points.push_back(point(each));
     for (const Json& each : list(at(json, "open"), most_places))
-      own.open.emplace_back(rational(item(each, 0)), rational(item(each, 1)));
-    return own;
+      mode.open.emplace_back(rational(item(each, 0)), rational(item(each, 1)));
+    return mode;
   }
 
   int sign(const Json& json) const {
@@ -34,32 +34,32 @@ class PoseRangeReader : ClaimReader {
   }
 
   PoseRangeClaim::Free free(const Json& json) const {
-    PoseRangeClaim::Free own{text(at(json, "zone")),
-                             rational(at(json, "from")),
-                             rational(at(json, "to")),
-                             sign(at(json, "assembly_mode")),
-                             {}};
+    PoseRangeClaim::Free free{text(at(json, "zone")),
+                              rational(at(json, "from")),
+                              rational(at(json, "to")),
+                              sign(at(json, "assembly_mode")),
+                              {}};
     for (const Json& each : list(at(json, "signs"), most_demands))
-      own.signs.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))), sign(item(each, 2)));
-    if (own.from > own.to) fail("an interval ends before it begins");
-    return own;
+      free.signs.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))), sign(item(each, 2)));
+    if (free.from > free.to) fail("an interval ends before it begins");
+    return free;
   }
 
   PoseRangeClaim::Point point(const Json& json) const {
-    PoseRangeClaim::Point own{kind(text(at(json, "kind"))), {}, rational(at(json, "at")), false};
+    PoseRangeClaim::Point point{kind(text(at(json, "kind"))), {}, rational(at(json, "at")), false};
     for (const Json& each : list(at(json, "vanishing"), most_demands))
-      own.vanishing.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))));
+      point.vanishing.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))));
     const Json& certified = at(json, "certified");
     if (!certified.is_boolean()) fail("a point is certified or not");
-    own.certified = certified.get<bool>();
-    return own;
+    point.certified = certified.get<bool>();
+    return point;
   }
 
   core::LocusKind kind(const std::string& name) const {
     using enum core::LocusKind;
-    for (const core::LocusKind own :
+    for (const core::LocusKind kind :
          {contact_loss, backlash, component, margin, preload, direct_singularity, workspace_boundary, no_limit})
-      if (core::to_string(own) == name) return own;
+      if (core::to_string(kind) == name) return kind;
     fail("an unknown kind of locus");
   }
 };

@@ -12,10 +12,10 @@ using mechanism::Mechanism;
 /// The coordinates of the model at a place of the frame that the certificate is in.
 VariablesOf<Interval> variables_at(const Mechanism& m, const Interval& x, const Interval& y) {
   VariablesOf<Interval> variables;
-  for (const mechanism::Coordinate& own : m.coordinates) {
+  for (const mechanism::Coordinate& coordinate : m.coordinates) {
     const std::size_t c = variables.names.size();
     const Interval& inside = c == 0 ? x : y;
-    variables.names.push_back(own.name);
+    variables.names.push_back(coordinate.name);
     variables.values.push_back(!m.frame || m.frame->is_usual() ? inside
                                                                : Interval(m.frame->from[c], inside.bits()) +
                                                                      Interval(m.frame->scale, inside.bits()) * inside);
@@ -34,9 +34,9 @@ std::vector<core::TaskDemand> ends_of_guides(const Mechanism& m) {
 }  // namespace
 
 std::optional<Posture> posture(const Mechanism& m, const Sides& sides, const Interval& x, const Interval& y) {
-  Posture own = posture_over(m, sides, variables_at(m, x, y));
-  if (own.stopped_by) return std::nullopt;
-  return own;
+  Posture posture = posture_over(m, sides, variables_at(m, x, y));
+  if (posture.stopped_by) return std::nullopt;
+  return posture;
 }
 
 std::size_t limit_ends(const Mechanism& m) {

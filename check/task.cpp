@@ -48,11 +48,12 @@ class TaskCheck {
       return std::find(c_.quantities.begin(), c_.quantities.end(), q) != c_.quantities.end();
     };
     for (const std::string& joint : c_.joints) {
-      const auto own = std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
-      const std::vector<Quantity> parts = mechanism::contact_components(m_, *own);
+      const auto found =
+          std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
+      const std::vector<Quantity> parts = mechanism::contact_components(m_, *found);
       std::vector<std::vector<int>> force;
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
-        if (unknowns[k].joint != own - m_.joints.begin() || !orders_.reactions[k]) continue;
+        if (unknowns[k].joint != found - m_.joints.begin() || !orders_.reactions[k]) continue;
         std::vector<int> zeros;
         for (int f = 0; f < functions; ++f)
           if ((*orders_.reactions[k])[static_cast<std::size_t>(f)] > 0) zeros.push_back(f);
@@ -72,9 +73,9 @@ class TaskCheck {
       return false;
     if (!sheet_.enter(x, y) || !sheet_.is_inner()) return false;
     bool differentiated = false;
-    std::vector<int> known(c_.functions.size(), -1);
+    std::vector<int> places(c_.functions.size(), -1);
     const auto is_free = [&](int f) {
-      int& free = known[static_cast<std::size_t>(f)];
+      int& free = places[static_cast<std::size_t>(f)];
       if (free >= 0) return free == 1;
       free = sheet_.value(f).contains_zero() ? 0 : 1;
       if (free == 1) return true;

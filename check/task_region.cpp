@@ -24,14 +24,14 @@ std::size_t chosen(const Cell& cell, const Cell& whole, const std::vector<double
   constexpr double share_of_width = 1e-3;
   std::size_t best = cell.size();
   double most = -1, total = 0;
-  for (const double own : spreads) total += own;
+  for (const double spread : spreads) total += spread;
   if (!(total > 0) || !std::isfinite(total)) total = 1;
   for (std::size_t c = 0; c < cell.size(); ++c) {
     const double width = cell[c][1] - cell[c][0], all = whole[c][1] - whole[c][0];
     if (!(width > finest * all) || !(width > 0x1p-50 * std::max(std::abs(cell[c][0]), std::abs(cell[c][1])))) continue;
-    const double own = (std::isfinite(spreads[c]) ? spreads[c] : 0) + share_of_width * total * width / all;
-    if (own > most) {
-      most = own;
+    const double spread = (std::isfinite(spreads[c]) ? spreads[c] : 0) + share_of_width * total * width / all;
+    if (spread > most) {
+      most = spread;
       best = c;
     }
   }
@@ -41,8 +41,8 @@ std::size_t chosen(const Cell& cell, const Cell& whole, const std::vector<double
 }  // namespace
 
 std::array<double, 2> around(const core::Rational& value) {
-  const Interval own(value, cell_bits);
-  return {own.lower(), own.upper()};
+  const Interval interval(value, cell_bits);
+  return {interval.lower(), interval.upper()};
 }
 
 bool ClaimedShape::is_shape(std::size_t coordinates) const {
@@ -51,7 +51,7 @@ bool ClaimedShape::is_shape(std::size_t coordinates) const {
   const bool counted = (name == "box" && count == 2) || (round && count == 1) || (name == "path" && count >= 2) ||
                        (name == "polygon" && count >= 3);
   if (!counted || margin < 0 || radius < 0) return false;
-  if (!std::all_of(points.begin(), points.end(), [&](const auto& own) { return own.size() == coordinates; }))
+  if (!std::all_of(points.begin(), points.end(), [&](const auto& point) { return point.size() == coordinates; }))
     return false;
   if (name == "box") {
     for (std::size_t c = 0; c < coordinates; ++c)
@@ -63,7 +63,7 @@ bool ClaimedShape::is_shape(std::size_t coordinates) const {
   for (const auto& point : points)
     for (std::size_t c = 0; c < coordinates; ++c)
       if (c != i && c != j && point[c] != points[0][c]) return false;
-  return std::all_of(above.begin(), above.end(), [](const core::Rational& own) { return own >= 0; });
+  return std::all_of(above.begin(), above.end(), [](const core::Rational& value) { return value >= 0; });
 }
 
 TaskRegion::TaskRegion(ClaimedShape shape, std::vector<double> weights, std::vector<bool> grows)
@@ -74,13 +74,13 @@ TaskRegion::TaskRegion(ClaimedShape shape, std::vector<double> weights, std::vec
     for (const core::Rational& value : point) points_.back().push_back(value.get_d());
   }
   for (std::size_t c = 0; c < coordinates; ++c) {
-    std::array<double, 2> own = around(shape_.points[0][c]);
+    std::array<double, 2> hull = around(shape_.points[0][c]);
     for (const auto& point : shape_.points) {
       const std::array<double, 2> next = around(point[c]);
-      own = {std::min(own[0], next[0]), std::max(own[1], next[1])};
+      hull = {std::min(hull[0], next[0]), std::max(hull[1], next[1])};
     }
-    if (!shape_.above.empty()) own[1] = std::max(own[1], around(shape_.points[0][c] + shape_.above[c])[1]);
-    sides_.push_back(own);
+    if (!shape_.above.empty()) hull[1] = std::max(hull[1], around(shape_.points[0][c] + shape_.above[c])[1]);
+    sides_.push_back(hull);
   }
 }
 

@@ -24,9 +24,9 @@ std::vector<std::vector<double>> inverse(std::vector<std::vector<double>> a) {
     for (std::size_t i = k; i < n; ++i)
       if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
     std::swap(a[k], a[pivot]);
-    const double own = a[k][k];
-    if (!(std::abs(own) > 0) || !std::isfinite(own)) return {};
-    for (double& entry : a[k]) entry /= own;
+    const double pivot_entry = a[k][k];
+    if (!(std::abs(pivot_entry) > 0) || !std::isfinite(pivot_entry)) return {};
+    for (double& entry : a[k]) entry /= pivot_entry;
     for (std::size_t i = 0; i < n; ++i) {
       const double factor = i == k ? 0.0 : a[i][k];
       for (std::size_t j = k; j < 2 * n; ++j) a[i][j] -= factor * a[k][j];
@@ -140,14 +140,14 @@ class Isolation {
     // Roots that were lifted have a sign in this mode.
     Place place{zero[0], zero[1], {}};
     for (std::size_t l = 0; l < lifted.size(); ++l) {
-      const int sign = zero[2 + l].sign(), own = box[2 + l].middle() > 0 ? 1 : -1;
+      const int sign = zero[2 + l].sign(), claimed_sign = box[2 + l].middle() > 0 ? 1 : -1;
       if (sign == 0) return false;
-      if (sign != own) return true;
+      if (sign != claimed_sign) return true;
       place.roots.emplace_back(lifted[l], zero[2 + l]);
     }
-    for (const Known& known : known_) {
-      if (disjoint(zero[0], known.zero.x) || disjoint(zero[1], known.zero.y)) continue;
-      return contains(known.x, zero[0]) && contains(known.y, zero[1]);
+    for (const Known& entry : known_) {
+      if (disjoint(zero[0], entry.zero.x) || disjoint(zero[1], entry.zero.y)) continue;
+      return contains(entry.x, zero[0]) && contains(entry.y, zero[1]);
     }
     known_.push_back({place, wide[0], wide[1]});
     result_.zeros.push_back(std::move(place));

@@ -97,17 +97,17 @@ class ZoneCheck {
     const std::string place = fmt::format(" at ({}, {})", at[0], at[1]);
     if (solved->determinant.sign() != zone.assembly_mode) fail(zone, "|A| has another sign" + place);
     for (const auto& [reaction, sign] : zone.signs) {
-      bool known = false;
+      bool decided = false;
       for (std::size_t k = 0; k < unknowns_.size(); ++k) {
         if (m_.joints[static_cast<std::size_t>(unknowns_[k].joint)].name != reaction.first ||
             unknowns_[k].quantity != reaction.second)
           continue;
-        known = true;
+        decided = true;
         if (solved->reactions[k].sign() != sign)
           fail(zone,
                core::to_string(reaction.second) + "_" + reaction.first.substr(0, 40) + " has another sign" + place);
       }
-      if (!known) fail(zone, "it has the sign of no reaction");
+      if (!decided) fail(zone, "it has the sign of no reaction");
     }
     return true;
   }

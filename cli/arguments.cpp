@@ -205,12 +205,12 @@ std::vector<std::string> named_values(const std::vector<std::string>& words, con
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) refuse("--at", fmt::format("'{}' has no name, and others have", word), mend);
     const std::vector<std::string> sides = split(word, '=');
-    const auto own = std::find(names.begin(), names.end(), sides[0]);
-    if (own == names.end()) refuse("--at", fmt::format("there is no free coordinate '{}'", sides[0]), mend);
-    std::string& value = values[static_cast<std::size_t>(own - names.begin())];
-    if (!value.empty()) refuse("--at", fmt::format("{} is there twice", *own), mend);
+    const auto name = std::find(names.begin(), names.end(), sides[0]);
+    if (name == names.end()) refuse("--at", fmt::format("there is no free coordinate '{}'", sides[0]), mend);
+    std::string& value = values[static_cast<std::size_t>(name - names.begin())];
+    if (!value.empty()) refuse("--at", fmt::format("{} is there twice", *name), mend);
     value = word.substr(equals + 1);
-    if (value.empty()) refuse("--at", fmt::format("{} has no value", *own), mend);
+    if (value.empty()) refuse("--at", fmt::format("{} has no value", *name), mend);
   }
   for (std::size_t i = 0; i < names.size(); ++i)
     if (values[i].empty()) refuse("--at", fmt::format("{} is missing", names[i]), mend);
@@ -259,51 +259,52 @@ std::vector<int> parse_grid(const std::string& text, std::size_t coordinates) {
                                            {20000, "grid over two coordinates", "400x400"},
                                            {2000, "grid over three coordinates", "40x40x40"}}};
   core::ensure(1 <= coordinates && coordinates <= usual.size(), "grids are over one to three coordinates");
-  const Usual& own = usual[coordinates - 1];
+  const Usual& defaults = usual[coordinates - 1];
   std::vector<int> grid;
   for (const std::string& word : split(text, 'x'))
-    if (const std::optional<int> count = whole_number(word); count && *count >= 2 && *count <= own.most)
+    if (const std::optional<int> count = whole_number(word); count && *count >= 2 && *count <= defaults.most)
       grid.push_back(*count);
   if (grid.size() == coordinates && split(text, 'x').size() == coordinates) return grid;
-  refuse("--grid", fmt::format("'{}' is not a {}", text, own.what),
+  refuse("--grid", fmt::format("'{}' is not a {}", text, defaults.what),
          coordinates == 1
-             ? fmt::format("give one number from 2 to {}, e.g. --grid {}", own.most, own.example)
-             : fmt::format("give the cells along each, from 2 to {}, e.g. --grid {}", own.most, own.example));
+             ? fmt::format("give one number from 2 to {}, e.g. --grid {}", defaults.most, defaults.example)
+             : fmt::format("give the cells along each, from 2 to {}, e.g. --grid {}", defaults.most, defaults.example));
 }
 
 std::pair<std::size_t, double> parse_slice(const std::string& text, const mechanism::Mechanism& mechanism) {
   const std::size_t equals = text.find('=');
   for (std::size_t c = 0; equals != std::string::npos && c < mechanism.coordinates.size(); ++c) {
-    const mechanism::Coordinate& own = mechanism.coordinates[c];
-    if (split(text.substr(0, equals)) != std::vector{own.name}) continue;
-    const core::Rational value = parse_number(text.substr(equals + 1), "--slice", mechanism, mechanism::key_of(own));
-    if (value < own.lower || value > own.upper)
-      refuse("--slice", fmt::format("'{}' is out of the range of {}", text, own.name), "give a value within it");
+    const mechanism::Coordinate& coordinate = mechanism.coordinates[c];
+    if (split(text.substr(0, equals)) != std::vector{coordinate.name}) continue;
+    const core::Rational value =
+        parse_number(text.substr(equals + 1), "--slice", mechanism, mechanism::key_of(coordinate));
+    if (value < coordinate.lower || value > coordinate.upper)
+      refuse("--slice", fmt::format("'{}' is out of the range of {}", text, coordinate.name), "give a value within it");
     return {c, core::to_double(value)};
   }
   refuse("--slice", fmt::format("'{}' is no slice", text), "give a free coordinate and its value, such as z=0.3");
 }
 
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism) {
-  std::vector<std::string> known;
-  for (const mechanism::Joint& joint : mechanism.joints) known.push_back(joint.name);
+  std::vector<std::string> allowed;
+  for (const mechanism::Joint& joint : mechanism.joints) allowed.push_back(joint.name);
   std::vector<std::string> joints;
   for (const std::string& word : words)
     for (const std::string& name : split(word)) {
-      if (std::find(known.begin(), known.end(), name) == known.end())
+      if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
         refuse("--joint", fmt::format("the mechanism has no joint '{}'", name),
-               fmt::format("choose from {}", fmt::join(known, ", ")));
+               fmt::format("choose from {}", fmt::join(allowed, ", ")));
       if (std::find(joints.begin(), joints.end(), name) == joints.end()) joints.push_back(name);
     }
   return joints;
 }
 
-std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& known) {
+std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& allowed) {
   std::set<std::string> formats;
   for (const std::string& word : split(text)) {
-    if (std::find(known.begin(), known.end(), word) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
       throw core::InputError({.file = "--export"}, fmt::format("unknown format '{}'", word),
-                             fmt::format("choose from {}", fmt::join(known, ", ")));
+                             fmt::format("choose from {}", fmt::join(allowed, ", ")));
     formats.insert(word);
   }
   return formats;

@@ -79,6 +79,6 @@ std::pair<std::size_t, double> parse_slice(const std::string& text, const mechan
 std::vector<std::string> parse_joints(const std::vector<std::string>& words, const mechanism::Mechanism& mechanism);
 
 /// --export: names after commas. Throws core::InputError for one that is not among those that the answer has.
-std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& known);
+std::set<std::string> parse_formats(const std::string& text, const std::vector<std::string>& allowed);
 
 }  // namespace clearloci::cli

@@ -82,9 +82,10 @@ int lead(const DesignCommand& arguments, const StudyRanks* ranks, TimeLimit& lim
     (void)run_study(model, study, options);
     return exit_done;
   }
-  options.progress = [&](const StudyProgress& own) {
-    progress.show(static_cast<double>(own.done) / static_cast<double>(std::max<std::uint64_t>(own.total, 1)),
-                  words_of(own));
+  options.progress = [&](const StudyProgress& study_progress) {
+    progress.show(static_cast<double>(study_progress.done) /
+                      static_cast<double>(std::max<std::uint64_t>(study_progress.total, 1)),
+                  words_of(study_progress));
   };
   const StudyResult result = run_study(model, study, options);
   progress.clear();
@@ -96,9 +97,9 @@ int lead(const DesignCommand& arguments, const StudyRanks* ranks, TimeLimit& lim
   if (best != nullptr) {
     files.push_back(folder / "best.yaml");
     staged.add(files.back(), design_text(model, result, *best));
-    for (const std::size_t own : result.front)
-      staged.add(folder / "front" / fmt::format("{}.yaml", result.designs[own].index),
-                 design_text(model, result, result.designs[own]));
+    for (const std::size_t index : result.front)
+      staged.add(folder / "front" / fmt::format("{}.yaml", result.designs[index].index),
+                 design_text(model, result, result.designs[index]));
     if (!result.front.empty()) files.push_back(folder / "front");
   }
   if (formats.contains("html")) {

@@ -95,11 +95,11 @@ Json sheet_json(const symbolic::EquationSheet& sheet) {
               {"numerators", std::move(numerators)}};
   if (sheet.efforts.empty() && sheet.preload.empty()) return all;
   Json preload = Json::array();
-  for (const symbolic::PreloadEquation& own : sheet.preload)
-    preload.push_back({{"reactions", own.reactions},
-                       {"words", own.words},
-                       {"expression", own.determinant.expression},
-                       {"factors", factors_json(own.determinant)}});
+  for (const symbolic::PreloadEquation& equation : sheet.preload)
+    preload.push_back({{"reactions", equation.reactions},
+                       {"words", equation.words},
+                       {"expression", equation.determinant.expression},
+                       {"factors", factors_json(equation.determinant)}});
   all["efforts"] = Json::object();
   for (const auto& [joint, column] : sheet.efforts) all["efforts"][joint] = column;
   all["preload"] = std::move(preload);

@@ -41,7 +41,7 @@ PoseRequest request_of(const PoseCommand& arguments, const mechanism::Mechanism&
 int run_all_modes(const PoseCommand& arguments, const mechanism::Mechanism& mechanism, TimeLimit& limit) {
   const std::vector<core::Rational> at = parse_pose(arguments.at, mechanism);
   const PoseInModes poses = solve_pose_in_modes(mechanism, at, request_of(arguments, mechanism));
-  if (std::none_of(poses.modes.begin(), poses.modes.end(), [](const ModePose& own) { return own.pose.has_value(); }))
+  if (std::none_of(poses.modes.begin(), poses.modes.end(), [](const ModePose& pose) { return pose.pose.has_value(); }))
     throw core::InputError({.file = "--at"}, "the pose is out of reach in every working mode",
                            "choose a pose inside the workspace");
   report::StagedFiles staged;

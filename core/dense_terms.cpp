@@ -92,9 +92,9 @@ WholeTerms whole_terms(const Polynomial& p) {
     mpz_lcm(whole.denominator.get_mpz_t(), whole.denominator.get_mpz_t(), term.coefficient.get_den_mpz_t());
   whole.coefficients.reserve(p.terms.size());
   for (const Term& term : p.terms) {
-    Integer& own = whole.coefficients.emplace_back();
-    mpz_divexact(own.get_mpz_t(), whole.denominator.get_mpz_t(), term.coefficient.get_den_mpz_t());
-    own *= term.coefficient.get_num();
+    Integer& coefficient = whole.coefficients.emplace_back();
+    mpz_divexact(coefficient.get_mpz_t(), whole.denominator.get_mpz_t(), term.coefficient.get_den_mpz_t());
+    coefficient *= term.coefficient.get_num();
   }
   return whole;
 }
@@ -111,10 +111,10 @@ std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& 
   ensure(p.variables == divisor.variables, "both polynomials have the same variables");
   if (p.is_zero()) return p;
   // Degrees add up, in every variable.
-  const std::vector<int> own = degrees(p), others = degrees(divisor);
-  for (std::size_t v = 0; v < own.size(); ++v)
-    if (own[v] < others[v]) return std::nullopt;
-  std::optional<DenseTerms> rest = DenseTerms::box(own, p.terms.size());
+  const std::vector<int> of_dividend = degrees(p), others = degrees(divisor);
+  for (std::size_t v = 0; v < of_dividend.size(); ++v)
+    if (of_dividend[v] < others[v]) return std::nullopt;
+  std::optional<DenseTerms> rest = DenseTerms::box(of_dividend, p.terms.size());
   if (!rest) return sparse_quotient(p, divisor);
   const WholeTerms whole = whole_terms(p);
   for (std::size_t i = 0; i < p.terms.size(); ++i) (*rest)[rest->place(p.terms[i].exponents)] = whole.coefficients[i];
@@ -135,7 +135,7 @@ std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& 
     std::vector<int> factor = rest->exponents(place);
     for (std::size_t v = 0; v < factor.size(); ++v) {
       factor[v] -= divisor.terms.front().exponents[v];
-      if (factor[v] < 0 || factor[v] + others[v] > own[v]) return std::nullopt;
+      if (factor[v] < 0 || factor[v] + others[v] > of_dividend[v]) return std::nullopt;
     }
     if (mpz_divisible_p((*rest)[place].get_mpz_t(), by.coefficients.front().get_mpz_t()) == 0) return std::nullopt;
     mpz_divexact(scale.get_mpz_t(), (*rest)[place].get_mpz_t(), by.coefficients.front().get_mpz_t());

@@ -50,12 +50,12 @@ FieldMap slice_of(const FieldMap& map, const FieldSlice& slice) {
   }
   const std::size_t apart = inside * map.axes[across].size();
   for (const Field& field : map.fields) {
-    Field own{field.name, field.label, field.unit, field.is_signed, {}};
+    Field sliced{field.name, field.label, field.unit, field.is_signed, {}};
     for (std::size_t first = layer * inside; first < field.values.size(); first += apart) {
       const auto row = field.values.begin() + static_cast<std::ptrdiff_t>(first);
-      own.values.insert(own.values.end(), row, row + static_cast<std::ptrdiff_t>(inside));
+      sliced.values.insert(sliced.values.end(), row, row + static_cast<std::ptrdiff_t>(inside));
     }
-    over_others.fields.push_back(std::move(own));
+    over_others.fields.push_back(std::move(sliced));
   }
   return over_others;
 }

@@ -23,7 +23,7 @@ typename std::remove_cvref_t<Algebra>::Value interpret(const Expression& e, Alge
   using Kind = Expression::Kind;
   using Value = typename std::remove_cvref_t<Algebra>::Value;
   if constexpr (requires { algebra.known(e); }) {
-    if (std::optional<Value> own = algebra.known(e)) return *std::move(own);
+    if (std::optional<Value> value = algebra.known(e)) return *std::move(value);
   }
   const auto argument = [&](std::size_t i) { return interpret(e.arguments()[i], algebra); };
   const auto both = [&]() -> std::pair<Value, Value> {

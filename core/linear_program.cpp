@@ -100,14 +100,14 @@ class Tableau {
 
 std::optional<LinearOptimum> minimise(const LinearProgram& program) {
   Tableau tableau(program);
-  const std::size_t own = program.costs.size(), rows = program.rows.size();
-  std::vector<Rational> first(own + rows), second = program.costs;
-  for (std::size_t k = 0; k < rows; ++k) first[own + k] = 1;
-  second.resize(own + rows);
-  tableau.minimise(first, own);
+  const std::size_t costs = program.costs.size(), rows = program.rows.size();
+  std::vector<Rational> first(costs + rows), second = program.costs;
+  for (std::size_t k = 0; k < rows; ++k) first[costs + k] = 1;
+  second.resize(costs + rows);
+  tableau.minimise(first, costs);
   if (tableau.value(first) > 0) return std::nullopt;
   tableau.drive_out();
-  if (!tableau.minimise(second, own)) return std::nullopt;
+  if (!tableau.minimise(second, costs)) return std::nullopt;
   return tableau.optimum(second);
 }
 

@@ -49,9 +49,9 @@ int PoseProgramBuilder::make(Operation operation, int a, int b) {
   if (!fresh) return place->second;
   const auto varies = [&](int step) { return steps_[static_cast<std::size_t>(step)].varies; };
   const int count = operands(operation);
-  const bool own = operation == Operation::coordinate || operation == Operation::unknown || (count > 0 && varies(a)) ||
-                   (count > 1 && varies(b));
-  steps_.push_back({operation, a, b, 0, own});
+  const bool is_leaf = operation == Operation::coordinate || operation == Operation::unknown ||
+                       (count > 0 && varies(a)) || (count > 1 && varies(b));
+  steps_.push_back({operation, a, b, 0, is_leaf});
   return place->second;
 }
 
@@ -114,53 +114,53 @@ int PoseProgramBuilder::unknown(std::size_t block, std::size_t k) {
 }
 
 void PoseProgramBuilder::close(std::size_t block, const std::vector<int>& equations) {
-  PoseProgram::Block& own = blocks_.at(block);
-  ensure(equations.size() == own.unknowns.size(), "a block has as many equations as unknowns");
-  own.equations = equations;
+  PoseProgram::Block& block_data = blocks_.at(block);
+  ensure(equations.size() == block_data.unknowns.size(), "a block has as many equations as unknowns");
+  block_data.equations = equations;
   for (const int equation : equations)
-    for (const int u : own.unknowns) own.jacobian.push_back(derivative(equation, u));
+    for (const int u : block_data.unknowns) block_data.jacobian.push_back(derivative(equation, u));
 }
 
 int PoseProgramBuilder::derivative(int step, int unknown) {
   if (step == unknown) return one();
   if (step < unknown) return zero();
-  if (const auto known = derivatives_.find({step, unknown}); known != derivatives_.end()) return known->second;
-  const PoseProgram::Step own = steps_[static_cast<std::size_t>(step)];
+  if (const auto found = derivatives_.find({step, unknown}); found != derivatives_.end()) return found->second;
+  const PoseProgram::Step operation = steps_[static_cast<std::size_t>(step)];
   const auto of = [&](int operand) { return derivative(operand, unknown); };
   int result = zero();
-  switch (own.operation) {
+  switch (operation.operation) {
     case Operation::constant:
     case Operation::pi:
     case Operation::coordinate:
     case Operation::unknown:
       break;
     case Operation::add:
-      result = add(of(own.first), of(own.second));
+      result = add(of(operation.first), of(operation.second));
       break;
     case Operation::subtract:
-      result = subtract(of(own.first), of(own.second));
+      result = subtract(of(operation.first), of(operation.second));
       break;
     case Operation::multiply:
-      result = add(multiply(of(own.first), own.second), multiply(own.first, of(own.second)));
+      result = add(multiply(of(operation.first), operation.second), multiply(operation.first, of(operation.second)));
       break;
     case Operation::square:
-      result = multiply(multiply(constant(2), own.first), of(own.first));
+      result = multiply(multiply(constant(2), operation.first), of(operation.first));
       break;
     case Operation::inverse:
-      result = negate(multiply(square(step), of(own.first)));
+      result = negate(multiply(square(step), of(operation.first)));
       break;
     case Operation::square_root:
-      if (const int inner = of(own.first); inner != zero())
+      if (const int inner = of(operation.first); inner != zero())
         result = multiply(multiply(constant(Rational(1, 2)), inverse(step)), inner);
       break;
     case Operation::cosine:
-      result = negate(multiply(sine(own.first), of(own.first)));
+      result = negate(multiply(sine(operation.first), of(operation.first)));
       break;
     case Operation::sine:
-      result = multiply(cosine(own.first), of(own.first));
+      result = multiply(cosine(operation.first), of(operation.first));
       break;
     case Operation::angle:
-      ensure(of(own.first) == zero() && of(own.second) == zero(),
+      ensure(of(operation.first) == zero() && of(operation.second) == zero(),
              "no equation of a block has an angle of its unknowns");
       break;
   }
@@ -172,8 +172,8 @@ PoseProgram PoseProgramBuilder::program(const std::vector<int*>& results) const 
   std::vector<bool> needed(steps_.size(), false);
   for (const int* result : results) needed[static_cast<std::size_t>(*result)] = true;
   for (const PoseProgram::Block& block : blocks_)
-    for (const auto* own : {&block.unknowns, &block.equations, &block.jacobian, &block.rates})
-      for (const int step : *own) needed[static_cast<std::size_t>(step)] = true;
+    for (const auto* steps : {&block.unknowns, &block.equations, &block.jacobian, &block.rates})
+      for (const int step : *steps) needed[static_cast<std::size_t>(step)] = true;
   for (std::size_t i = steps_.size(); i-- > 0;) {
     if (!needed[i]) continue;
     const int count = operands(steps_[i].operation);
@@ -193,8 +193,8 @@ PoseProgram PoseProgramBuilder::program(const std::vector<int*>& results) const 
   }
   for (int* result : results) *result = place[static_cast<std::size_t>(*result)];
   for (PoseProgram::Block block : blocks_) {
-    for (auto* own : {&block.unknowns, &block.equations, &block.jacobian, &block.rates})
-      for (int& step : *own) {
+    for (auto* steps : {&block.unknowns, &block.equations, &block.jacobian, &block.rates})
+      for (int& step : *steps) {
         step = place[static_cast<std::size_t>(step)];
         block.end = std::max(block.end, step + 1);
       }

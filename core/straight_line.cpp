@@ -106,9 +106,9 @@ int StraightLineBuilder::horner(const std::vector<const Term*>& terms, std::size
   for (const Term* term : terms) by_power[static_cast<std::size_t>(term->exponents[v])].push_back(term);
   int result = zero_, previous = highest;
   for (int exponent = highest; exponent >= 0; --exponent) {
-    const auto& own = by_power[static_cast<std::size_t>(exponent)];
-    if (own.empty()) continue;
-    result = add(multiply(result, power(variables[v], previous - exponent)), horner(own, v, variables));
+    const auto& same_power = by_power[static_cast<std::size_t>(exponent)];
+    if (same_power.empty()) continue;
+    result = add(multiply(result, power(variables[v], previous - exponent)), horner(same_power, v, variables));
     previous = exponent;
   }
   return multiply(result, power(variables[v], previous));

@@ -70,8 +70,8 @@ class StraightLineBuilder {
   int horner(const std::vector<const Term*>& terms, std::size_t count, const std::vector<int>& variables);
   int make(Operation operation, int a, int b);
   bool is_constant(int step) const {
-    const StraightLine::Step& own = steps_[static_cast<std::size_t>(step)];
-    return own.operation == Operation::constant && own.radius() == 0;
+    const StraightLine::Step& operation = steps_[static_cast<std::size_t>(step)];
+    return operation.operation == Operation::constant && operation.radius() == 0;
   }
   const Rational& value(int step) const { return steps_[static_cast<std::size_t>(step)].value(); }
 

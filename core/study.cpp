@@ -16,25 +16,26 @@ constexpr Named names[] = {{Figure::margin, "margin"},       {Figure::min_force,
 }  // namespace
 
 std::string to_string(Figure figure) {
-  for (const Named& own : names)
-    if (own.figure == figure) return own.name;
+  for (const Named& named : names)
+    if (named.figure == figure) return named.name;
   return {};
 }
 
 std::optional<Figure> figure_named(std::string_view name) {
-  for (const Named& own : names)
-    if (own.name == name) return own.figure;
+  for (const Named& named : names)
+    if (named.name == name) return named.figure;
   return std::nullopt;
 }
 
 std::vector<Task> required_tasks(const Study& study) {
   std::vector<Task> tasks = study.tasks;
   for (Task& task : tasks)
-    for (const StudyRequirement& own : study.require) {
-      if (own.figure == Figure::margin) task.margin = std::max(task.margin, own.bound);
-      if (own.figure == Figure::pose_error) task.pose_error = std::min(task.pose_error.value_or(own.bound), own.bound);
-      if (own.figure == Figure::min_force && own.bound > 0)
-        task.min_force = std::max(task.min_force.value_or(0), own.bound);
+    for (const StudyRequirement& requirement : study.require) {
+      if (requirement.figure == Figure::margin) task.margin = std::max(task.margin, requirement.bound);
+      if (requirement.figure == Figure::pose_error)
+        task.pose_error = std::min(task.pose_error.value_or(requirement.bound), requirement.bound);
+      if (requirement.figure == Figure::min_force && requirement.bound > 0)
+        task.min_force = std::max(task.min_force.value_or(0), requirement.bound);
     }
   return tasks;
 }

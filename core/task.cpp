@@ -14,9 +14,9 @@ std::string kind_of(const TaskShape& shape) {
 
 TaskShape placed(const TaskShape& shape, const RationalPose& from, const Rational& factor, const RationalPose& to) {
   const auto value = [&](const Rational& v, std::size_t c) {
-    Rational own = from.empty() ? v : Rational(v - from[c]);
-    own *= factor;
-    return to.empty() ? own : Rational(own + to[c]);
+    Rational number = from.empty() ? v : Rational(v - from[c]);
+    number *= factor;
+    return to.empty() ? number : Rational(number + to[c]);
   };
   const auto place = [&](RationalPose& pose) {
     for (std::size_t c = 0; c < pose.size(); ++c) pose[c] = value(pose[c], c);
@@ -30,7 +30,7 @@ TaskShape placed(const TaskShape& shape, const RationalPose& from, const Rationa
     ball->radius *= factor;
   } else if (auto* polygon = std::get_if<TaskPolygon>(&result)) {
     std::for_each(polygon->corners.begin(), polygon->corners.end(), place);
-    for (Rational& own : polygon->above) own *= factor;
+    for (Rational& number : polygon->above) number *= factor;
   } else if (auto* path = std::get_if<TaskPath>(&result)) {
     std::for_each(path->points.begin(), path->points.end(), place);
   } else {

@@ -24,8 +24,8 @@ constexpr std::array engines = {EngineEntry{Engine::adaptive_then_exact, find_ad
                                 EngineEntry{Engine::exact, find_exactly}};
 
 FindLoci finder_of(Engine engine) {
-  const auto* const entry =
-      std::find_if(engines.begin(), engines.end(), [&](const EngineEntry& known) { return known.engine == engine; });
+  const auto* const entry = std::find_if(
+      engines.begin(), engines.end(), [&](const EngineEntry& engine_entry) { return engine_entry.engine == engine; });
   core::ensure(entry != engines.end(), "an engine that is known");
   return entry->find;
 }
@@ -37,18 +37,20 @@ void add_workspace(const LocusProblem& problem, LocusMap& map) {
 
 /// Where reactions vanish and boundaries touch in points alone. `withheld`: as Found's.
 void add_points(const LocusProblem& problem, const TraceOptions& options, bool withheld, LocusMap& map) {
-  const std::size_t known = map.isolated_points.size();
+  const std::size_t count_before = map.isolated_points.size();
   const std::function<bool()> stop = [&] {
     return options.deadline && std::chrono::steady_clock::now() > *options.deadline;
   };
   for (const core::WorkingMode& mode : problem.modes) {
     if (stop()) throw core::LimitReached("the time limit was reached");
     add_contact_loss_points(problem, mode, map, stop,
-                            options.sketch ? sheet::cells_of_a_sketch : sheet::ZeroOptions().most_cells, options.known);
+                            options.sketch ? sheet::cells_of_a_sketch : sheet::ZeroOptions().most_cells,
+                            options.searches);
     add_touching_points(problem, mode, map);
   }
   // A point that lies on an arc which is withheld looks isolated.
-  for (std::size_t i = known; withheld && i < map.isolated_points.size(); ++i) map.isolated_points[i].certified = false;
+  for (std::size_t i = count_before; withheld && i < map.isolated_points.size(); ++i)
+    map.isolated_points[i].certified = false;
 }
 
 }  // namespace

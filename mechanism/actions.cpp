@@ -61,7 +61,7 @@ bool Action::needs_length(const Mechanism& mechanism) const {
   // Of an open design (open_design.hpp) it may be any.
   const auto is_open = [&](const std::string& symbol) {
     return std::none_of(mechanism.parameters.begin(), mechanism.parameters.end(),
-                        [&](const Parameter& own) { return own.name == symbol; });
+                        [&](const Parameter& parameter) { return parameter.name == symbol; });
   };
   const std::set<std::string> names = core::symbols(free_length);
   return std::any_of(names.begin(), names.end(), is_open) || value_of(free_length, mechanism) != 0;

@@ -20,14 +20,14 @@ constexpr double gear_step = 1e-4;
 constexpr double apart = 1e-5;
 
 Flat place(const PosturePoints& posture, PointIndex point) {
-  const auto& own = posture[static_cast<std::size_t>(point)];
-  return {own[0], own[1]};
+  const auto& at = posture[static_cast<std::size_t>(point)];
+  return {at[0], at[1]};
 }
 
 std::string words_of(const Joint& gear) { return to_string(gear.type) + " " + gear.name; }
 
 bool is_pinned(const Mechanism& m, LinkIndex wheel, PointIndex centre) {
-  const auto at = [&](PointIndex own) { return own == centre; };
+  const auto at = [&](PointIndex point) { return point == centre; };
   return wheel == ground || std::any_of(m.joints.begin(), m.joints.end(), [&](const Joint& joint) {
            return joint.type == JointType::revolute && at(joint.at) && (joint.from == wheel || joint.to == wheel);
          });
@@ -101,8 +101,8 @@ void check_distance(const Mechanism& m, const Joint& gear) {
   if (!gear.meshing->distance || !gear.meshing->second) return;
   constexpr double rounding = 1e-9;
   const double given = core::to_double(value_of(*gear.meshing->distance, m));
-  for (const SampledPosture& own : sample_poses(m, working_mode(m), gear_postures)) {
-    const Flat p = place(own.points, gear.meshing->first), q = place(own.points, *gear.meshing->second);
+  for (const SampledPosture& posture : sample_poses(m, working_mode(m), gear_postures)) {
+    const Flat p = place(posture.points, gear.meshing->first), q = place(posture.points, *gear.meshing->second);
     const double far = std::hypot(q[0] - p[0], q[1] - p[1]);
     if (std::abs(far - given) > rounding * (far + given))
       throw core::InputError(gear.where,
@@ -114,10 +114,10 @@ void check_distance(const Mechanism& m, const Joint& gear) {
 
 void check_mesh(const Mechanism& m, const Joint& gear) {
   const std::vector<int> mode = working_mode(m);
-  for (const SampledPosture& own : sample_poses(m, mode, gear_postures))
+  for (const SampledPosture& posture : sample_poses(m, mode, gear_postures))
     for (std::size_t c = 0; c < m.coordinates.size(); ++c) {
       const double step = gear_step * core::to_double(m.coordinates[c].upper - m.coordinates[c].lower);
-      std::vector<double> less = own.pose, more = own.pose;
+      std::vector<double> less = posture.pose, more = posture.pose;
       less[c] -= step;
       more[c] += step;
       const auto before = sample_posture(m, less, mode), after = sample_posture(m, more, mode);
@@ -126,9 +126,9 @@ void check_mesh(const Mechanism& m, const Joint& gear) {
         check_turns(m, gear, *before, *after, m.coordinates[c].name);
         continue;
       }
-      const auto axis = sample_vector(m, gear.axes.front(), own.pose);
+      const auto axis = sample_vector(m, gear.axes.front(), posture.pose);
       if (!axis) continue;
-      const Flat at = place(own.points, gear.at);
+      const Flat at = place(posture.points, gear.at);
       const auto a = way_of(m, gear.from, at, *before, *after, true),
                  b = way_of(m, gear.to, at, *before, *after, gear.meshing->second.has_value());
       if (!a || !b) return;

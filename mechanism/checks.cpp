@@ -75,18 +75,18 @@ bool is_explicit(const Point& point) {
 std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex point) {
   std::set<std::string> found;
   const PointForm& form = point_at(mechanism, point).form;
-  std::vector<Expression> own;
-  if (const auto* fixed = std::get_if<ExplicitPoint>(&form)) own = fixed->coordinates;
-  if (const auto* dyad = std::get_if<DyadPoint>(&form)) own = {dyad->from_length, dyad->to_length};
+  std::vector<Expression> expressions;
+  if (const auto* fixed = std::get_if<ExplicitPoint>(&form)) expressions = fixed->coordinates;
+  if (const auto* dyad = std::get_if<DyadPoint>(&form)) expressions = {dyad->from_length, dyad->to_length};
   if (const auto* slider = std::get_if<SliderPoint>(&form)) {
-    own = numbers_of(slider->along);
-    own.push_back(slider->length);
+    expressions = numbers_of(slider->along);
+    expressions.push_back(slider->length);
   }
-  if (const auto* shifted = std::get_if<ShiftedPoint>(&form)) own = numbers_of(shifted->by);
+  if (const auto* shifted = std::get_if<ShiftedPoint>(&form)) expressions = numbers_of(shifted->by);
   if (const auto* crossing = std::get_if<CrossingPoint>(&form)) {
-    own = numbers_of(crossing->along_first);
+    expressions = numbers_of(crossing->along_first);
     const std::vector<Expression> more = numbers_of(crossing->along_second);
-    own.insert(own.end(), more.begin(), more.end());
+    expressions.insert(expressions.end(), more.begin(), more.end());
   }
   std::vector<PointIndex> built_on = bases(form);
   if (const auto* member = std::get_if<GroupPoint>(&form)) {
@@ -95,19 +95,19 @@ std::set<std::string> coordinates_of(const Mechanism& mechanism, PointIndex poin
       if (base < group.first || base > group.last) built_on.push_back(base);
     };
     for (const Group::Distance& held : group.distances) {
-      own.push_back(held.length);
+      expressions.push_back(held.length);
       add(held.first);
       add(held.second);
     }
     for (const Group::Line& line : group.lines) {
       const std::vector<Expression> along = numbers_of(line.along);
-      own.insert(own.end(), along.begin(), along.end());
+      expressions.insert(expressions.end(), along.begin(), along.end());
       add(line.base);
       add(line.point);
       for (const PointIndex base : points_of(line.along)) add(base);
     }
   }
-  for (const Expression& expression : own)
+  for (const Expression& expression : expressions)
     for (const std::string& name : symbols(expression))
       if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
                       [&name](const Coordinate& coordinate) { return coordinate.name == name; }))
@@ -147,11 +147,11 @@ std::string count_unknowns(const Mechanism& mechanism) {
     if (is_cable(joint) && unknowns == 0) continue;
     const bool alike = mechanism.space == Space::planar && !meshes && !is_slot(mechanism, joint);  // these bear two
     const std::string name = is_cable(joint) ? "point mass" : alike ? "joint" : to_string(joint.type) + " joint";
-    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
-    if (known == kinds.end())
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.name == name; });
+    if (found == kinds.end())
       kinds.push_back({unknowns, name, 1});
     else
-      ++known->count;
+      ++found->count;
   }
   std::string text;
   for (const Kind& kind : kinds)

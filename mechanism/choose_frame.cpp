@@ -67,10 +67,10 @@ class Choice {
     for (std::size_t q = 0; q < mechanism_.coordinates.size(); ++q) {
       const Coordinate& coordinate = mechanism_.coordinates[q];
       if (coordinate.angle) continue;
-      const auto own = std::find_if(placing_.begin(), placing_.end(),
-                                    [&](const auto& placing) { return placing && placing->coordinate == q; });
-      if (own != placing_.end()) {
-        frame.from[q] = origin[static_cast<std::size_t>(own - placing_.begin())] - (*own)->offset;
+      const auto found = std::find_if(placing_.begin(), placing_.end(),
+                                      [&](const auto& placing) { return placing && placing->coordinate == q; });
+      if (found != placing_.end()) {
+        frame.from[q] = origin[static_cast<std::size_t>(found - placing_.begin())] - (*found)->offset;
         continue;
       }
       // Of a length along something: that of the file while it is not long.
@@ -179,9 +179,9 @@ class Choice {
     for (bool more = true; more;) {
       std::vector<Rational> origin;
       for (std::size_t i = 0; i < dimension_; ++i) origin.push_back(along[i][at[i]]);
-      const std::size_t own = digits(origin);
-      if (best.empty() || own < fewest) {
-        fewest = own;
+      const std::size_t origin_digits = digits(origin);
+      if (best.empty() || origin_digits < fewest) {
+        fewest = origin_digits;
         best = std::move(origin);
       }
       std::size_t i = dimension_;
@@ -206,7 +206,7 @@ class Choice {
       if (const auto* slider = std::get_if<SliderPoint>(&point.form)) constant(slider->length);
     }
     for (const Group& group : mechanism_.groups)
-      for (const Group::Distance& own : group.distances) constant(own.length);
+      for (const Group::Distance& distance : group.distances) constant(distance.length);
     if (largest == 0)
       for (const Coordinate& coordinate : mechanism_.coordinates)
         if (!coordinate.angle) grow((coordinate.upper - coordinate.lower) / 2);

@@ -31,8 +31,8 @@ class Evaluator {
   using Value = RadicalSum;
   RadicalSum number(const Rational& value) const { return radical_sum(value); }
   RadicalSum symbol(const std::string& name) const {
-    const auto known = values_.find(name);
-    if (known != values_.end()) return known->second;
+    const auto found = values_.find(name);
+    if (found != values_.end()) return found->second;
     throw std::out_of_range("'" + name + "' is not a parameter");
   }
   RadicalSum pi() const { return pi_multiple(1); }

@@ -47,9 +47,9 @@ struct Zone {
 
 std::optional<Zone> zone_named(const std::string& text, bool hole) {
   if (text.size() < 2 || text.size() > 3) return std::nullopt;
-  const char own = text.front();
-  if ((own >= 'A' && own <= 'Z') != hole) return std::nullopt;
-  const char small = hole ? static_cast<char>(own - 'A' + 'a') : own;
+  const char symbol = text.front();
+  if ((symbol >= 'A' && symbol <= 'Z') != hole) return std::nullopt;
+  const char small = hole ? static_cast<char>(symbol - 'A' + 'a') : symbol;
   const auto* const letter =
       std::find_if(letters.begin(), letters.end(), [&](const Letter& one) { return one.name == small; });
   const std::string digits = text.substr(1);
@@ -106,20 +106,21 @@ std::vector<std::string> fit_notes(const Mechanism& mechanism) {
     if (!joint.clearance || !joint.clearance->fit) continue;
     const Fit& fit = *joint.clearance->fit;
     const Rational millimetres = fit.diameter * 1000;
-    const std::string own = fit.name + " at " + core::to_string(millimetres) + " mm: a radial clearance of " +
-                            micrometres(fit.least) + " to " + micrometres(fit.largest) +
-                            " µm (ISO 286-1:2010), of which the largest is taken";
-    const auto alike = std::find_if(notes.begin(), notes.end(), [&](const auto& note) { return note.second == own; });
+    const std::string sentence = fit.name + " at " + core::to_string(millimetres) + " mm: a radial clearance of " +
+                                 micrometres(fit.least) + " to " + micrometres(fit.largest) +
+                                 " µm (ISO 286-1:2010), of which the largest is taken";
+    const auto alike =
+        std::find_if(notes.begin(), notes.end(), [&](const auto& note) { return note.second == sentence; });
     if (alike == notes.end())
-      notes.emplace_back(joint.name, own);
+      notes.emplace_back(joint.name, sentence);
     else
       alike->first += ", " + joint.name;
   }
   std::vector<std::string> sentences;
-  for (const auto& [joints, own] : notes) {
+  for (const auto& [joints, note] : notes) {
     std::string sentence = joints;
     sentence += ": ";
-    sentence += own;
+    sentence += note;
     sentences.push_back(std::move(sentence));
   }
   return sentences;

@@ -81,11 +81,11 @@ class Change {
   }
 
   void change(PointForm& form) const {
-    if (auto* own = std::get_if<ExplicitPoint>(&form))
-      for (std::size_t i = 0; i < own->coordinates.size(); ++i)
-        own->coordinates[i] =
-            (FreePolynomial(1 / frame_.scale) * (sum(own->coordinates[i]) + FreePolynomial(-frame_.origin[i])))
-                .expression();
+    if (auto* explicit_point = std::get_if<ExplicitPoint>(&form))
+      for (std::size_t i = 0; i < explicit_point->coordinates.size(); ++i)
+        explicit_point->coordinates[i] = (FreePolynomial(1 / frame_.scale) *
+                                          (sum(explicit_point->coordinates[i]) + FreePolynomial(-frame_.origin[i])))
+                                             .expression();
     if (auto* dyad = std::get_if<DyadPoint>(&form)) {
       dyad->from_length = scaled(dyad->from_length, 1);
       dyad->to_length = scaled(dyad->to_length, 1);
@@ -114,8 +114,8 @@ class Change {
   }
 
   void change(Group& group) const {
-    for (Group::Distance& own : group.distances) own.length = scaled(own.length, 1);
-    for (Group::Line& own : group.lines) change(own.along);
+    for (Group::Distance& distance : group.distances) distance.length = scaled(distance.length, 1);
+    for (Group::Line& line : group.lines) change(line.along);
     for (auto& place : group.near)
       for (std::size_t i = 0; i < dimension(mechanism_); ++i) place[i] = (place[i] - frame_.origin[i]) / frame_.scale;
   }
@@ -160,9 +160,9 @@ class Change {
     if (vector.kind == Kind::components || vector.kind == Kind::cross) return Rational(0);
     Rational weight = 0;
     for (const VectorExpression& argument : vector.arguments) {
-      const std::optional<Rational> own = weight_of(argument);
-      if (!own) return std::nullopt;
-      weight += *own;
+      const std::optional<Rational> value = weight_of(argument);
+      if (!value) return std::nullopt;
+      weight += *value;
     }
     if (vector.kind == Kind::negate) return Rational(-weight);
     if (vector.kind == Kind::add || weight == 0) return weight;

@@ -19,9 +19,9 @@ struct Balances {
 };
 
 /// `known`: cables whose tension is given, and which are none.
-std::optional<Balances> balances_at(Mechanism m, const std::vector<JointIndex>& known,
+std::optional<Balances> balances_at(Mechanism m, const std::vector<JointIndex>& chosen,
                                     const std::vector<double>& pose) {
-  set_free_cables(m, known);
+  set_free_cables(m, chosen);
   const auto columns = reactions_at(m, pose);
   if (!columns) return std::nullopt;
   std::vector<std::array<double, 3>> places;
@@ -29,10 +29,11 @@ std::optional<Balances> balances_at(Mechanism m, const std::vector<JointIndex>& 
     if (!place) return std::nullopt;
     places.push_back(*place);
   }
-  Balances own{balances_of(m, *columns, places), {}};
+  Balances balances{balances_of(m, *columns, places), {}};
   for (const BorneReaction& column : *columns)
-    own.cable.push_back(column.motor && is_cable(m.joints[static_cast<std::size_t>(column.joint)]) ? column.joint : -1);
-  return own;
+    balances.cable.push_back(column.motor && is_cable(m.joints[static_cast<std::size_t>(column.joint)]) ? column.joint
+                                                                                                        : -1);
+  return balances;
 }
 
 /// Gauss and Jordan over a part of the columns, the largest pivot next. Columns that are taken; fewer than rows where
@@ -83,7 +84,7 @@ void set_free_cables(Mechanism& mechanism, const std::vector<JointIndex>& free) 
   for (const JointIndex j : cables_of(mechanism)) {
     Joint& joint = mechanism.joints[static_cast<std::size_t>(j)];
     const std::string parameter = free_effort_parameter(joint.name);
-    const auto has_name = [&](const Parameter& own) { return own.name == parameter; };
+    const auto has_name = [&](const Parameter& candidate) { return candidate.name == parameter; };
     const bool is_free = std::find(free.begin(), free.end(), j) != free.end();
     if (is_free == joint.effort.has_value()) continue;
     joint.actuated = !is_free;
@@ -91,11 +92,11 @@ void set_free_cables(Mechanism& mechanism, const std::vector<JointIndex>& free) 
       joint.free_effort = FreeEffort{parameter, joint.within};
       joint.effort = Expression::symbol(parameter);
       if (std::any_of(mechanism.parameters.begin(), mechanism.parameters.end(), has_name)) continue;
-      Parameter own;
-      own.name = parameter;
-      own.expression = Expression::number(0);
-      own.dimension.force = 1;
-      mechanism.parameters.push_back(std::move(own));
+      Parameter tension;
+      tension.name = parameter;
+      tension.expression = Expression::number(0);
+      tension.dimension.force = 1;
+      mechanism.parameters.push_back(std::move(tension));
     } else {
       joint.free_effort.reset();
       joint.effort.reset();
@@ -105,20 +106,20 @@ void set_free_cables(Mechanism& mechanism, const std::vector<JointIndex>& free) 
 }
 
 std::optional<std::vector<JointIndex>> best_free_cables(const Mechanism& mechanism, const std::vector<double>& pose) {
-  std::vector<JointIndex> known;
+  std::vector<JointIndex> chosen;
   for (const JointIndex j : cables_of(mechanism))
     if (const Joint& joint = mechanism.joints[static_cast<std::size_t>(j)];
         joint.effort && (!joint.free_effort || joint.free_effort->given))
-      known.push_back(j);
-  const auto own = balances_at(mechanism, known, pose);
-  if (!own) return std::nullopt;
-  Pivots pivots(own->matrix);
-  pivots.take([&](std::size_t column) { return own->cable[column] < 0; });
+      chosen.push_back(j);
+  const auto balances = balances_at(mechanism, chosen, pose);
+  if (!balances) return std::nullopt;
+  Pivots pivots(balances->matrix);
+  pivots.take([&](std::size_t column) { return balances->cable[column] < 0; });
   pivots.take([](std::size_t) { return true; });
   if (!pivots.complete()) return std::nullopt;
-  std::vector<JointIndex> free = known;
-  for (std::size_t c = 0; c < own->cable.size(); ++c)
-    if (!pivots.is_taken(c) && own->cable[c] >= 0) free.push_back(own->cable[c]);
+  std::vector<JointIndex> free = chosen;
+  for (std::size_t c = 0; c < balances->cable.size(); ++c)
+    if (!pivots.is_taken(c) && balances->cable[c] >= 0) free.push_back(balances->cable[c]);
   return free;
 }
 
@@ -135,15 +136,16 @@ void choose_free(Mechanism& mechanism, const std::vector<std::string>& preferred
   });
   constexpr std::size_t poses = 64;
   for (const std::vector<double>& pose : spread_poses(mechanism, poses)) {
-    const auto own = balances_at(mechanism, {}, pose);
-    if (!own) continue;
+    const auto balances = balances_at(mechanism, {}, pose);
+    if (!balances) continue;
     std::vector<JointIndex> free;
     for (const JointIndex j : order) {
       if (free.size() == columns - rows) break;
       free.push_back(j);
-      Pivots pivots(own->matrix);
-      pivots.take(
-          [&](std::size_t column) { return std::find(free.begin(), free.end(), own->cable[column]) == free.end(); });
+      Pivots pivots(balances->matrix);
+      pivots.take([&](std::size_t column) {
+        return std::find(free.begin(), free.end(), balances->cable[column]) == free.end();
+      });
       if (!pivots.complete()) free.pop_back();
     }
     if (free.size() < columns - rows) continue;
@@ -167,18 +169,18 @@ void choose_free_cables(Mechanism& mechanism, const std::vector<std::string>& pr
 void hold_point_masses(Mechanism& mechanism) {
   for (std::size_t l = 0; l < mechanism.links.size(); ++l) {
     const auto link = static_cast<LinkIndex>(l);
-    const Link& own = mechanism.links[l];
+    const Link& link_data = mechanism.links[l];
     Joint* first = nullptr;
-    bool only_cables = own.points.size() == 1;
+    bool only_cables = link_data.points.size() == 1;
     for (Joint& joint : mechanism.joints) {
       if (joint.from != link && joint.to != link) continue;
       const PointIndex end = joint.to == link ? joint.at : joint.other_end;
-      only_cables = only_cables && is_cable(joint) && end == own.points.front();
+      only_cables = only_cables && is_cable(joint) && end == link_data.points.front();
       if (first == nullptr) first = &joint;
     }
     if (!only_cables || first == nullptr) continue;
     const auto refuse = [&](const core::SourcePosition& where, const std::string& what) {
-      throw core::InputError(where, what + " turns link " + own.name + ", which cables hold at one point",
+      throw core::InputError(where, what + " turns link " + link_data.name + ", which cables hold at one point",
                              "let forces act at its point, or give the link two points that cables pull at");
     };
     for (const Load& load : mechanism.loads) {
@@ -186,15 +188,15 @@ void hold_point_masses(Mechanism& mechanism) {
       const bool couple =
           !load.couple.is_zero_literal() || std::any_of(load.couple_vector.begin(), load.couple_vector.end(),
                                                         [](const Expression& e) { return !e.is_zero_literal(); });
-      if (couple || (load.at && *load.at != own.points.front())) refuse(load.where, "a load");
+      if (couple || (load.at && *load.at != link_data.points.front())) refuse(load.where, "a load");
     }
     for (const Spring& spring : mechanism.springs)
-      if ((spring.from == link && spring.from_point != own.points.front()) ||
-          (spring.to == link && spring.to_point != own.points.front()))
+      if ((spring.from == link && spring.from_point != link_data.points.front()) ||
+          (spring.to == link && spring.to_point != link_data.points.front()))
         refuse(spring.where, "spring " + spring.name);
     for (const Mass& mass : masses(mechanism))
-      if (!mechanism.gravity.empty() && mass.link == link && mass.at != own.points.front())
-        refuse(own.where, "its weight");
+      if (!mechanism.gravity.empty() && mass.link == link && mass.at != link_data.points.front())
+        refuse(link_data.where, "its weight");
     first->holds_turning = true;
   }
 }

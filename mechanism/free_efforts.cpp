@@ -16,8 +16,8 @@ constexpr const char* prefix = "preload_";
 
 /// The value of a name; null where there is none.
 const std::string* given(const std::vector<Override>& all, const std::string& name) {
-  const auto own = std::find_if(all.begin(), all.end(), [&](const Override& each) { return each.first == name; });
-  return own == all.end() ? nullptr : &own->second;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Override& each) { return each.first == name; });
+  return found == all.end() ? nullptr : &found->second;
 }
 
 }  // namespace
@@ -39,8 +39,8 @@ std::string words_of_law(const Mechanism& mechanism, const Joint& joint, const R
 
 void refuse_effort(const Mechanism& mechanism, const Joint& joint, const Rational& value,
                    const std::pair<Rational, Rational>& within, const core::SourcePosition& where) {
-  const auto told = [&](const Rational& own) {
-    return core::told(core::to_double(own), core::unit_of(actuator_quantity(joint)), mechanism.units);
+  const auto told = [&](const Rational& number) {
+    return core::told(core::to_double(number), core::unit_of(actuator_quantity(joint)), mechanism.units);
   };
   throw InputError(where, "the " + words_of_law(mechanism, joint, value) + " is beyond its bounds",
                    "choose one from " + told(within.first) + " to " + told(within.second));
@@ -54,9 +54,9 @@ std::vector<Entry> written_free_efforts(const Value& joints) {
     const std::vector<Entry> keys = entries(joint.value);
     const bool slides = std::any_of(keys.begin(), keys.end(),
                                     [](const Entry& key) { return key.key == to_string(JointType::prismatic); });
-    for (const Entry& own : keys) {
-      if (own.key != "actuated" || !own.value.is_map()) continue;
-      for (Entry& effort : entries(own.value)) {
+    for (const Entry& entry : keys) {
+      if (entry.key != "actuated" || !entry.value.is_map()) continue;
+      for (Entry& effort : entries(entry.value)) {
         if (effort.key != "effort" || !is_free_effort(effort.value)) continue;
         effort.value.field = slides ? "force" : "couple";
         efforts.push_back({free_effort_parameter(joint.key), effort.where, effort.value});
@@ -69,13 +69,13 @@ std::vector<Entry> written_free_efforts(const Value& joints) {
 std::vector<std::string> names_of_efforts(const GivenEfforts& efforts) {
   std::vector<std::string> names;
   for (const auto* all : {&efforts.laws, &efforts.values})
-    for (const Override& own : *all) names.push_back(own.first);
+    for (const Override& override : *all) names.push_back(override.first);
   return names;
 }
 
 std::vector<Entry> free_effort_parameters(const Value& joints, const GivenEfforts& efforts) {
   std::vector<Entry> parameters = written_free_efforts(joints);
-  std::erase_if(parameters, [&](const Entry& own) { return given(efforts.laws, own.key) != nullptr; });
+  std::erase_if(parameters, [&](const Entry& parameter) { return given(efforts.laws, parameter.key) != nullptr; });
   if (!joints.is_map()) return parameters;
   for (const Entry& joint : entries(joints)) {
     const std::string name = free_effort_parameter(joint.key);
@@ -86,63 +86,64 @@ std::vector<Entry> free_effort_parameters(const Value& joints, const GivenEffort
         parameters.push_back({name, joint.where, key.value});
       }
   }
-  for (Entry& own : parameters) own.value.node = Node::scalar(own.value.field == "force" ? "0 N" : "0 N m", own.where);
+  for (Entry& parameter : parameters)
+    parameter.value.node = Node::scalar(parameter.value.field == "force" ? "0 N" : "0 N m", parameter.where);
   return parameters;
 }
 
 void check_given_efforts(const Value& joints, const std::optional<Value>& parameters, const GivenEfforts& efforts) {
   if (!joints.is_map()) return;
-  std::vector<std::string> known;
-  for (const Entry& own : written_free_efforts(joints)) known.push_back(*joint_of_free_effort(own.key));
+  std::vector<std::string> allowed;
+  for (const Entry& entry : written_free_efforts(joints)) allowed.push_back(*joint_of_free_effort(entry.key));
   for (const Entry& joint : entries(joints))
-    if (joint.value.is_map() && joint.value.node.has(to_string(JointType::cable))) known.push_back(joint.key);
+    if (joint.value.is_map() && joint.value.node.has(to_string(JointType::cable))) allowed.push_back(joint.key);
   for (const std::string& name : names_of_efforts(efforts)) {
     const std::optional<std::string> joint = joint_of_free_effort(name);
     if (!joint || (parameters && parameters->is_map() && parameters->node.has(name))) continue;
-    if (std::find(known.begin(), known.end(), *joint) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), *joint) == allowed.end())
       throw InputError({.file = "--preload"}, "there is no joint of free effort called '" + *joint + "'",
-                       suggest(*joint, known, "joints of free effort"));
+                       suggest(*joint, allowed, "joints of free effort"));
   }
 }
 
 GivenEfforts given_efforts(const Value& workspace, const std::vector<Override>& overrides) {
   std::set<std::string> coordinates;
-  for (const Entry& own : entries(workspace)) coordinates.insert(own.key);
+  for (const Entry& entry : entries(workspace)) coordinates.insert(entry.key);
   GivenEfforts all;
-  for (const Override& own : overrides) {
+  for (const Override& override : overrides) {
     const auto varies = [&] {
-      for (const std::string& name : core::symbols(parse_expression(own.second, {.file = "--preload"})))
+      for (const std::string& name : core::symbols(parse_expression(override.second, {.file = "--preload"})))
         if (coordinates.contains(name)) return true;
       return false;
     };
-    (own.first.starts_with(prefix) && varies() ? all.laws : all.values).push_back(own);
+    (override.first.starts_with(prefix) && varies() ? all.laws : all.values).push_back(override);
   }
   return all;
 }
 
 std::vector<Override> without_efforts(std::vector<Override> overrides) {
-  std::erase_if(overrides, [](const Override& own) { return own.first.starts_with(prefix); });
+  std::erase_if(overrides, [](const Override& override) { return override.first.starts_with(prefix); });
   return overrides;
 }
 
 void give_free_efforts(Mechanism& mechanism, const GivenEfforts& efforts) {
   for (Joint& joint : mechanism.joints) {
     if (!joint.free_effort) continue;
-    FreeEffort& own = *joint.free_effort;
-    if (const std::string* const law = given(efforts.laws, own.parameter)) {
+    FreeEffort& effort = *joint.free_effort;
+    if (const std::string* const law = given(efforts.laws, effort.parameter)) {
       const core::SourcePosition where{.file = "--preload"};
       joint.effort = read_varying(mechanism, {Node::scalar(*law, where), "the effort of joint " + joint.name, where,
                                               traits(joint).actuator == core::Quantity::F ? "force" : "couple"});
-      std::erase_if(mechanism.parameters, [&](const Parameter& each) { return each.name == own.parameter; });
-      joint.law_within = own.within;
+      std::erase_if(mechanism.parameters, [&](const Parameter& each) { return each.name == effort.parameter; });
+      joint.law_within = effort.within;
       joint.free_effort.reset();
       continue;
     }
-    own.given = given(efforts.values, own.parameter) != nullptr;
-    if (!own.given || !own.within) continue;
+    effort.given = given(efforts.values, effort.parameter) != nullptr;
+    if (!effort.given || !effort.within) continue;
     const Rational value = value_of(*joint.effort, mechanism);
-    if (value < own.within->first || value > own.within->second)
-      refuse_effort(mechanism, joint, value, *own.within, {.file = "--preload"});
+    if (value < effort.within->first || value > effort.within->second)
+      refuse_effort(mechanism, joint, value, *effort.within, {.file = "--preload"});
   }
 }
 

@@ -28,10 +28,10 @@ class Polynomials {
   Value number(const Rational& value) const { return Value(value); }
   Value symbol(const std::string& name) const {
     const auto& all = mechanism_.coordinates;
-    const auto own =
+    const auto found =
         std::find_if(all.begin(), all.end(), [&](const Coordinate& coordinate) { return coordinate.name == name; });
-    if (own->angle) throw NotPolynomial{};
-    const Rational& from = frame_.from[static_cast<std::size_t>(own - all.begin())];
+    if (found->angle) throw NotPolynomial{};
+    const Rational& from = frame_.from[static_cast<std::size_t>(found - all.begin())];
     return Value(from) + Value(frame_.scale) * Value::atom(Expression::symbol(name));
   }
   Value negate(const Value& a) const { return Value(-1) * a; }
@@ -70,8 +70,8 @@ class Polynomials {
   Value constant(const Expression& e, const std::set<std::string>& names) const {
     if (parameters_ == Parameters::valued) return Value(value_of(e, mechanism_));
     if (!names.empty()) return Value::atom(e);
-    const ExactValue own = evaluate(e, mechanism_.parameters);
-    return own.exact ? Value(own.value) : Value::atom(e);
+    const ExactValue value = evaluate(e, mechanism_.parameters);
+    return value.exact ? Value(value.value) : Value::atom(e);
   }
 
   const Mechanism& mechanism_;
@@ -109,8 +109,8 @@ FreePolynomial operator*(const FreePolynomial& a, const FreePolynomial& b) {
 }
 
 Rational FreePolynomial::constant() const {
-  const auto own = terms_.find({});
-  return own == terms_.end() ? Rational(0) : own->second;
+  const auto term = terms_.find({});
+  return term == terms_.end() ? Rational(0) : term->second;
 }
 
 Expression FreePolynomial::expression() const {

@@ -26,10 +26,10 @@ GroupClosing::GroupClosing(const Mechanism& mechanism, const std::vector<int>& s
     : program_(std::make_unique<Program>()) {
   if (mechanism.groups.empty()) return;
   PosePoints points(mechanism, sides, PoseSteps(mechanism));
-  for (const Group::Distance& own : mechanism.groups.back().distances)
-    program_->wanted.push_back(points.expression(own.length));
+  for (const Group::Distance& step : mechanism.groups.back().distances)
+    program_->wanted.push_back(points.expression(step.length));
   std::vector<int*> results;
-  for (int& own : program_->wanted) results.push_back(&own);
+  for (int& step : program_->wanted) results.push_back(&step);
   program_->program = program_of(mechanism, points.algebra().builder(), results);
   program_->unknowns = group_unknowns(mechanism);
   program_->values.emplace(program_->program);
@@ -44,7 +44,7 @@ std::optional<std::vector<double>> GroupClosing::lengths(std::span<const double>
   core::PoseValues& values = *program_->values;
   (void)values.put(pose, std::vector<double>(program_->unknowns, 1.0));
   std::vector<double> lengths;
-  for (const int own : program_->wanted) lengths.push_back(std::abs(values[own]));
+  for (const int step : program_->wanted) lengths.push_back(std::abs(values[step]));
   return lengths;
 }
 
@@ -53,7 +53,8 @@ GroupClosing::Posture GroupClosing::posture() {
   core::PoseValues& values = *program_->values;
   const core::PoseProgram& program = program_->program;
   std::vector<double> near;
-  for (const core::PoseProgram::Block& own : program.blocks) near.insert(near.end(), own.near.begin(), own.near.end());
+  for (const core::PoseProgram::Block& block : program.blocks)
+    near.insert(near.end(), block.near.begin(), block.near.end());
   if (!values.put(program.near, near)) return result;
   const std::vector<int>& equations = program.blocks.back().equations;
   for (std::size_t i = 0; i < program_->wanted.size(); ++i) {
@@ -67,7 +68,7 @@ GroupClosing::Posture GroupClosing::posture() {
   result.closed = closed;
   // Rows of J in the size of the points.
   double size = 0;
-  for (const double own : result.wanted) size = std::max(size, std::abs(own));
+  for (const double length : result.wanted) size = std::max(size, std::abs(length));
   const core::PoseProgram::Block& last = program.blocks.back();
   const std::size_t n = last.unknowns.size();
   Matrix by_unknown(n, std::vector<double>(n));
@@ -92,7 +93,7 @@ std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& m
   Mechanism before = mechanism;
   before.groups.pop_back();
   before.points.resize(static_cast<std::size_t>(group.first));
-  const auto known = sample_points(before, pose, sides);
+  const auto sampled = sample_points(before, pose, sides);
   GroupClosing closing(mechanism, sides);
   const std::optional<std::vector<double>> lengths = closing.lengths(pose);
   if (!lengths) return std::nullopt;
@@ -110,7 +111,7 @@ std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& m
         a = low[static_cast<std::size_t>(from - group.first)][c];
         b = high[static_cast<std::size_t>(from - group.first)][c];
       } else {
-        const auto& at = known[static_cast<std::size_t>(from)];
+        const auto& at = sampled[static_cast<std::size_t>(from)];
         if (!at) return false;
         a = b = (*at)[c];
       }
@@ -124,8 +125,9 @@ std::optional<std::vector<std::array<double, 2>>> group_reach(const Mechanism& m
   for (int round = 0; again && round < 64; ++round) {
     again = false;
     for (std::size_t i = 0; i < group.distances.size(); ++i) {
-      const Group::Distance& own = group.distances[i];
-      for (const auto& [to, from] : {std::pair(own.first, own.second), std::pair(own.second, own.first)})
+      const Group::Distance& distance = group.distances[i];
+      for (const auto& [to, from] :
+           {std::pair(distance.first, distance.second), std::pair(distance.second, distance.first)})
         if (to >= group.first && to <= group.last) again = narrow(to, from, (*lengths)[i]) || again;
     }
   }
@@ -146,7 +148,7 @@ Mechanism up_to_group(Mechanism mechanism, std::size_t group) {
 
 std::size_t group_unknowns(const Mechanism& mechanism) {
   std::size_t count = 0;
-  for (const Group& own : mechanism.groups) count += own.count * dimension(mechanism);
+  for (const Group& group : mechanism.groups) count += group.count * dimension(mechanism);
   return count;
 }
 
@@ -155,7 +157,7 @@ namespace {
 /// No coordinate, parameter or point is called so.
 std::string free_name(const Mechanism& mechanism, std::string name) {
   const auto is_taken = [&](const auto& list) {
-    return std::any_of(list.begin(), list.end(), [&](const auto& own) { return own.name == name; });
+    return std::any_of(list.begin(), list.end(), [&](const auto& candidate) { return candidate.name == name; });
   };
   while (is_taken(mechanism.coordinates) || is_taken(mechanism.parameters)) name += "_";
   return name;
@@ -170,14 +172,14 @@ Mechanism with_open_groups(Mechanism mechanism) {
       Point& point = mechanism.points[static_cast<std::size_t>(group.first) + k];
       ExplicitPoint form;
       for (std::size_t c = 0; c < dimension(mechanism); ++c) {
-        Coordinate own;
-        own.name = free_name(mechanism, axes[c] + point.name);
-        own.lower = group.near[k][c] - 1;
-        own.upper = group.near[k][c] + 1;
-        own.lower_expression = Expression::number(own.lower);
-        own.upper_expression = Expression::number(own.upper);
-        form.coordinates.push_back(Expression::symbol(own.name));
-        mechanism.coordinates.push_back(std::move(own));
+        Coordinate coordinate;
+        coordinate.name = free_name(mechanism, axes[c] + point.name);
+        coordinate.lower = group.near[k][c] - 1;
+        coordinate.upper = group.near[k][c] + 1;
+        coordinate.lower_expression = Expression::number(coordinate.lower);
+        coordinate.upper_expression = Expression::number(coordinate.upper);
+        form.coordinates.push_back(Expression::symbol(coordinate.name));
+        mechanism.coordinates.push_back(std::move(coordinate));
       }
       point.form = std::move(form);
     }

@@ -92,35 +92,35 @@ class OnLine {
   std::vector<PosturePoints> postures_;
 };
 
-[[noreturn]] void refuse(const Mechanism& m, const Hanging& own, const core::SourcePosition& where,
+[[noreturn]] void refuse(const Mechanism& m, const Hanging& hanging, const core::SourcePosition& where,
                          const std::string& what) {
-  const std::string link = m.links[static_cast<std::size_t>(own.links.front())].name;
+  const std::string link = m.links[static_cast<std::size_t>(hanging.links.front())].name;
   throw core::InputError(where,
                          what + " turns link " + link + " about the line " +
-                             line_name(m, m.joints[own.first].at, m.joints[own.second].at) +
+                             line_name(m, m.joints[hanging.first].at, m.joints[hanging.second].at) +
                              ", about which it spins between its two balls",
                          "let it act on that line, or make one of the balls a universal joint");
 }
 
-void require_balance(const Mechanism& m, const Hanging& own, const OnLine& on_line) {
-  const PointIndex a = m.joints[own.first].at, b = m.joints[own.second].at;
+void require_balance(const Mechanism& m, const Hanging& hanging, const OnLine& on_line) {
+  const PointIndex a = m.joints[hanging.first].at, b = m.joints[hanging.second].at;
   for (std::size_t i = 0; i < m.loads.size(); ++i) {
     const Load& load = m.loads[i];
-    if (!holds(own.links, load.link)) continue;
+    if (!holds(hanging.links, load.link)) continue;
     const bool couple = std::any_of(load.couple_vector.begin(), load.couple_vector.end(),
                                     [](const Expression& e) { return !e.is_zero_literal(); });
     if (couple || (load.at && load.has_force() && !on_line.holds(*load.at, a, b)))
-      refuse(m, own, load.where, "load " + std::to_string(i + 1));
+      refuse(m, hanging, load.where, "load " + std::to_string(i + 1));
   }
   for (const Mass& mass : masses(m))
-    if (!m.gravity.empty() && holds(own.links, mass.link) && !on_line.holds(mass.at, a, b))
-      refuse(m, own, m.links[static_cast<std::size_t>(mass.link)].where, "its weight");
+    if (!m.gravity.empty() && holds(hanging.links, mass.link) && !on_line.holds(mass.at, a, b))
+      refuse(m, hanging, m.links[static_cast<std::size_t>(mass.link)].where, "its weight");
   for (const Spring& spring : m.springs)
     for (const auto& [link, other, point] :
          {std::tuple(spring.from, spring.to, spring.from_point), std::tuple(spring.to, spring.from, spring.to_point)})
-      if (holds(own.links, link) && !holds(own.links, other) &&
+      if (holds(hanging.links, link) && !holds(hanging.links, other) &&
           (spring.kind == Spring::Kind::torsion || !on_line.holds(point, a, b)))
-        refuse(m, own, spring.where, "spring " + spring.name);
+        refuse(m, hanging, spring.where, "spring " + spring.name);
 }
 
 }  // namespace
@@ -130,13 +130,13 @@ void hold_idle_freedoms(Mechanism& m) {
   const std::vector<Hanging> all = hanging_on_two_balls(m);
   if (all.empty()) return;
   const OnLine on_line(m);
-  for (const Hanging& own : all) {
-    require_balance(m, own, on_line);
+  for (const Hanging& hanging : all) {
+    require_balance(m, hanging, on_line);
     // The line moves: the ball that holds it is not one of the ground's, if there is another.
-    const Joint& first = m.joints[own.first];
+    const Joint& first = m.joints[hanging.first];
     const bool grounded = first.from == ground || first.to == ground;
-    Joint& held = m.joints[grounded ? own.second : own.first];
-    held.axes = {way(m.joints[own.first].at, m.joints[own.second].at)};
+    Joint& held = m.joints[grounded ? hanging.second : hanging.first];
+    held.axes = {way(m.joints[hanging.first].at, m.joints[hanging.second].at)};
     held.type = JointType::universal;
   }
 }
@@ -144,10 +144,10 @@ void hold_idle_freedoms(Mechanism& m) {
 std::vector<std::string> idle_notes(const Mechanism& m) {
   std::string lines, balls;
   // Not by the axis that was put in: in another frame it is written in coordinates.
-  for (const Hanging& own : hanging_on_two_balls(m))
-    for (const std::size_t ball : {own.first, own.second}) {
+  for (const Hanging& hanging : hanging_on_two_balls(m))
+    for (const std::size_t ball : {hanging.first, hanging.second}) {
       if (!holds_idle_freedom(m.joints[ball])) continue;
-      lines += (lines.empty() ? "" : ", ") + line_name(m, m.joints[own.first].at, m.joints[own.second].at);
+      lines += (lines.empty() ? "" : ", ") + line_name(m, m.joints[hanging.first].at, m.joints[hanging.second].at);
       balls += (balls.empty() ? "" : ", ") + m.joints[ball].name;
     }
   std::vector<std::string> notes = notes_of_spring_ends(m);

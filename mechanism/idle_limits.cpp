@@ -30,11 +30,11 @@ double kept(const Limit& limit, const PosturePoints& points) {
 /// from the file's in one side.
 std::vector<std::vector<int>> modes_of(const Mechanism& mechanism) {
   constexpr std::size_t most_dyads = 4;
-  const std::vector<int> own = working_mode(mechanism);
-  std::vector<std::vector<int>> modes = {own};
-  for (std::size_t j = 0; j < own.size(); ++j) {
-    const std::size_t known = own.size() <= most_dyads ? modes.size() : 1;
-    for (std::size_t i = 0; i < known; ++i) {
+  const std::vector<int> mode = working_mode(mechanism);
+  std::vector<std::vector<int>> modes = {mode};
+  for (std::size_t j = 0; j < mode.size(); ++j) {
+    const std::size_t tried = mode.size() <= most_dyads ? modes.size() : 1;
+    for (std::size_t i = 0; i < tried; ++i) {
       modes.push_back(modes[i]);
       modes.back()[j] = -modes.back()[j];
     }

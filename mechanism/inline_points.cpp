@@ -58,8 +58,8 @@ class Hoist {
     read.at("points") = Node::map(std::move(found_), part("points").where());
     std::vector<Node::Pair> pairs;
     for (const auto& [key, content] : document_.node.pairs()) {
-      const auto own = key.IsScalar() ? read.find(key.Scalar()) : read.end();
-      pairs.emplace_back(key, own == read.end() ? content : own->second);
+      const auto found = key.IsScalar() ? read.find(key.Scalar()) : read.end();
+      pairs.emplace_back(key, found == read.end() ? content : found->second);
     }
     return {Node::map(std::move(pairs), document_.node.where()), document_.what, document_.where};
   }
@@ -134,12 +134,12 @@ class Hoist {
     if (!node.IsSequence() && !node.IsMap()) return node;
     const Node form = node.IsMap() ? entry(node, slots_of_a_point(), owner) : node;
     const std::string text = written(form);
-    auto known = named_.find(text);
-    if (known == named_.end()) {
-      known = named_.emplace(text, free_name(owner)).first;
-      found_.emplace_back(Node::scalar(known->second, node.where()), form);
+    auto found = named_.find(text);
+    if (found == named_.end()) {
+      found = named_.emplace(text, free_name(owner)).first;
+      found_.emplace_back(Node::scalar(found->second, node.where()), form);
     }
-    return Node::scalar(known->second, node.where());
+    return Node::scalar(found->second, node.where());
   }
 
   /// The owner's name where no point has it: a joint A described at [0, 0] makes a point A.

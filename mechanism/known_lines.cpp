@@ -12,16 +12,17 @@ namespace {
 /// Whether a force or couple acts on a link besides those of its joints.
 bool is_loaded(const Mechanism& mechanism, LinkIndex link) {
   const auto any = [](const auto& list, const auto& of) { return std::any_of(list.begin(), list.end(), of); };
-  if (any(mechanism.loads, [&](const Load& own) { return own.link == link; })) return true;
-  if (any(mechanism.springs, [&](const Spring& own) { return own.from == link || own.to == link; })) return true;
-  return !mechanism.gravity.empty() && any(masses(mechanism), [&](const Mass& own) { return own.link == link; });
+  if (any(mechanism.loads, [&](const Load& load) { return load.link == link; })) return true;
+  if (any(mechanism.springs, [&](const Spring& spring) { return spring.from == link || spring.to == link; }))
+    return true;
+  return !mechanism.gravity.empty() && any(masses(mechanism), [&](const Mass& mass) { return mass.link == link; });
 }
 
 std::vector<const Joint*> joints_of(const Mechanism& mechanism, LinkIndex link) {
-  std::vector<const Joint*> own;
+  std::vector<const Joint*> joints;
   for (const Joint& joint : mechanism.joints)
-    if (joint.from == link || joint.to == link) own.push_back(&joint);
-  return own;
+    if (joint.from == link || joint.to == link) joints.push_back(&joint);
+  return joints;
 }
 
 }  // namespace
@@ -30,8 +31,9 @@ std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism&
   const std::vector<const Joint*> joints = joints_of(mechanism, link);
   // What bears no couple: a pin in the plane, a ball in space.
   const JointType type = mechanism.space == Space::planar ? JointType::revolute : JointType::spherical;
-  const bool plain = std::all_of(joints.begin(), joints.end(),
-                                 [&](const Joint* own) { return own->type == type && !own->actuated && !own->effort; });
+  const bool plain = std::all_of(joints.begin(), joints.end(), [&](const Joint* joint) {
+    return joint->type == type && !joint->actuated && !joint->effort;
+  });
   if (link == ground || joints.size() != 2 || !plain || is_loaded(mechanism, link)) return std::nullopt;
   return std::array{joints[0]->at, joints[1]->at};
 }

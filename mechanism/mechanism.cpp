@@ -29,11 +29,11 @@ std::vector<Quantity> force_components(const Mechanism& mechanism, const Joint& 
 
 std::vector<Quantity> force_unknowns(const Mechanism& mechanism, const Joint& joint) {
   if (!traits(joint).pinned) return {};
-  std::vector<Quantity> own = reaction_components(mechanism, joint);
-  if (is_slot(mechanism, joint)) return own;
+  std::vector<Quantity> components = reaction_components(mechanism, joint);
+  if (is_slot(mechanism, joint)) return components;
   constexpr std::array forces = {Quantity::fx, Quantity::fy, Quantity::fz, Quantity::f1, Quantity::f2};
-  std::erase_if(own, [&](Quantity q) { return std::find(forces.begin(), forces.end(), q) == forces.end(); });
-  return own;
+  std::erase_if(components, [&](Quantity q) { return std::find(forces.begin(), forces.end(), q) == forces.end(); });
+  return components;
 }
 
 std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Joint& joint) {
@@ -44,10 +44,10 @@ std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Join
   if (is_cable(joint) && mechanism.space == Space::planar) return {Quantity::T};
   if (is_cable(joint)) return {Quantity::mx, Quantity::my, Quantity::mz};
   if (mechanism.space == Space::planar) return {Quantity::fx, Quantity::fy};
-  const JointTraits& own = traits(joint);
+  const JointTraits& joint_traits = traits(joint);
   // An actuator takes the place of what the joint does not bear along or about its axis.
-  const bool whole_force = !own.slides || joint.actuated;
-  const bool whole_couple = own.couple == BorneCouple::any || (!own.slides && joint.actuated);
+  const bool whole_force = !joint_traits.slides || joint.actuated;
+  const bool whole_couple = joint_traits.couple == BorneCouple::any || (!joint_traits.slides && joint.actuated);
   std::vector<Quantity> components = {Quantity::f1, Quantity::f2};
   if (whole_force) components = {Quantity::fx, Quantity::fy, Quantity::fz};
   const auto add = [&](std::initializer_list<Quantity> couple) {
@@ -55,9 +55,9 @@ std::vector<Quantity> reaction_components(const Mechanism& mechanism, const Join
   };
   if (whole_couple)
     add({Quantity::mx, Quantity::my, Quantity::mz});
-  else if (own.couple == BorneCouple::across_axis)
+  else if (joint_traits.couple == BorneCouple::across_axis)
     add({Quantity::m1, Quantity::m2});
-  else if (own.couple == BorneCouple::cross)
+  else if (joint_traits.couple == BorneCouple::cross)
     add({Quantity::T});
   return components;
 }
@@ -151,10 +151,10 @@ Mechanism with_bounded_belts(Mechanism mechanism) {
 }
 
 void give_effort(Mechanism& mechanism, JointIndex joint, const Rational& effort) {
-  FreeEffort& own = *mechanism.joints[static_cast<std::size_t>(joint)].free_effort;
-  own.given = true;
+  FreeEffort& free_effort = *mechanism.joints[static_cast<std::size_t>(joint)].free_effort;
+  free_effort.given = true;
   for (Parameter& parameter : mechanism.parameters) {
-    if (parameter.name != own.parameter) continue;
+    if (parameter.name != free_effort.parameter) continue;
     parameter.expression = Expression::number(effort);
     parameter.value = effort;
     parameter.exact = true;

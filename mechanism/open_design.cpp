@@ -26,7 +26,7 @@ class Opening {
     switch (e.kind()) {
       case Kind::symbol:
         if (varied_.contains(e.name())) return variable(e.name(), e);
-        if (const Parameter* own = parameter_named(mechanism_, e.name())) return opened(own->expression);
+        if (const Parameter* parameter = parameter_named(mechanism_, e.name())) return opened(parameter->expression);
         return e;
       case Kind::add:
       case Kind::multiply:
@@ -47,11 +47,11 @@ class Opening {
         break;
     }
     if (!on.coordinates) {
-      const Expression own = meaning(e);
-      return variable(core::to_string(own), own);
+      const Expression expression = meaning(e);
+      return variable(core::to_string(expression), expression);
     }
     std::vector<Expression> arguments;
-    for (const Expression& own : e.arguments()) arguments.push_back(opened(own));
+    for (const Expression& expression : e.arguments()) arguments.push_back(opened(expression));
     return Expression::apply(e.kind(), std::move(arguments));
   }
 
@@ -59,11 +59,11 @@ class Opening {
   Expression meaning(const Expression& e) const {
     if (!dependence(e).any()) return Expression::number(value_of(e, mechanism_));
     if (e.kind() == Kind::symbol) {
-      const Parameter* own = varied_.contains(e.name()) ? nullptr : parameter_named(mechanism_, e.name());
-      return own == nullptr ? e : meaning(own->expression);
+      const Parameter* parameter = varied_.contains(e.name()) ? nullptr : parameter_named(mechanism_, e.name());
+      return parameter == nullptr ? e : meaning(parameter->expression);
     }
     std::vector<Expression> arguments;
-    for (const Expression& own : e.arguments()) arguments.push_back(meaning(own));
+    for (const Expression& argument : e.arguments()) arguments.push_back(meaning(argument));
     return Expression::apply(e.kind(), std::move(arguments));
   }
 
@@ -74,11 +74,11 @@ class Opening {
   Dependence dependence(const Expression& e) const {
     Dependence result;
     for (const std::string& name : core::symbols(e)) {
-      const Parameter* own = parameter_named(mechanism_, name);
+      const Parameter* parameter = parameter_named(mechanism_, name);
       const bool varied = varied_.contains(name);
-      if (!varied && own == nullptr)
+      if (!varied && parameter == nullptr)
         result.coordinates = true;
-      else if (varied || dependence(own->expression).varied)
+      else if (varied || dependence(parameter->expression).varied)
         result.varied = true;
     }
     return result;
@@ -115,24 +115,24 @@ void change(VectorExpression& vector, const Change& by) {
 }
 
 void change(PointForm& form, const Change& by) {
-  if (auto* own = std::get_if<ExplicitPoint>(&form)) change(own->coordinates, by);
-  if (auto* own = std::get_if<DyadPoint>(&form)) {
-    own->from_length = by(own->from_length);
-    own->to_length = by(own->to_length);
-    if (own->axis) change(*own->axis, by);
+  if (auto* explicit_point = std::get_if<ExplicitPoint>(&form)) change(explicit_point->coordinates, by);
+  if (auto* dyad_point = std::get_if<DyadPoint>(&form)) {
+    dyad_point->from_length = by(dyad_point->from_length);
+    dyad_point->to_length = by(dyad_point->to_length);
+    if (dyad_point->axis) change(*dyad_point->axis, by);
   }
-  if (auto* own = std::get_if<OffsetPoint>(&form)) {
-    own->along = by(own->along);
-    own->left = by(own->left);
+  if (auto* offset_point = std::get_if<OffsetPoint>(&form)) {
+    offset_point->along = by(offset_point->along);
+    offset_point->left = by(offset_point->left);
   }
-  if (auto* own = std::get_if<SliderPoint>(&form)) {
-    change(own->along, by);
-    own->length = by(own->length);
+  if (auto* slider_point = std::get_if<SliderPoint>(&form)) {
+    change(slider_point->along, by);
+    slider_point->length = by(slider_point->length);
   }
-  if (auto* own = std::get_if<ShiftedPoint>(&form)) change(own->by, by);
-  if (auto* own = std::get_if<CrossingPoint>(&form)) {
-    change(own->along_first, by);
-    change(own->along_second, by);
+  if (auto* shifted_point = std::get_if<ShiftedPoint>(&form)) change(shifted_point->by, by);
+  if (auto* crossing_point = std::get_if<CrossingPoint>(&form)) {
+    change(crossing_point->along_first, by);
+    change(crossing_point->along_second, by);
   }
 }
 
@@ -140,12 +140,12 @@ void change(PointForm& form, const Change& by) {
 void change(Mechanism& m, const Change& by) {
   for (Point& point : m.points) change(point.form, by);
   for (Group& group : m.groups) {
-    for (Group::Distance& own : group.distances) own.length = by(own.length);
-    for (Group::Line& own : group.lines) change(own.along, by);
+    for (Group::Distance& distance : group.distances) distance.length = by(distance.length);
+    for (Group::Line& line : group.lines) change(line.along, by);
   }
   for (Link& link : m.links) {
     link.mass = by(link.mass);
-    for (PointMass& own : link.masses) own.mass = by(own.mass);
+    for (PointMass& mass : link.masses) mass.mass = by(mass.mass);
     if (link.inertia) link.inertia = by(*link.inertia);
   }
   for (Joint& joint : m.joints) {
@@ -215,10 +215,10 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
   Opening opening(mechanism, result.varied);
   const Change by = [&](const Expression& e) { return opening.opened(e); };
   for (const Point& point : mechanism.points) {
-    std::vector<Expression> own;
-    if (const auto* dyad = std::get_if<DyadPoint>(&point.form)) own = {dyad->from_length, dyad->to_length};
-    if (const auto* slider = std::get_if<SliderPoint>(&point.form)) own = {slider->length};
-    for (const Expression& length : own)
+    std::vector<Expression> expressions;
+    if (const auto* dyad = std::get_if<DyadPoint>(&point.form)) expressions = {dyad->from_length, dyad->to_length};
+    if (const auto* slider = std::get_if<SliderPoint>(&point.form)) expressions = {slider->length};
+    for (const Expression& length : expressions)
       if (opening.dependence(length).varied) result.lengths.push_back(opening.meaning(length));
   }
   change(result.mechanism, by);
@@ -238,11 +238,11 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
     joint.clearance = opened(*joint.clearance, nominal);
   }
   for (Limit& limit : result.mechanism.limits) {
-    for (Expression* own : {&limit.lower, &limit.upper}) {
-      if (opening.dependence(*own).varied)
+    for (Expression* expression : {&limit.lower, &limit.upper}) {
+      if (opening.dependence(*expression).varied)
         throw core::InputError(limit.where, "a limit of the workspace is varied",
                                "vary other parameters, or give the limit numbers");
-      *own = Expression::number(value_of(*own, mechanism));
+      *expression = Expression::number(value_of(*expression, mechanism));
     }
   }
   result.variables = opening.take();

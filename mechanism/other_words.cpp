@@ -103,11 +103,11 @@ std::string plain(const std::string& key) {
 
 }  // namespace
 
-std::optional<std::string> what_to_write_for(const std::string& key, const std::vector<std::string>& known) {
+std::optional<std::string> what_to_write_for(const std::string& key, const std::vector<std::string>& names) {
   const std::string word = plain(key);
   for (const OtherWords& row : table()) {
     if (std::find(row.words.begin(), row.words.end(), word) == row.words.end()) continue;
-    if (row.key.empty() || std::find(known.begin(), known.end(), row.key) != known.end())
+    if (row.key.empty() || std::find(names.begin(), names.end(), row.key) != names.end())
       return std::string(row.instead);
   }
   return std::nullopt;

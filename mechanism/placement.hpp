@@ -114,13 +114,14 @@ class Placement {
 
   Vector place(PointIndex index) {
     const PointForm& form = m_.points[static_cast<std::size_t>(index)].form;
-    if (const auto* own = std::get_if<ExplicitPoint>(&form)) return components(own->coordinates);
-    if (const auto* own = std::get_if<DyadPoint>(&form)) return elbow(*own, sides_.at(index));
-    if (const auto* own = std::get_if<SliderPoint>(&form)) return slide(*own, sides_.at(index));
-    if (const auto* own = std::get_if<OffsetPoint>(&form)) return beside(*own);
-    if (const auto* own = std::get_if<ShiftedPoint>(&form)) return plus(point(own->from), vector(own->by));
-    if (const auto* own = std::get_if<CrossingPoint>(&form)) return cross_lines(*own);
-    if (const auto* own = std::get_if<GroupPoint>(&form)) return unknown(*own, index);
+    if (const auto* explicit_point = std::get_if<ExplicitPoint>(&form)) return components(explicit_point->coordinates);
+    if (const auto* dyad_point = std::get_if<DyadPoint>(&form)) return elbow(*dyad_point, sides_.at(index));
+    if (const auto* slider_point = std::get_if<SliderPoint>(&form)) return slide(*slider_point, sides_.at(index));
+    if (const auto* offset_point = std::get_if<OffsetPoint>(&form)) return beside(*offset_point);
+    if (const auto* shifted_point = std::get_if<ShiftedPoint>(&form))
+      return plus(point(shifted_point->from), vector(shifted_point->by));
+    if (const auto* crossing_point = std::get_if<CrossingPoint>(&form)) return cross_lines(*crossing_point);
+    if (const auto* group_point = std::get_if<GroupPoint>(&form)) return unknown(*group_point, index);
     const auto& mean = std::get<MeanPoint>(form);
     return times(constant(Rational(1, 2)), plus(point(mean.first), point(mean.second)));
   }
@@ -166,19 +167,19 @@ class Placement {
   Vector unknown(const GroupPoint& form, PointIndex index) {
     const auto group = static_cast<std::size_t>(form.group);
     const auto before = static_cast<std::size_t>(index - m_.groups[group].first) * dimension(m_);
-    Vector own = {constant(0), constant(0), constant(0)};
-    for (std::size_t i = 0; i < dimension(m_); ++i) own[i] = algebra_.unknown(group, before + i);
-    return own;
+    Vector unknown = {constant(0), constant(0), constant(0)};
+    for (std::size_t i = 0; i < dimension(m_); ++i) unknown[i] = algebra_.unknown(group, before + i);
+    return unknown;
   }
 
   void close(std::size_t group) {
     std::vector<Number> equations;
-    for (const Group::Distance& own : m_.groups[group].distances) {
-      const Vector way = minus(point(own.second), point(own.first));
-      equations.push_back(algebra_.subtract(dot(way, way), algebra_.square(expression(own.length))));
+    for (const Group::Distance& distance : m_.groups[group].distances) {
+      const Vector way = minus(point(distance.second), point(distance.first));
+      equations.push_back(algebra_.subtract(dot(way, way), algebra_.square(expression(distance.length))));
     }
-    for (const Group::Line& own : m_.groups[group].lines)
-      equations.push_back(cross(minus(point(own.point), point(own.base)), vector(own.along))[2]);
+    for (const Group::Line& line : m_.groups[group].lines)
+      equations.push_back(cross(minus(point(line.point), point(line.base)), vector(line.along))[2]);
     algebra_.close(group, equations);
   }
 

@@ -17,12 +17,13 @@ PoseSteps::PoseSteps(const Mechanism& mechanism) : m_(mechanism) {
 }
 
 int PoseSteps::symbol(const std::string& name) {
-  if (const auto known = symbols_.find(name); known != symbols_.end()) return known->second;
-  const auto own =
+  if (const auto found = symbols_.find(name); found != symbols_.end()) return found->second;
+  const auto parameter =
       std::find_if(m_.parameters.begin(), m_.parameters.end(), [&](const Parameter& p) { return p.name == name; });
-  core::ensure(own != m_.parameters.end(), "a symbol is a coordinate or a parameter");
+  core::ensure(parameter != m_.parameters.end(), "a symbol is a coordinate or a parameter");
   // A parameter whose value is rational is that number, whatever roots it was written with.
-  const int step = own->exact ? builder_.constant(own->value) : core::interpret(own->expression, *this);
+  const int step =
+      parameter->exact ? builder_.constant(parameter->value) : core::interpret(parameter->expression, *this);
   symbols_[name] = step;
   return step;
 }
@@ -30,18 +31,18 @@ int PoseSteps::symbol(const std::string& name) {
 /// The step, or the rational number that it is: cos(90 deg) is 0.
 int PoseSteps::exact(const Expression& e, int step) {
   if (builder_.is_number(step) || builder_.varies(step)) return step;
-  const ExactValue own = evaluate(e, m_.parameters);
-  return own.exact ? builder_.constant(own.value) : step;
+  const ExactValue value = evaluate(e, m_.parameters);
+  return value.exact ? builder_.constant(value.value) : step;
 }
 
 int PoseSteps::power(int base, const Expression& whole_power) {
-  const Rational own = value_of(whole_power.arguments()[1], m_), twice = 2 * own;
+  const Rational value = value_of(whole_power.arguments()[1], m_), twice = 2 * value;
   core::ensure(twice.get_den() == 1, "exponents are whole or half of one");
-  const bool whole = own.get_den() == 1;
-  const Rational counted = abs(whole ? own : twice);
+  const bool whole = value.get_den() == 1;
+  const Rational counted = abs(whole ? value : twice);
   const int root = whole ? base : builder_.square_root(base);
   const int raised = builder_.power(root, static_cast<int>(counted.get_num().get_si()));
-  return own < 0 ? builder_.inverse(raised) : raised;
+  return value < 0 ? builder_.inverse(raised) : raised;
 }
 
 void PoseSteps::close(std::size_t group, const std::vector<int>& equations) {
@@ -56,15 +57,15 @@ void PoseSteps::close(std::size_t group, const std::vector<int>& equations) {
       block.near.push_back(core::to_double(place[i]));
       block.size = std::max(block.size, std::abs(block.near.back()));
     }
-  for (const Group::Distance& own : m_.groups[group].distances)
-    if (const int length = core::interpret(own.length, *this); builder_.is_number(length))
+  for (const Group::Distance& distance : m_.groups[group].distances)
+    if (const int length = core::interpret(distance.length, *this); builder_.is_number(length))
       block.size = std::max(block.size, core::to_double(builder_.number(length)));
 }
 
 core::PoseProgram program_of(const Mechanism& mechanism, const core::PoseProgramBuilder& builder,
                              const std::vector<int*>& results) {
   core::PoseProgram program = builder.program(results);
-  for (const Rational& own : mechanism.near) program.near.push_back(core::to_double(own));
+  for (const Rational& value : mechanism.near) program.near.push_back(core::to_double(value));
   return program;
 }
 

@@ -160,8 +160,8 @@ std::vector<SampledPosture> sample_poses(const Mechanism& mechanism, const std::
 
 std::vector<PosturePoints> sample_postures(const Mechanism& mechanism, std::size_t count) {
   std::vector<PosturePoints> all;
-  for (SampledPosture& own : sample_poses(mechanism, working_mode(mechanism), count))
-    all.push_back(std::move(own.points));
+  for (SampledPosture& posture : sample_poses(mechanism, working_mode(mechanism), count))
+    all.push_back(std::move(posture.points));
   return all;
 }
 

@@ -171,9 +171,11 @@ std::string read_text(const std::string& path, const std::string& what, std::siz
 namespace {
 
 /// Lines that errors name are those of the imported text.
-ModelText named(Imported own, const std::string& file) {
-  std::string name = own.format.empty() ? file : is_address(file) ? "the address, as imported" : file + ", as imported";
-  return {std::move(own.text), std::move(own.notes), std::move(name)};
+ModelText named(Imported imported, const std::string& file) {
+  std::string name = imported.format.empty() ? file
+                     : is_address(file)      ? "the address, as imported"
+                                             : file + ", as imported";
+  return {std::move(imported.text), std::move(imported.notes), std::move(name)};
 }
 
 }  // namespace
@@ -186,9 +188,9 @@ ModelText model_text(std::string text, std::string file) {
 }
 
 Mechanism read_mechanism(const std::string& path, const std::vector<Override>& overrides) {
-  const ModelText own = read_model_text(path);
-  Mechanism mechanism = parse_mechanism(own.text, own.file, overrides);
-  mechanism.notes.insert(mechanism.notes.begin(), own.notes.begin(), own.notes.end());
+  const ModelText text = read_model_text(path);
+  Mechanism mechanism = parse_mechanism(text.text, text.file, overrides);
+  mechanism.notes.insert(mechanism.notes.begin(), text.notes.begin(), text.notes.end());
   return mechanism;
 }
 

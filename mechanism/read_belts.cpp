@@ -5,6 +5,8 @@
 //                the distance between them. With the angle g between a span and this line, sin g = (r1 - r2) / d, the
 //                belt is the force F = t sin g across the line at W, an unknown, and 2 T0 cos g along it. Beyond
 //                |F| = 2 T0 |sin g| a span is slack. The pulleys move alike at W, as the wheels of a gear.
+#include <tuple>
+
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/reader.hpp"
@@ -143,11 +145,7 @@ Joint read_belt(Mechanism& mechanism, const Entry& entry) {
   joint.type = JointType::belt;
   joint.name = entry.key;
   joint.where = entry.where;
-  const std::vector<Value> names = elements(belt.mapping().at("belt"), 2);
-  joint.from = read_link_name(mechanism, names[0], true);
-  joint.to = read_link_name(mechanism, names[1], true);
-  if (joint.from == joint.to)
-    throw InputError(names[1].where, belt.what() + " joins a pulley to itself", "name two different links");
+  std::tie(joint.from, joint.to) = read_two_links(mechanism, belt.mapping().at("belt"), belt.what());
   joint.actuated = true;
   const Expression both = times(Expression::number(2), belt.tension());
   joint.meshing = Meshing{belt.centre(0), belt.centre(1), std::nullopt, times(both, belt.radius()), belt.radius()};

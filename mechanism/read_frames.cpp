@@ -152,11 +152,11 @@ const BodyFrame& frame_named(const Mechanism& mechanism, const Value& in, const 
   const auto frame = std::find_if(mechanism.body_frames.begin(), mechanism.body_frames.end(),
                                   [&](const BodyFrame& one) { return one.name == name; });
   if (frame != mechanism.body_frames.end()) return *frame;
-  std::vector<std::string> known;
-  for (const BodyFrame& one : mechanism.body_frames) known.push_back(one.name);
+  std::vector<std::string> allowed;
+  for (const BodyFrame& one : mechanism.body_frames) allowed.push_back(one.name);
   throw InputError(in.where, what + ": there is no frame '" + name + "' above it",
-                   known.empty() ? "describe it under frames, at a point that is written above this one"
-                                 : suggest(name, known, "frames whose points are known here"));
+                   allowed.empty() ? "describe it under frames, at a point that is written above this one"
+                                   : suggest(name, allowed, "frames whose points are known here"));
 }
 
 /// R v.

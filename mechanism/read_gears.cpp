@@ -5,6 +5,7 @@
 // the latter a foot (DyadPoint::right_angle) whose side is part of the working mode, and a joint with the axis K -> W.
 // Teeth push and never pull: F > 0 where K is on the side of the flank that bears.
 #include <algorithm>
+#include <tuple>
 
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
@@ -45,7 +46,7 @@ class WrittenGear {
                        "write the mechanism in a plane, or actuate the joint that the gear turns");
     const bool rack = mapping_.find("along").has_value();
     for (const char* key : {"centre", "radius", "along"})
-      if (const auto own = mapping_.find(key); own && mapping_.find("teeth")) refuse_both(*own, key);
+      if (const auto value = mapping_.find(key); value && mapping_.find("teeth")) refuse_both(*value, key);
     if (!rack) read_teeth();
   }
 
@@ -101,18 +102,18 @@ class WrittenGear {
   }
 
  private:
-  [[noreturn]] void refuse_both(const Value& own, const std::string& key) const {
-    throw InputError(own.where, what_ + " has teeth and a " + key,
+  [[noreturn]] void refuse_both(const Value& value, const std::string& key) const {
+    throw InputError(value.where, what_ + " has teeth and a " + key,
                      "write centres and teeth, or centre, radius and along");
   }
 
   void read_teeth() {
     const Value written = mapping_.at("teeth");
     std::size_t i = 0;
-    for (const Value& own : elements(written, 2)) {
-      teeth_.at(i) = read_number(m_, part_of(own, "the teeth of " + what_, ""), Sign::any).value;
+    for (const Value& element : elements(written, 2)) {
+      teeth_.at(i) = read_number(m_, part_of(element, "the teeth of " + what_, ""), Sign::any).value;
       if (teeth_.at(i).get_den() != 1 || teeth_.at(i) == 0)
-        throw InputError(own.where, "the teeth of " + what_ + " are no whole number", "write such as [20, 40]");
+        throw InputError(element.where, "the teeth of " + what_ + " are no whole number", "write such as [20, 40]");
       ++i;
     }
     if (teeth_[0] < 0 || (teeth_[1] < 0 && -teeth_[1] <= teeth_[0]))
@@ -170,8 +171,9 @@ const BodyFrame* frame_of(const Mechanism& mechanism, const std::string& link) {
 }
 
 bool is_known(const Mechanism& mechanism, const Value& point) {
-  return point.is_scalar() && std::any_of(mechanism.points.begin(), mechanism.points.end(),
-                                          [&](const Point& own) { return own.name == point.node.Scalar(); });
+  return point.is_scalar() &&
+         std::any_of(mechanism.points.begin(), mechanism.points.end(),
+                     [&](const Point& candidate) { return candidate.name == point.node.Scalar(); });
 }
 
 /// The frame of the wheel `second`, which turns by `ratio` of the angle of the first.
@@ -211,11 +213,11 @@ Number centre_distance(const Mechanism& mechanism, const Mapping& mapping, const
   const std::vector<Value> centres = elements(mapping.at("centres"), 2);
   const auto place = [&](std::size_t wheel) -> const std::vector<Expression>& {
     const PointIndex point = read_point_name(mechanism, centres[wheel]);
-    const auto* own = std::get_if<ExplicitPoint>(&mechanism.points[static_cast<std::size_t>(point)].form);
-    if (own == nullptr || !coordinates_of(mechanism, point).empty())
+    const auto* explicit_point = std::get_if<ExplicitPoint>(&mechanism.points[static_cast<std::size_t>(point)].form);
+    if (explicit_point == nullptr || !coordinates_of(mechanism, point).empty())
       throw InputError(mapping.at("centres").where, what + " has centres that move, on a carrier",
                        "add distance: and the distance between them");
-    return own->coordinates;
+    return explicit_point->coordinates;
   };
   const std::vector<Expression>&a = place(0), &b = place(1);
   const Expression apart = hypotenuse(difference_of(b[0], a[0]), difference_of(b[1], a[1]));
@@ -250,11 +252,7 @@ Joint read_gear(const Mechanism& mechanism, const Entry& entry) {
   joint.type = JointType::gear;
   joint.name = entry.key;
   joint.where = entry.where;
-  const std::vector<Value> names = elements(gear.mapping().at("gear"), 2);
-  joint.from = read_link_name(mechanism, names[0], true);
-  joint.to = read_link_name(mechanism, names[1], true);
-  if (joint.from == joint.to)
-    throw InputError(names[1].where, "gear " + entry.key + " joins a wheel to itself", "name two different links");
+  std::tie(joint.from, joint.to) = read_two_links(mechanism, gear.mapping().at("gear"), "gear " + entry.key);
   joint.at = pitch_point(mechanism, entry.key);
   const PointIndex flank = pitch_point(mechanism, flank_name(entry.key));
   joint.axes = {way(flank, joint.at)};
@@ -326,17 +324,17 @@ void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints)
     const std::array<std::string, 2> names = {wheels[0].node.Scalar(), wheels[1].node.Scalar()};
     const std::array<const BodyFrame*, 2> frames = {frame_of(mechanism, names[0]), frame_of(mechanism, names[1])};
     if ((frames[0] == nullptr) == (frames[1] == nullptr)) continue;
-    const std::size_t known = frames[0] != nullptr ? 0 : 1;
-    if (!frames[known]->angle || names[1 - known] == "ground") continue;
+    const std::size_t wheel = frames[0] != nullptr ? 0 : 1;
+    if (!frames[wheel]->angle || names[1 - wheel] == "ground") continue;
     const std::array<PointIndex, 2> at = {read_point_name(mechanism, centres[0]),
                                           read_point_name(mechanism, centres[1])};
     if (!coordinates_of(mechanism, at[0]).empty() || !coordinates_of(mechanism, at[1]).empty())
       continue;  // relative to a carrier that turns
-    const Rational forward = ratio_of(mechanism, entry), ratio = known == 0 ? forward : 1 / forward;
+    const Rational forward = ratio_of(mechanism, entry), ratio = wheel == 0 ? forward : 1 / forward;
     if (ratio.get_den() != 1)
       throw InputError(entry.where,
-                       kind + " " + entry.key + " turns " + names[1 - known] + " by " + ratio.get_str() +
-                           " of the angle of " + names[known] +
+                       kind + " " + entry.key + " turns " + names[1 - wheel] + " by " + ratio.get_str() +
+                           " of the angle of " + names[wheel] +
                            ", whose cos and sin are no polynomials of those of the angle",
                        "make the angle of the wheel that turns less the coordinate: its frame under frames");
     Expression phase;
@@ -346,11 +344,11 @@ void read_known_wheels(Mechanism& mechanism, const std::optional<Value>& joints)
             read_number(mechanism, part_of(part.value, "the phase of " + kind + " " + entry.key, "turned"), Sign::any)
                 .expression;
     // phase: of the second wheel where the first has not turned.
-    if (known == 1) phase = product_of(Expression::number(-ratio), phase);
-    if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(at[1 - known])].form))
+    if (wheel == 1) phase = product_of(Expression::number(-ratio), phase);
+    if (!std::holds_alternative<ExplicitPoint>(mechanism.points[static_cast<std::size_t>(at[1 - wheel])].form))
       continue;
-    BodyFrame own = turned_with(*frames[known], ratio, phase, at[1 - known], names[1 - known]);
-    mechanism.body_frames.push_back(std::move(own));
+    BodyFrame frame = turned_with(*frames[wheel], ratio, phase, at[1 - wheel], names[1 - wheel]);
+    mechanism.body_frames.push_back(std::move(frame));
   }
 }
 

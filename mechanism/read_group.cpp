@@ -43,10 +43,10 @@ class GroupReader {
 
   void add(const std::string& name, const core::SourcePosition& where, PointForm form) {
     check_label(name, where, "a point");
-    for (const Point& own : m_.points)
-      if (own.name == name)
+    for (const Point& point : m_.points)
+      if (point.name == name)
         throw InputError(
-            where, "point " + name + " of " + what_ + " is already placed in line " + std::to_string(own.where.line),
+            where, "point " + name + " of " + what_ + " is already placed in line " + std::to_string(point.where.line),
             "place it once");
     m_.points.push_back({name, std::move(form), false, where});
   }
@@ -83,8 +83,8 @@ class GroupReader {
     if (at == std::string::npos)
       throw InputError(entry.where, "'" + entry.key + "' among the lengths of " + what_ + " names no two points",
                        "write such as B-C: 0.263");
-    const auto point = [&](const std::string& own) {
-      return read_point_name(m_, {Node::scalar(own, entry.where), "the lengths of " + what_, entry.where});
+    const auto point = [&](const std::string& name) {
+      return read_point_name(m_, {Node::scalar(name, entry.where), "the lengths of " + what_, entry.where});
     };
     const auto trimmed = [](std::string text) {
       text.erase(0, text.find_first_not_of(' '));
@@ -100,8 +100,9 @@ class GroupReader {
       if (first == second || (!is_own(first) && !is_own(second)))
         throw InputError(entry.where, "the length " + entry.key + " holds no point of " + what_,
                          "name a point of the group and another one");
-      for (const Group::Distance& own : group_.distances)
-        if ((own.first == first && own.second == second) || (own.first == second && own.second == first))
+      for (const Group::Distance& distance : group_.distances)
+        if ((distance.first == first && distance.second == second) ||
+            (distance.first == second && distance.second == first))
           throw InputError(entry.where, "the length " + entry.key + " of " + what_ + " is given twice",
                            "leave one out");
       Value length = entry.value;
@@ -155,14 +156,14 @@ class GroupReader {
     for (std::size_t i = 0; i < group_.count; ++i) keys.push_back(name(group_.first + static_cast<PointIndex>(i)));
     const Mapping near(value, keys);
     std::vector<std::string> names;
-    for (const Coordinate& own : m_.coordinates) names.push_back(own.name);
+    for (const Coordinate& coordinate : m_.coordinates) names.push_back(coordinate.name);
     const Value at = near.at("at");
     const Mapping pose(at, names);
-    std::vector<Rational> own;
+    std::vector<Rational> values;
     for (const Coordinate& coordinate : m_.coordinates)
-      own.push_back(read_number(m_, of_coordinate(pose.at(coordinate.name), coordinate), Sign::any).value);
-    if (m_.near.empty()) m_.near = own;
-    if (m_.near != own)
+      values.push_back(read_number(m_, of_coordinate(pose.at(coordinate.name), coordinate), Sign::any).value);
+    if (m_.near.empty()) m_.near = values;
+    if (m_.near != values)
       throw InputError(at.where,
                        "the posture of " + what_ + " is at another pose than that of group " + m_.groups.front().name,
                        "give the postures of all groups at one pose");
@@ -197,14 +198,15 @@ class GroupReader {
       if (found.wanted[i] < 0) refuse_length(name_of_equation(group, i), found.wanted[i]);
       longest = std::max(longest, found.wanted[i]);
     }
-    for (const auto& own : group.near)
-      for (const Rational& c : own)
+    for (const auto& point : group.near)
+      for (const Rational& c : point)
         if (found.wanted.empty()) longest = std::max(longest, std::abs(core::to_double(c)));
     const Value near = mapping_.at("near");
     if (!found.closed || found.moved > far * longest) refuse_open(group, found, near);
     if (!found.dependent.empty()) {
       std::string names;
-      for (const std::size_t own : found.dependent) names += (names.empty() ? "" : ", ") + name_of_equation(group, own);
+      for (const std::size_t equation : found.dependent)
+        names += (names.empty() ? "" : ", ") + name_of_equation(group, equation);
       throw InputError(
           near.where, what_ + " is at a dead centre in its posture: " + names + " do not hold its points there",
           "give a posture at another pose, or lengths that hold every point; of a link whose points are on "

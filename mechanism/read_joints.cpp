@@ -1,5 +1,6 @@
 // Joints, the end effector and the loads.
 #include <algorithm>
+#include <tuple>
 
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
@@ -28,10 +29,6 @@ std::string names_of_joint_types(const Mechanism& mechanism) {
 }
 
 using core::InputError;
-
-std::string link_text(const Mechanism& mechanism, LinkIndex link) {
-  return link == ground ? "ground" : "link " + mechanism.links[static_cast<std::size_t>(link)].name;
-}
 
 /// Throws where a joint of no type that exists has a key that seems to name one: of two links.
 void refuse_type(const Mechanism& mechanism, const Entry& entry) {
@@ -219,29 +216,18 @@ void read_actuator(const Mechanism& mechanism, const Value& value, Joint& joint)
   const auto range = read_within(mechanism, *within, effort.field);
   const std::set<std::string> names = symbols(*joint.effort);
   if (std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
-                  [&](const Coordinate& own) { return names.contains(own.name); }))
+                  [&](const Coordinate& coordinate) { return names.contains(coordinate.name); }))
     joint.law_within = range;
   if (!names.empty()) return;
   if (const Rational given = value_of(*joint.effort, mechanism); given < range.first || given > range.second)
     refuse_effort(mechanism, joint, given, range, within->where);
 }
 
-void read_joined_links(const Mechanism& mechanism, const Value& links, const std::string& what, Joint& joint) {
-  std::vector<Value> names = elements(links, 2);
-  for (Value& name : names) name.what = what;
-  joint.from = read_link_name(mechanism, names[0], true);
-  joint.to = read_link_name(mechanism, names[1], true);
-  if (joint.from == joint.to)
-    throw InputError(names[1].where,
-                     "joint " + joint.name + " joins " + link_text(mechanism, joint.from) + " to itself",
-                     "name two different links");
-}
-
 /// {cable: [ground, platform], at: [A1, B1], tension: [5, 400]}: an actuator along the line of its two ends, whose
 /// effort is a tension with bounds.
 void read_cable(const Mechanism& mechanism, const Value& described, Joint& joint) {
   const Mapping mapping(described, {"cable", "at", "tension"});
-  read_joined_links(mechanism, mapping.at("cable"), described.what, joint);
+  std::tie(joint.from, joint.to) = read_two_links(mechanism, mapping.at("cable"), described.what);
   const std::vector<Value> ends = elements(mapping.at("at"), 2);
   joint.other_end = read_point_name(mechanism, ends[0]);
   joint.at = read_point_name(mechanism, ends[1]);
@@ -278,7 +264,7 @@ Joint read_joint(const Mechanism& mechanism, const Entry& entry) {
   }
   const Mapping mapping(described, joint_keys(mechanism, traits(joint)));
   const Value links = mapping.at(to_string(joint.type));
-  read_joined_links(mechanism, links, described.what, joint);
+  std::tie(joint.from, joint.to) = read_two_links(mechanism, links, described.what);
   const Value at = mapping.at("at");
   joint.at = read_point_name(mechanism, at);
   check_place(mechanism, joint, at);

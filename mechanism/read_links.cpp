@@ -80,13 +80,28 @@ LinkIndex read_link_name(const Mechanism& mechanism, const Value& value, bool or
   if (name == "ground" && or_ground) return ground;
   if (name == "ground")
     throw InputError(value.where, value.what + " is the ground, which is fixed", "name a link that moves");
-  std::vector<std::string> known;
-  if (or_ground) known.emplace_back("ground");
+  std::vector<std::string> allowed;
+  if (or_ground) allowed.emplace_back("ground");
   for (std::size_t i = 0; i < mechanism.links.size(); ++i) {
     if (mechanism.links[i].name == name) return static_cast<LinkIndex>(i);
-    known.push_back(mechanism.links[i].name);
+    allowed.push_back(mechanism.links[i].name);
   }
-  throw InputError(value.where, value.what + ": there is no link '" + name + "'", suggest(name, known, "links"));
+  throw InputError(value.where, value.what + ": there is no link '" + name + "'", suggest(name, allowed, "links"));
+}
+
+std::string link_text(const Mechanism& mechanism, LinkIndex link) {
+  return link == ground ? "the ground" : "link " + mechanism.links[static_cast<std::size_t>(link)].name;
+}
+
+std::pair<LinkIndex, LinkIndex> read_two_links(const Mechanism& mechanism, const Value& links,
+                                               const std::string& what) {
+  std::vector<Value> names = elements(links, 2);
+  for (Value& name : names) name.what = what;
+  const LinkIndex from = read_link_name(mechanism, names[0], true), to = read_link_name(mechanism, names[1], true);
+  if (from == to)
+    throw InputError(names[1].where, what + " joins " + link_text(mechanism, from) + " to itself",
+                     "name two different links");
+  return {from, to};
 }
 
 void read_links(Mechanism& mechanism, const Value& value) {

@@ -299,13 +299,13 @@ Expression read_length(const Mechanism& mechanism, const Value& value) {
 
 PointIndex read_point_name(const Mechanism& mechanism, const Value& value) {
   const std::string name = text_of(value);
-  std::vector<std::string> known;
+  std::vector<std::string> allowed;
   for (std::size_t i = 0; i < mechanism.points.size(); ++i) {
     if (mechanism.points[i].auxiliary) continue;
     if (mechanism.points[i].name == name) return static_cast<PointIndex>(i);
-    known.push_back(mechanism.points[i].name);
+    allowed.push_back(mechanism.points[i].name);
   }
-  throw InputError(value.where, value.what + ": there is no point '" + name + "'", suggest(name, known, "points"));
+  throw InputError(value.where, value.what + ": there is no point '" + name + "'", suggest(name, allowed, "points"));
 }
 
 PointForm read_point_form(const Mechanism& mechanism, const Value& value) {

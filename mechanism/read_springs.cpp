@@ -1,5 +1,6 @@
 // Springs and limits.
 #include <algorithm>
+#include <tuple>
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -9,10 +10,6 @@ namespace clearloci::mechanism {
 namespace {
 
 using core::InputError;
-
-std::string link_text(const Mechanism& mechanism, LinkIndex link) {
-  return link == ground ? "the ground" : "link " + mechanism.links[static_cast<std::size_t>(link)].name;
-}
 
 /// "S1", "S2", ... by its place among the springs, with underscores where another one has that name.
 std::string usual_name(const Mechanism& mechanism) {
@@ -39,15 +36,9 @@ void note_unit_of(const Number& stiffness, const Spring& spring, Mechanism& mech
 }
 
 void read_ends(const Mechanism& mechanism, const Mapping& mapping, Spring& spring) {
-  std::vector<Value> links = elements(mapping.at("links"), 2), points = elements(mapping.at("at"), 2);
-  for (std::vector<Value>* const list : {&links, &points})
-    for (Value& value : *list) value.what = "spring " + spring.name;
-  spring.from = read_link_name(mechanism, links[0], true);
-  spring.to = read_link_name(mechanism, links[1], true);
-  if (spring.from == spring.to)
-    throw InputError(links[1].where,
-                     "spring " + spring.name + " joins " + link_text(mechanism, spring.from) + " to itself",
-                     "name two different links");
+  std::vector<Value> points = elements(mapping.at("at"), 2);
+  for (Value& value : points) value.what = "spring " + spring.name;
+  std::tie(spring.from, spring.to) = read_two_links(mechanism, mapping.at("links"), "spring " + spring.name);
   spring.from_point = read_point_name(mechanism, points[0]);
   spring.to_point = read_point_name(mechanism, points[1]);
   if (spring.from_point == spring.to_point)
@@ -80,19 +71,20 @@ void read_torsion(const Mechanism& mechanism, const Mapping& mapping, Spring& sp
   spring.kind = Spring::Kind::torsion;
   Value joint = mapping.at("joint");
   const std::string name = text_of(joint);
-  std::vector<std::string> known;
-  for (const Joint& own : mechanism.joints) known.push_back(own.name);
-  const auto found = std::find(known.begin(), known.end(), name);
-  if (found == known.end())
+  std::vector<std::string> allowed;
+  for (const Joint& entry : mechanism.joints) allowed.push_back(entry.name);
+  const auto found = std::find(allowed.begin(), allowed.end(), name);
+  if (found == allowed.end())
     throw InputError(joint.where, "spring " + spring.name + ": there is no joint '" + name + "'",
-                     suggest(name, known, "joints"));
-  spring.joint = static_cast<JointIndex>(found - known.begin());
-  const Joint& own = mechanism.joints[static_cast<std::size_t>(spring.joint)];
-  if (own.type != JointType::revolute)
-    throw InputError(joint.where, "spring " + spring.name + " is in the " + to_string(own.type) + " joint " + name,
+                     suggest(name, allowed, "joints"));
+  spring.joint = static_cast<JointIndex>(found - allowed.begin());
+  const Joint& spring_joint = mechanism.joints[static_cast<std::size_t>(spring.joint)];
+  if (spring_joint.type != JointType::revolute)
+    throw InputError(joint.where,
+                     "spring " + spring.name + " is in the " + to_string(spring_joint.type) + " joint " + name,
                      "torsion springs are in revolute joints; elsewhere write links: [..., ...], at: [..., ...]");
-  spring.from = own.from;
-  spring.to = own.to;
+  spring.from = spring_joint.from;
+  spring.to = spring_joint.to;
   spring.stiffness = part(mechanism, mapping, "stiffness", Sign::not_negative, spring).expression;
   if (mapping.find("rest")) spring.rest = part(mechanism, mapping, "rest", Sign::any, spring).expression;
   for (const LinkIndex link : {spring.from, spring.to}) check_direction(mechanism, spring, link);

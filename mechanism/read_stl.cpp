@@ -81,10 +81,10 @@ class Words {
 };
 
 std::string lower_case(std::string_view word) {
-  std::string own(word);
-  for (char& c : own)
+  std::string lower_case(word);
+  for (char& c : lower_case)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return own;
+  return lower_case;
 }
 
 /// solid NAME, then of each triangle: facet normal N N N, outer loop, three times vertex X Y Z, endloop, endfacet.
@@ -96,14 +96,14 @@ std::vector<Corner> text_corners(const std::string& text, const std::string& fil
     throw InputError({file, words.line(), 1}, what, "export the part as STL once more, binary");
   };
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-    const std::string own = lower_case(word);
-    if (own == "solid" || own == "endsolid" || own == "facet") {
+    const std::string keyword = lower_case(word);
+    if (keyword == "solid" || keyword == "endsolid" || keyword == "facet") {
       words.skip_line();  // names, and normals, which say nothing that the corners do not
-    } else if (own == "loop") {
+    } else if (keyword == "loop") {
       of_loop = 0;
-    } else if (own == "endloop") {
+    } else if (keyword == "endloop") {
       if (of_loop != 3) refuse("a facet of the STL file has " + std::to_string(of_loop) + " corners");
-    } else if (own == "vertex") {
+    } else if (keyword == "vertex") {
       Corner& corner = corners.emplace_back();
       for (double& value : corner) {
         std::string_view number = words.next();
@@ -113,7 +113,7 @@ std::vector<Corner> text_corners(const std::string& text, const std::string& fil
           refuse("a vertex of the STL file has no three numbers");
       }
       ++of_loop;
-    } else if (own != "outer" && own != "endfacet") {
+    } else if (keyword != "outer" && keyword != "endfacet") {
       refuse("the file is no STL file");
     }
   }
@@ -133,7 +133,7 @@ struct CornerHash {
 core::TaskMesh joined(const std::vector<Corner>& corners, const std::string& file, double unit) {
   core::TaskMesh mesh;
   mesh.file = file;
-  std::unordered_map<Corner, int, CornerHash> known;
+  std::unordered_map<Corner, int, CornerHash> index_of_corner;
   std::array<int, 3> triangle{};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     Corner corner = corners[i];
@@ -142,7 +142,7 @@ core::TaskMesh joined(const std::vector<Corner>& corners, const std::string& fil
         throw InputError({file, 0, 0}, "a corner of the STL file is not finite", "export the part as STL once more");
       if (value == 0) value = 0;  // of both signs
     }
-    const auto [place, fresh] = known.try_emplace(corner, static_cast<int>(mesh.corners.size()));
+    const auto [place, fresh] = index_of_corner.try_emplace(corner, static_cast<int>(mesh.corners.size()));
     if (fresh) mesh.corners.push_back({unit * corner[0], unit * corner[1], unit * corner[2]});
     triangle[i % 3] = place->second;
     if (i % 3 == 2 && triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])

@@ -29,11 +29,11 @@ std::vector<std::string> parameter_names(const Mechanism& mechanism) {
 }
 
 void read_vary(Study& study, const Mechanism& mechanism, const Value& value) {
-  const std::vector<std::string> known = parameter_names(mechanism);
+  const std::vector<std::string> allowed = parameter_names(mechanism);
   for (Entry& entry : entries(value)) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
       throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
-                       known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
+                       allowed.empty() ? "the file has no parameters" : suggest(entry.key, allowed, "parameters"));
     const Parameter& parameter = *parameter_named(mechanism, entry.key);
     Value& range = entry.value;
     range.what = "the range of " + entry.key;
@@ -54,15 +54,15 @@ void read_vary(Study& study, const Mechanism& mechanism, const Value& value) {
 }
 
 void read_keep(Study& study, const Mechanism& mechanism, const Value& value) {
-  const std::vector<std::string> known = parameter_names(mechanism);
-  for (const Value& own : elements(value)) {
-    const Keep keep = parse_keep(text_of(own), own.where, mechanism);
+  const std::vector<std::string> allowed = parameter_names(mechanism);
+  for (const Value& element : elements(value)) {
+    const Keep keep = parse_keep(text_of(element), element.where, mechanism);
     for (const Expression& side : {keep.left, keep.right})
       for (const std::string& name : core::symbols(side))
-        if (std::find(known.begin(), known.end(), name) == known.end())
-          throw InputError(own.where, "'" + name + "' is no parameter of " + mechanism.file,
-                           suggest(name, known, "parameters"));
-    study.keep.push_back(text_of(own));
+        if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
+          throw InputError(element.where, "'" + name + "' is no parameter of " + mechanism.file,
+                           suggest(name, allowed, "parameters"));
+    study.keep.push_back(text_of(element));
   }
 }
 
@@ -78,7 +78,7 @@ void read_tasks(Study& study, const Mechanism& mechanism, const Value& document,
   if (one)
     study.tasks.push_back(read_own_task(mechanism, *one));
   else if (several)
-    for (const Value& own : elements(*several)) study.tasks.push_back(read_own_task(mechanism, own));
+    for (const Value& element : elements(*several)) study.tasks.push_back(read_own_task(mechanism, element));
   if (study.tasks.empty())
     throw InputError(document.where, "the study has no task", "write such as task: tasks/pick_and_place.yaml");
 }
@@ -108,17 +108,17 @@ StudyGoal read_goal(const Mechanism& mechanism, const Value& value) {
   if (!most == !least)
     throw InputError(value.where, value.what + " is to be maximised or minimised", "write such as {maximise: margin}");
   const Value& what = most ? *most : *least;
-  StudyGoal own;
-  own.maximise = most.has_value();
-  own.figure = core::figure_named(text_of(what));
-  if (own.figure) return own;
+  StudyGoal study_goal;
+  study_goal.maximise = most.has_value();
+  study_goal.figure = core::figure_named(text_of(what));
+  if (study_goal.figure) return study_goal;
   try {
-    own.expression = core::to_string(read_expression(mechanism, what, Scope::parameters));
+    study_goal.expression = core::to_string(read_expression(mechanism, what, Scope::parameters));
   } catch (const InputError&) {
     throw InputError(what.where, "'" + text_of(what) + "' is neither a figure nor an expression in parameters",
                      suggest(text_of(what), figure_names(), "figures"));
   }
-  return own;
+  return study_goal;
 }
 
 void read_goals(Study& study, const Mechanism& mechanism, const std::optional<Value>& value) {
@@ -127,9 +127,9 @@ void read_goals(Study& study, const Mechanism& mechanism, const std::optional<Va
     study.goals.push_back(read_goal(mechanism, *value));
     return;
   }
-  for (Value own : elements(*value)) {
-    own.what = "goal " + std::to_string(study.goals.size() + 1);
-    study.goals.push_back(read_goal(mechanism, own));
+  for (Value element : elements(*value)) {
+    element.what = "goal " + std::to_string(study.goals.size() + 1);
+    study.goals.push_back(read_goal(mechanism, element));
   }
 }
 
@@ -157,29 +157,29 @@ StudyMethod read_method(const Mechanism& mechanism, const Value& value, std::siz
     throw InputError(value.where, "the method is one of grid, sample, search, prove",
                      "write such as method: {grid: [64, 64]}");
   StudyMethod method;
-  Value own = keys.at(given.front());
+  Value key = keys.at(given.front());
   using Kind = StudyMethod::Kind;
   if (given.front() == "grid") {
     method.kind = Kind::grid;
     Rational designs = 1;
     std::vector<Value> counts =
-        own.is_sequence() ? elements(own, static_cast<int>(varied)) : std::vector<Value>(varied, own);
+        key.is_sequence() ? elements(key, static_cast<int>(varied)) : std::vector<Value>(varied, key);
     for (Value& count : counts) {
       count.what = "a count of the grid";
       method.counts.push_back(static_cast<int>(read_count(mechanism, count, 1)));
       designs *= method.counts.back();
     }
     if (designs > most_designs)
-      throw InputError(own.where, "the grid has " + core::to_string(designs) + " designs", "write a coarser one");
+      throw InputError(key.where, "the grid has " + core::to_string(designs) + " designs", "write a coarser one");
   } else if (given.front() == "prove") {
     method.kind = Kind::prove;
-    method.finest = read_number(mechanism, without_words(own, "of each range"), Sign::positive).value;
+    method.finest = read_number(mechanism, without_words(key, "of each range"), Sign::positive).value;
     if (method.finest > 1 || method.finest < Rational(1, 1L << 52))
-      throw InputError(own.where, own.what + " is " + core::to_string(method.finest) + " of each range",
+      throw InputError(key.where, key.what + " is " + core::to_string(method.finest) + " of each range",
                        "write a part between 2^-52 and 1");
   } else {
     method.kind = given.front() == "sample" ? Kind::sample : Kind::search;
-    method.count = static_cast<std::uint64_t>(read_count(mechanism, without_words(own, "evaluations"), 1));
+    method.count = static_cast<std::uint64_t>(read_count(mechanism, without_words(key, "evaluations"), 1));
   }
   return method;
 }

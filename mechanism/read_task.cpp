@@ -47,30 +47,30 @@ core::LoadRange read_loads_from(const Mechanism& mechanism, const Value& value) 
 
 /// {L1: 0.1e-3, d: [-0.2e-3, 0.1e-3]}
 std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const Value& value) {
-  std::vector<std::string> known;
-  for (const Parameter& parameter : mechanism.parameters) known.push_back(parameter.name);
+  std::vector<std::string> allowed;
+  for (const Parameter& parameter : mechanism.parameters) allowed.push_back(parameter.name);
   std::vector<core::Tolerance> tolerances;
   for (Entry& entry : entries(value)) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
       throw InputError(entry.where, "there is no parameter '" + entry.key + "' in " + mechanism.file,
-                       known.empty() ? "the file has no parameters" : suggest(entry.key, known, "parameters"));
+                       allowed.empty() ? "the file has no parameters" : suggest(entry.key, allowed, "parameters"));
     const Parameter& parameter = *parameter_named(mechanism, entry.key);
     entry.value.what = "the tolerance of " + entry.key;
-    core::Tolerance own{entry.key, 0, 0};
+    core::Tolerance tolerance{entry.key, 0, 0};
     if (entry.value.is_sequence()) {
       const std::vector<Value> ends = elements(entry.value, 2);
-      own.below = read_parameter_value(mechanism, parameter, ends[0]);
-      own.above = read_parameter_value(mechanism, parameter, ends[1]);
+      tolerance.below = read_parameter_value(mechanism, parameter, ends[0]);
+      tolerance.above = read_parameter_value(mechanism, parameter, ends[1]);
     } else {
-      own.above = read_parameter_value(mechanism, parameter, entry.value);
-      if (own.above < 0)
+      tolerance.above = read_parameter_value(mechanism, parameter, entry.value);
+      if (tolerance.above < 0)
         throw InputError(entry.value.where, entry.value.what + " is negative", "write 0 or a value above 0");
-      own.below = -own.above;
+      tolerance.below = -tolerance.above;
     }
-    if (own.below > 0 || own.above < 0)
+    if (tolerance.below > 0 || tolerance.above < 0)
       throw InputError(entry.value.where, entry.value.what + " does not contain the value of the parameter",
                        "write a number, or [below, above] with below <= 0 <= above");
-    tolerances.push_back(std::move(own));
+    tolerances.push_back(std::move(tolerance));
   }
   return tolerances;
 }
@@ -78,9 +78,9 @@ std::vector<core::Tolerance> read_tolerances(const Mechanism& mechanism, const V
 /// [{load: 1, radius: 20, couple: 2}], loads counted from 1.
 std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, const Value& value) {
   std::vector<core::LoadWithin> all;
-  for (Value own : elements(value)) {
-    own.what = "entry " + std::to_string(all.size() + 1) + " of " + value.what;
-    const Mapping keys(own, {"load", "radius", "couple"});
+  for (Value element : elements(value)) {
+    element.what = "entry " + std::to_string(all.size() + 1) + " of " + value.what;
+    const Mapping keys(element, {"load", "radius", "couple"});
     const Value which = keys.at("load");
     const Rational number = read_number(mechanism, which, Sign::positive).value;
     if (number.get_den() != 1 || number > static_cast<long>(mechanism.loads.size()))
@@ -96,7 +96,7 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
     if (const auto couple = keys.find("couple"))
       within.couple = read_number(mechanism, *couple, Sign::not_negative).value;
     if (within.force > 0 && !mechanism.loads[within.load].at)
-      throw InputError(own.where, own.what + " varies the force of a load that is a couple alone",
+      throw InputError(element.where, element.what + " varies the force of a load that is a couple alone",
                        "give the load a point and a force, or leave out the radius");
     all.push_back(within);
   }
@@ -105,10 +105,10 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
 
 /// constant, controlled, or {A4: 3.5}: what joints of free effort exert.
 void read_preload(const Mechanism& mechanism, const Value& value, core::Task& task) {
-  std::vector<std::string> known;
+  std::vector<std::string> allowed;
   for (const JointIndex j : preloaded_joints(mechanism))
-    known.push_back(mechanism.joints[static_cast<std::size_t>(j)].name);
-  if (known.empty())
+    allowed.push_back(mechanism.joints[static_cast<std::size_t>(j)].name);
+  if (allowed.empty())
     throw InputError(value.where, "no joint of " + mechanism.file + " has a free effort",
                      "write actuated: {effort: free} at a motor more than the mechanism needs");
   if (value.is_scalar()) {
@@ -117,12 +117,12 @@ void read_preload(const Mechanism& mechanism, const Value& value, core::Task& ta
     throw InputError(
         value.where, "the preload is '" + text_of(value) + "'",
         "write constant, one choice for the whole task, controlled, a law over it, or an effort for each joint: {" +
-            known.front() + ": 3.5}");
+            allowed.front() + ": 3.5}");
   }
   for (Entry& entry : entries(value)) {
-    if (std::find(known.begin(), known.end(), entry.key) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), entry.key) == allowed.end())
       throw InputError(entry.where, "no joint of free effort is called " + entry.key,
-                       suggest(entry.key, known, "joints of free effort"));
+                       suggest(entry.key, allowed, "joints of free effort"));
     for (const Joint& joint : mechanism.joints)
       if (joint.name == entry.key) {
         entry.value.what = "the effort of " + entry.key;

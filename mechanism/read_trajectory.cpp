@@ -157,13 +157,13 @@ void check_constant(const Trajectory& trajectory, const Value& motion) {
 
 MotionLaw read_law(const Mechanism& mechanism, const Value& value) {
   MotionLaw law;
-  std::vector<std::string> known;
-  for (const auto& [kind, name] : laws) known.emplace_back(name);
+  std::vector<std::string> allowed;
+  for (const auto& [kind, name] : laws) allowed.emplace_back(name);
   const Value named = value.is_map() ? Mapping(value, law_keys).at("law") : value;
   const std::string text = text_of(named);
   const auto* const found = std::find_if(laws.begin(), laws.end(), [&](const auto& one) { return one.second == text; });
   if (found == laws.end())
-    throw InputError(named.where, "there is no motion law '" + text + "'", suggest(text, known, "laws"));
+    throw InputError(named.where, "there is no motion law '" + text + "'", suggest(text, allowed, "laws"));
   law.kind = found->first;
   if (!value.is_map()) return law;
   const Mapping mapping(value, law_keys);
@@ -187,12 +187,12 @@ Expression read_of_time(const Mechanism& mechanism, const Value& value) {
     if (parameter.name == "t")
       throw InputError(value.where, "t is the time here, and a parameter of the mechanism", "rename the parameter");
   Expression expression = parse_expression(text_of(value), value.where);
-  std::vector<std::string> known = {"t"};
-  for (const Parameter& parameter : mechanism.parameters) known.push_back(parameter.name);
+  std::vector<std::string> allowed = {"t"};
+  for (const Parameter& parameter : mechanism.parameters) allowed.push_back(parameter.name);
   for (const std::string& name : core::symbols(expression))
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
       throw InputError(value.where, value.what + ": '" + name + "' is neither the time t nor a parameter",
-                       suggest(name, known, "names"));
+                       suggest(name, allowed, "names"));
   return expression;
 }
 
@@ -283,11 +283,11 @@ void read_timed(const Mechanism& mechanism, const Mapping& root, const HandedFil
 
 int read_stop(const Trajectory& trajectory, const Value& value) {
   const std::string name = text_of(value);
-  std::vector<std::string> known;
+  std::vector<std::string> allowed;
   for (std::size_t i = 0; i < trajectory.waypoints.size(); ++i) {
     const Waypoint& waypoint = trajectory.waypoints[i];
     if (waypoint.name.empty()) continue;
-    known.push_back(waypoint.name);
+    allowed.push_back(waypoint.name);
     if (waypoint.name != name) continue;
     if (!waypoint.stop)
       throw InputError(value.where, value.what + ": the path does not stop at " + name,
@@ -295,7 +295,7 @@ int read_stop(const Trajectory& trajectory, const Value& value) {
     return static_cast<int>(i);
   }
   throw InputError(value.where, value.what + ": there is no waypoint '" + name + "'",
-                   suggest(name, known, "named waypoints"));
+                   suggest(name, allowed, "named waypoints"));
 }
 
 Payload read_payload(const Mechanism& mechanism, const Trajectory& trajectory, Value value) {

@@ -131,13 +131,13 @@ Value parameter_value(const Entry& entry, const std::vector<Override>& overrides
 }
 
 void check_known_overrides(const std::vector<Entry>& parameters, const std::vector<Override>& overrides) {
-  std::vector<std::string> known;
-  for (const Entry& entry : parameters) known.push_back(entry.key);
+  std::vector<std::string> allowed;
+  for (const Entry& entry : parameters) allowed.push_back(entry.key);
   for (const Override& override : overrides) {
     const std::string& name = override.first;
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
     throw InputError(place_of(override), "there is no parameter '" + name + "' in the file",
-                     known.empty() ? "the file has no parameters" : "the parameters are " + join(known));
+                     allowed.empty() ? "the file has no parameters" : "the parameters are " + join(allowed));
   }
 }
 
@@ -157,9 +157,9 @@ Expression parse_written(const Mechanism& mechanism, const Value& value) {
 
 InSi read_in_si(const Mechanism& mechanism, const Value& value, Scope scope) {
   const Expression written = parse_written(mechanism, value);
-  const std::vector<std::string> known = names_in(mechanism, scope);
+  const std::vector<std::string> allowed = names_in(mechanism, scope);
   for (const std::string& name : symbols(with_si_units(written)))
-    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_name(mechanism, value, scope, name);
+    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end()) refuse_name(mechanism, value, scope, name);
   return in_si(written, mechanism, value);
 }
 
@@ -208,8 +208,8 @@ void check_plain_turns(const Mechanism& mechanism, const Coordinate& coordinate,
   const double extent = core::to_double(coordinate.upper) - core::to_double(coordinate.lower);
   if (!coordinate.angle || mechanism.units.angle_declared || extent <= most) return;
   for (const Value& end : ends) {
-    const InSi own = read_in_si(mechanism, end, Scope::parameters);
-    if (own.has_unit || own.dimension != Dimension{} || names_a_turn(own.expression)) return;
+    const InSi value = read_in_si(mechanism, end, Scope::parameters);
+    if (value.has_unit || value.dimension != Dimension{} || names_a_turn(value.expression)) return;
   }
   const auto words = [](double value) {
     char text[32];
@@ -322,11 +322,11 @@ void check_label(const std::string& name, const SourcePosition& where, const std
 void read_parameters(Mechanism& mechanism, const std::optional<Value>& value, const std::vector<Entry>& further,
                      const std::vector<Override>& overrides) {
   std::vector<Entry> parameters = value && !value->node.IsNull() ? entries(*value) : std::vector<Entry>{};
-  for (const Entry& own : further) {
+  for (const Entry& entry : further) {
     for (const Entry& other : parameters)
-      if (other.key == own.key)
-        throw InputError(other.where, "'" + own.key + "' is the name of a free effort", "rename the parameter");
-    parameters.push_back(own);
+      if (other.key == entry.key)
+        throw InputError(other.where, "'" + entry.key + "' is the name of a free effort", "rename the parameter");
+    parameters.push_back(entry);
   }
   check_known_overrides(parameters, overrides);
   for (auto entry = parameters.begin(); entry != parameters.end(); ++entry) {

@@ -37,11 +37,11 @@ struct Signed {
 
 /// "-3*B" as 3*B, negative.
 Signed without_signs(std::string text) {
-  Signed own;
+  Signed term;
   for (; !text.empty() && (text.front() == '+' || text.front() == '-'); text = trimmed(text.substr(1)))
-    own.negative = own.negative != (text.front() == '-');
-  own.text = std::move(text);
-  return own;
+    term.negative = term.negative != (text.front() == '-');
+  term.text = std::move(text);
+  return term;
 }
 
 /// Whether a + or - after this text is a sign: at its beginning and after * or /.
@@ -70,9 +70,9 @@ class VectorReader {
     const std::vector<Piece> terms = split(text, "+-");
     VectorExpression result;
     for (std::size_t i = 0; i < terms.size(); ++i) {
-      const Signed own = without_signs(terms[i].text);
-      VectorExpression term = product(own.text, depth);
-      if (own.negative != (terms[i].before == '-')) term = negated(std::move(term));
+      const Signed signed_term = without_signs(terms[i].text);
+      VectorExpression term = product(signed_term.text, depth);
+      if (signed_term.negative != (terms[i].before == '-')) term = negated(std::move(term));
       result = i == 0 ? std::move(term) : VectorExpression{Kind::add, {}, 0, {std::move(result), std::move(term)}};
     }
     return result;
@@ -131,9 +131,9 @@ class VectorReader {
     for (const Piece& piece : pieces) {
       const std::string name = piece.text.substr(0, piece.text.find('^'));
       const auto is_named = [&](const auto& one) { return one.name == name; };
-      const bool known = std::any_of(mechanism_.parameters.begin(), mechanism_.parameters.end(), is_named) ||
-                         std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), is_named);
-      if (!joined.empty() && is_unit(name) && !known && !is_vector(joined.back().text))
+      const bool is_name = std::any_of(mechanism_.parameters.begin(), mechanism_.parameters.end(), is_named) ||
+                           std::any_of(mechanism_.coordinates.begin(), mechanism_.coordinates.end(), is_named);
+      if (!joined.empty() && is_unit(name) && !is_name && !is_vector(joined.back().text))
         joined.back().text += piece.before + piece.text;
       else
         joined.push_back(piece);
@@ -199,9 +199,9 @@ class VectorReader {
   }
 
   VectorExpression factor(const std::string& text, int depth) const {
-    if (Signed own = without_signs(text); own.text != text) {
-      VectorExpression vector = factor(own.text, depth);
-      return own.negative ? negated(std::move(vector)) : vector;
+    if (Signed term = without_signs(text); term.text != text) {
+      VectorExpression vector = factor(term.text, depth);
+      return term.negative ? negated(std::move(vector)) : vector;
     }
     const auto inside = [&](std::size_t start) { return text.substr(start, text.size() - start - 1); };
     if (text.front() == '[' && text.back() == ']') {

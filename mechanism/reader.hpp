@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/task.hpp"
@@ -100,6 +101,10 @@ std::set<PointIndex> points_of(const VectorExpression& vector);
 
 // --- read_links.cpp
 LinkIndex read_link_name(const Mechanism& mechanism, const Value& value, bool or_ground);
+/// "link AB", "the ground".
+std::string link_text(const Mechanism& mechanism, LinkIndex link);
+/// from and to: two different links, one of which may be the ground. `what` joins them, for errors: "spring S".
+std::pair<LinkIndex, LinkIndex> read_two_links(const Mechanism& mechanism, const Value& links, const std::string& what);
 void read_links(Mechanism& mechanism, const Value& value);
 /// A link with one point has no length to make its inertia from: with a mass it must say that, unless it slides along
 /// the ground, where it cannot turn. After the joints are read.

@@ -39,7 +39,7 @@ constexpr std::array<Vector, 3> xyz = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& axes, std::vector<Column>& columns) {
   const Joint& joint = m.joints[static_cast<std::size_t>(index)];
-  const JointTraits& own = traits(joint);
+  const JointTraits& joint_traits = traits(joint);
   const auto force = [&](const Vector& v) { columns.push_back({index, false, joint.from, joint.to, joint.at, v, {}}); };
   const auto couple = [&](const Vector& v) {
     columns.push_back({index, false, joint.from, joint.to, joint.at, {}, v});
@@ -57,9 +57,9 @@ void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& 
       couple(xyz[2]);
     } else if (is_slot(m, joint)) {
       force({-axes[0][1], axes[0][0], 0});
-    } else if (own.meshes && axes.empty()) {
+    } else if (joint_traits.meshes && axes.empty()) {
       couple(xyz[2]);
-    } else if (own.meshes) {
+    } else if (joint_traits.meshes) {
       force(axes[0]);
     } else {
       force(xyz[0]);
@@ -67,17 +67,17 @@ void add_borne(const Mechanism& m, JointIndex index, const std::vector<Vector>& 
     }
     return;
   }
-  if (own.slides)
+  if (joint_traits.slides)
     for (const Vector& v : across(axes[0])) force(v);
   else
     for (const Vector& v : xyz) force(v);
   if (holds_idle_freedom(joint))
     couple(axes[0]);
-  else if (own.couple == BorneCouple::cross)
+  else if (joint_traits.couple == BorneCouple::cross)
     couple(unit(cross(axes[0], axes[1])));
-  else if (own.couple == BorneCouple::across_axis)
+  else if (joint_traits.couple == BorneCouple::across_axis)
     for (const Vector& v : across(axes[0])) couple(v);
-  else if (own.couple == BorneCouple::any)
+  else if (joint_traits.couple == BorneCouple::any)
     for (const Vector& v : xyz) couple(v);
 }
 

@@ -29,11 +29,11 @@ SeenSlot seen(const Mechanism& mechanism, const Joint& joint, const Place& axis,
   Place origin{}, direction = {1, 0, 0};
   const Place& pin = points[static_cast<std::size_t>(joint.at)];
   if (joint.from != ground) {
-    const std::vector<PointIndex>& own = mechanism.links[static_cast<std::size_t>(joint.from)].points;
-    origin = points[static_cast<std::size_t>(own.front())];
+    const std::vector<PointIndex>& base_points = mechanism.links[static_cast<std::size_t>(joint.from)].points;
+    origin = points[static_cast<std::size_t>(base_points.front())];
     direction = axis;
-    if (own.size() > 1) {
-      const Place& second = points[static_cast<std::size_t>(own[1])];
+    if (base_points.size() > 1) {
+      const Place& second = points[static_cast<std::size_t>(base_points[1])];
       direction = {second[0] - origin[0], second[1] - origin[1], 0};
     }
   }
@@ -46,20 +46,20 @@ SeenSlot seen(const Mechanism& mechanism, const Joint& joint, const Place& axis,
 
 void check_slot(const Mechanism& mechanism, const Joint& joint, const std::vector<SampledPosture>& postures) {
   std::vector<SeenSlot> all;
-  for (const SampledPosture& own : postures)
-    if (const auto axis = sample_vector(mechanism, joint.axes.front(), own.pose))
-      if (std::hypot((*axis)[0], (*axis)[1]) > 0) all.push_back(seen(mechanism, joint, *axis, own.points));
+  for (const SampledPosture& posture : postures)
+    if (const auto axis = sample_vector(mechanism, joint.axes.front(), posture.pose))
+      if (std::hypot((*axis)[0], (*axis)[1]) > 0) all.push_back(seen(mechanism, joint, *axis, posture.points));
   if (all.empty()) return;
   double size = 0;
-  for (const SeenSlot& own : all) size = std::max(size, own.size);
+  for (const SeenSlot& slot : all) size = std::max(size, slot.size);
   const std::string link =
       joint.from == ground ? "the ground" : "link " + mechanism.links[static_cast<std::size_t>(joint.from)].name;
-  for (const SeenSlot& own : all) {
+  for (const SeenSlot& slot : all) {
     const SeenSlot& first = all.front();
-    if (std::abs(own.sine - first.sine) > off_line || std::abs(own.cosine - first.cosine) > off_line)
+    if (std::abs(slot.sine - first.sine) > off_line || std::abs(slot.cosine - first.cosine) > off_line)
       throw core::InputError(joint.where, "the axis of slot " + joint.name + " turns in " + link + ", which carries it",
                              "write the way between two points of " + link);
-    if (std::abs(own.distance - first.distance) <= off_line * size) continue;
+    if (std::abs(slot.distance - first.distance) <= off_line * size) continue;
     const auto [least, most] = std::minmax_element(
         all.begin(), all.end(), [](const SeenSlot& a, const SeenSlot& b) { return a.distance < b.distance; });
     char text[80];

@@ -24,9 +24,9 @@ class Ends {
     const auto &a = points[static_cast<std::size_t>(spring_.from_point)],
                &b = points[static_cast<std::size_t>(spring_.to_point)];
     if (!a || !b) return NAN;
-    const double own = std::hypot((*b)[0] - (*a)[0], (*b)[1] - (*a)[1], (*b)[2] - (*a)[2]);
-    greatest_ = std::max(greatest_, own);
-    return own;
+    const double distance = std::hypot((*b)[0] - (*a)[0], (*b)[1] - (*a)[1], (*b)[2] - (*a)[2]);
+    greatest_ = std::max(greatest_, distance);
+    return distance;
   }
 
   /// The least on the way between two poses, around every pose of some that is nearer than its neighbours.
@@ -67,8 +67,9 @@ class Ends {
 bool meet(Ends& ends, const Mechanism& mechanism) {
   if (mechanism.coordinates.size() == 1) {
     constexpr int looks = 128;
-    const Coordinate& own = mechanism.coordinates.front();
-    const double least = ends.least_between({core::to_double(own.lower)}, {core::to_double(own.upper)}, looks);
+    const Coordinate& coordinate = mechanism.coordinates.front();
+    const double least =
+        ends.least_between({core::to_double(coordinate.lower)}, {core::to_double(coordinate.upper)}, looks);
     return least <= rounding * ends.greatest();
   }
   // A curve that parts the box is crossed by one of some ways through it; a single pose is met by none.

@@ -237,17 +237,17 @@ class Conversion {
  private:
   InSi symbol(const Expression& e, const UnitSize& size) const {
     if (const auto unit = as_unit(e)) {
-      const UnitSize own = unit->second * power(file_size(m_.units, unit->first), -1) * size;
-      const Expression one = own.pi == 1 ? Expression::pi() : Expression::number(1);
-      return {scaled(one, {own.factor, own.pi == 1 ? 0 : own.pi}), unit->first, true, true};
+      const UnitSize unit_size = unit->second * power(file_size(m_.units, unit->first), -1) * size;
+      const Expression one = unit_size.pi == 1 ? Expression::pi() : Expression::number(1);
+      return {scaled(one, {unit_size.factor, unit_size.pi == 1 ? 0 : unit_size.pi}), unit->first, true, true};
     }
-    for (const Coordinate& own : m_.coordinates)
-      if (own.name == e.name()) {
-        const Dimension d = own.angle ? angle : length;
+    for (const Coordinate& coordinate : m_.coordinates)
+      if (coordinate.name == e.name()) {
+        const Dimension d = coordinate.angle ? angle : length;
         return {scaled(e, size * power(file_size(m_.units, d), -1)), d};
       }
-    for (const Parameter& own : m_.parameters)
-      if (own.name == e.name()) return {scaled(e, size), own.dimension, own.dimension != Dimension{}};
+    for (const Parameter& parameter : m_.parameters)
+      if (parameter.name == e.name()) return {scaled(e, size), parameter.dimension, parameter.dimension != Dimension{}};
     return {scaled(e, size), {}, false};
   }
 
@@ -268,7 +268,7 @@ class Conversion {
   bool moves(const Expression& e) const {
     const std::set<std::string> names = symbols(e);
     return std::any_of(m_.coordinates.begin(), m_.coordinates.end(),
-                       [&](const Coordinate& own) { return names.contains(own.name); });
+                       [&](const Coordinate& coordinate) { return names.contains(coordinate.name); });
   }
 
   InSi product(const Expression& e, const UnitSize& size) const {
@@ -276,9 +276,9 @@ class Conversion {
     const Expression &first = e.arguments()[0], &second = e.arguments()[1];
     if (const auto unit = as_unit(second)) {
       const int sign = divides ? -1 : 1;
-      const UnitSize own = power(unit->second * power(file_size(m_.units, unit->first), -1), sign);
+      const UnitSize unit_size = power(unit->second * power(file_size(m_.units, unit->first), -1), sign);
       InSi result = (*this)(first, {});
-      result.expression = scaled(result.expression, own * size);
+      result.expression = scaled(result.expression, unit_size * size);
       result.dimension = sum(result.dimension, times(unit->first, sign));
       result.has_unit = true;
       return result;
@@ -357,7 +357,7 @@ ParameterUnit coherent_unit(const Units& units, const Dimension& d) {
 }
 
 std::string words_of(const Dimension& dimension) {
-  const std::vector<std::pair<Dimension, const char*>> known = {{length, "a length"},
+  const std::vector<std::pair<Dimension, const char*>> names = {{length, "a length"},
                                                                 {angle, "an angle"},
                                                                 {force, "a force"},
                                                                 {mass, "a mass"},
@@ -367,8 +367,9 @@ std::string words_of(const Dimension& dimension) {
                                                                 {stiffness, "a stiffness"},
                                                                 {acceleration, "an acceleration"},
                                                                 {angular_speed, "a rotational speed"}};
-  for (const auto& [own, words] : known)
-    if (alike(own, dimension) && (own.angle == dimension.angle || own != angle)) return words;
+  for (const auto& [known_dimension, words] : names)
+    if (alike(known_dimension, dimension) && (known_dimension.angle == dimension.angle || known_dimension != angle))
+      return words;
   return "in " + coherent_words({}, dimension);
 }
 
@@ -384,15 +385,15 @@ Units read_units(const std::optional<Value>& value) {
     const auto written = mapping.find(key);
     if (!written) return;
     const std::string& name = text_of(*written);
-    const NamedUnit* const known = unit_named(name);
-    if (known == nullptr || known->dimension != dimension) {
+    const NamedUnit* const named_unit = unit_named(name);
+    if (named_unit == nullptr || named_unit->dimension != dimension) {
       std::vector<std::string> names;
       for (const NamedUnit& one : named_units())
         if (one.dimension == dimension) names.emplace_back(one.name);
       throw InputError(written->where, "'" + name + "' is no unit of " + key, "write one of " + join(names));
     }
     constexpr double pi = 3.14159265358979323846;
-    unit = {name, core::to_double(known->size.factor) * (known->size.pi == 1 ? pi : 1)};
+    unit = {name, core::to_double(named_unit->size.factor) * (named_unit->size.pi == 1 ? pi : 1)};
   };
   read("length", length, units.length);
   read("angle", angle, units.angle);

@@ -115,18 +115,18 @@ std::string task_text(const core::Task& task, const Mechanism& mechanism) {
   if (task.loads)
     text += "loads_from: [" + write.forces(task.loads->first) + ", " + write.forces(task.loads->second) + "]\n";
   for (std::size_t i = 0; i < task.tolerances.size(); ++i) {
-    const core::Tolerance& own = task.tolerances[i];
-    const Parameter* parameter = parameter_named(mechanism, own.parameter);
+    const core::Tolerance& tolerance = task.tolerances[i];
+    const Parameter* parameter = parameter_named(mechanism, tolerance.parameter);
     core::ensure(parameter != nullptr, "a tolerance of a parameter of the mechanism");
-    text += (i == 0 ? "tolerances: {" : ", ") + own.parameter + ": [" +
-            value_words(*parameter, own.below, mechanism.units) + ", " +
-            value_words(*parameter, own.above, mechanism.units) + "]";
+    text += (i == 0 ? "tolerances: {" : ", ") + tolerance.parameter + ": [" +
+            value_words(*parameter, tolerance.below, mechanism.units) + ", " +
+            value_words(*parameter, tolerance.above, mechanism.units) + "]";
   }
   if (!task.tolerances.empty()) text += "}\n";
   for (std::size_t i = 0; i < task.loads_within.size(); ++i) {
-    const core::LoadWithin& own = task.loads_within[i];
-    text += (i == 0 ? "loads_within: [{load: " : ", {load: ") + std::to_string(own.load + 1) +
-            ", radius: " + write.force(own.force) + ", couple: " + number(own.couple) + "}";
+    const core::LoadWithin& load_range = task.loads_within[i];
+    text += (i == 0 ? "loads_within: [{load: " : ", {load: ") + std::to_string(load_range.load + 1) +
+            ", radius: " + write.force(load_range.force) + ", couple: " + number(load_range.couple) + "}";
   }
   if (!task.loads_within.empty()) text += "]\n";
   if (task.pose_error) text += "pose_error: " + write.length(*task.pose_error) + "\n";

@@ -45,15 +45,15 @@ std::string with_values(std::string text, const std::string& file, const std::ve
   std::vector<Entry> places;
   for (const Entry& key : keys) {
     if (key.key == "parameters")
-      for (Entry& own : entries(key.value)) places.push_back(std::move(own));
+      for (Entry& entry : entries(key.value)) places.push_back(std::move(entry));
     if (key.key == "joints")
-      for (Entry& own : written_free_efforts(key.value)) places.push_back(std::move(own));
+      for (Entry& effort : written_free_efforts(key.value)) places.push_back(std::move(effort));
   }
   for (const auto& [name, value] : values) {
     bool found = false;
-    for (const Entry& own : places)
-      if (own.key == name) {
-        changes.emplace_back(place_of(text, own.value), value);
+    for (const Entry& place : places)
+      if (place.key == name) {
+        changes.emplace_back(place_of(text, place.value), value);
         found = true;
       }
     if (!found)

@@ -21,7 +21,7 @@ ParameterUnit times(ParameterUnit a, const ParameterUnit& b, int n) {
     else
       same->second += n * power.second;
   }
-  std::erase_if(a.powers, [](const auto& own) { return own.second == 0; });
+  std::erase_if(a.powers, [](const auto& power) { return power.second == 0; });
   for (int k = 0; k < std::abs(n); ++k) a.factor *= n > 0 ? b.factor : Rational(1 / b.factor);
   a.pi += n * b.pi;
   return a;
@@ -39,8 +39,8 @@ std::optional<ParameterUnit> written_unit(const Expression& written, const Mecha
     case Kind::symbol: {
       if (const auto unit = unit_of_symbol(written, mechanism.units))
         return ParameterUnit{{{unit->name, 1}}, unit->size.factor, unit->size.pi};
-      const Parameter* const own = parameter_named(mechanism, written.name());
-      return own == nullptr ? std::nullopt : unit_of(*own, mechanism.units);
+      const Parameter* const parameter = parameter_named(mechanism, written.name());
+      return parameter == nullptr ? std::nullopt : unit_of(*parameter, mechanism.units);
     }
     case Kind::negate:
       return of(0);

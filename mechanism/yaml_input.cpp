@@ -152,8 +152,8 @@ std::optional<Value> Mapping::find(const std::string& key) const {
 }
 
 std::string Mapping::example(const std::string& key) const {
-  const std::optional<std::string> known = has_examples_ ? example_of(key) : std::nullopt;
-  return key + ": " + known.value_or(key == "format" ? "1" : "...");
+  const std::optional<std::string> example = has_examples_ ? example_of(key) : std::nullopt;
+  return key + ": " + example.value_or(key == "format" ? "1" : "...");
 }
 
 Value Mapping::at(const std::string& key) const {
@@ -171,20 +171,20 @@ void Mapping::require(const std::vector<std::string>& keys) const {
                    "add " + example(missing.front()) + " and the others");
 }
 
-std::string suggest(const std::string& wrong, const std::vector<std::string>& known, const std::string& plural,
+std::string suggest(const std::string& wrong, const std::vector<std::string>& names, const std::string& plural,
                     const std::vector<std::string>& listed) {
-  if (known.empty()) return "there are no " + plural;
+  if (names.empty()) return "there are no " + plural;
   const auto distance = [&wrong](const std::string& name) {
     return edit_distance(lower_case(wrong), lower_case(name));
   };
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+  const auto nearest = std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
     return distance(a) < distance(b);
   });
   const std::size_t limit = std::max<std::size_t>(1, nearest->size() / 3);
   if (wrong.size() > 1 && distance(*nearest) <= limit) return "did you mean '" + *nearest + "'?";
   if (plural == "keys")
-    if (const auto instead = what_to_write_for(wrong, known)) return *instead;
-  return "the " + plural + " are " + join(listed.empty() ? known : listed);
+    if (const auto instead = what_to_write_for(wrong, names)) return *instead;
+  return "the " + plural + " are " + join(listed.empty() ? names : listed);
 }
 
 std::string join(const std::vector<std::string>& names) {

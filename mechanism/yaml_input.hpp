@@ -74,7 +74,7 @@ class Mapping {
 
 /// How to mend an unknown name: "did you mean 'A1B1'?", or the list of what is known ("the links are A, B").
 /// `listed`: all of them, where only some of these may be meant.
-std::string suggest(const std::string& wrong, const std::vector<std::string>& known, const std::string& plural,
+std::string suggest(const std::string& wrong, const std::vector<std::string>& names, const std::string& plural,
                     const std::vector<std::string>& listed = {});
 
 /// "a, b, c".

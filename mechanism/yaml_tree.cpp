@@ -34,10 +34,10 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& at, YAML::anchor_t anchor) override { add(Node::null(position(at, file_)), anchor); }
   void OnAlias(const YAML::Mark& at, YAML::anchor_t anchor) override {
-    const auto known = anchors_.find(anchor);
-    if (known == anchors_.end())
+    const auto found = anchors_.find(anchor);
+    if (found == anchors_.end())
       throw InputError(position(at, file_), "this part of the file contains itself", "write it out without the alias");
-    add(known->second, 0);
+    add(found->second, 0);
   }
   void OnScalar(const YAML::Mark& at, const std::string& tag, YAML::anchor_t anchor, const std::string& text) override {
     SourcePosition where = position(at, file_);

@@ -68,7 +68,7 @@ int times_vanishing(core::LocusKind kind, const std::vector<core::Vanishing>& va
     });
     return found == vanishing.end() ? 0 : found->multiplicity;
   };
-  if (const int own = multiplicity(reaction.quantity)) return own;
+  if (const int order = multiplicity(reaction.quantity)) return order;
   const bool is_part = std::find(parts.begin(), parts.end(), reaction.quantity) != parts.end();
   if (is_part) return multiplicity(Quantity::f);
   if (reaction.quantity != Quantity::f || parts.empty()) return 0;

@@ -201,15 +201,17 @@ class ModelBuilder {
       keep({t.subtract(g.one(), t.square(off)), std::nullopt}, model);
     };
     const mechanism::HeldByLinks held = mechanism::held_by_links(m_);
-    for (const mechanism::HeldDistance& own : held.distances) {
-      const Triple way = g.minus(g.point(own.second), g.point(own.first));
-      within(t.divide(g.dot(way, way), t.constant(own.length * own.length)));
+    for (const mechanism::HeldDistance& distance : held.distances) {
+      const Triple way = g.minus(g.point(distance.second), g.point(distance.first));
+      within(t.divide(g.dot(way, way), t.constant(distance.length * distance.length)));
     }
-    for (const mechanism::HeldTurn& own : held.turns) {
-      const auto way = [&](std::size_t i) { return g.minus(g.point(own.points[i]), g.point(own.points[0])); };
+    for (const mechanism::HeldTurn& held_turn : held.turns) {
+      const auto way = [&](std::size_t i) {
+        return g.minus(g.point(held_turn.points[i]), g.point(held_turn.points[0]));
+      };
       const Triple across = g.cross(way(1), way(2));
-      const Register turn = own.points.size() == 3 ? across[2] : g.dot(across, way(3));
-      keep({t.divide(turn, t.constant(own.size)), std::nullopt}, model);
+      const Register turn = held_turn.points.size() == 3 ? across[2] : g.dot(across, way(3));
+      keep({t.divide(turn, t.constant(held_turn.size)), std::nullopt}, model);
     }
   }
 

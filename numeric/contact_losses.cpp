@@ -189,14 +189,14 @@ class LossSearch {
     loss.force = force;
     const auto excess = [&](double t) { return watch.at(interval, t).value - threshold_ * threshold_; };
     // Outwards over the interval's own samples until the force is above the threshold again.
-    const auto& own = samples_[interval];
-    double left = own.front().tau, right = own.back().tau;
-    for (auto i = own.rbegin(); i != own.rend(); ++i) {
+    const auto& sample = samples_[interval];
+    double left = sample.front().tau, right = sample.back().tau;
+    for (auto i = sample.rbegin(); i != sample.rend(); ++i) {
       if (i->tau >= tau || watch.at(*i).value <= threshold_ * threshold_) continue;
       left = root(excess, i->tau, tau, 1);
       break;
     }
-    for (const Instant& i : own) {
+    for (const Instant& i : sample) {
       if (i.tau <= tau || watch.at(i).value <= threshold_ * threshold_) continue;
       right = root(excess, tau, i.tau, -1);
       break;
@@ -374,10 +374,11 @@ std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t
   const JointClearance& clearance = motion.clearances[joint];
   const JointColumns& columns = motion.columns[joint];
   std::vector<core::Quantity> watched;
-  const mechanism::Joint& own = motion.model.mechanism.joints[joint];
+  const mechanism::Joint& lost_joint = motion.model.mechanism.joints[joint];
   // Teeth change flanks, with or without play.
-  const bool teeth = own.meshing && own.meshing->flank;
-  if (clearance.angular > 0 || clearance.axial > 0 || teeth) watched.push_back(mechanism::actuator_quantity(own));
+  const bool teeth = lost_joint.meshing && lost_joint.meshing->flank;
+  if (clearance.angular > 0 || clearance.axial > 0 || teeth)
+    watched.push_back(mechanism::actuator_quantity(lost_joint));
   if (clearance.radial > 0) watched.push_back(core::Quantity::f);
   if (clearance.gap > 0 && columns.normal >= 0)
     for (const auto& [end, sign] : mechanism::guide_end_signs) watched.push_back(end);

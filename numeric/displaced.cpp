@@ -69,16 +69,17 @@ class DisplacedMechanism {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
     for (Eigen::Index k = 0; k < size; ++k) {
       const ReactionColumn& column = columns_[static_cast<std::size_t>(k)];
-      const mechanism::Joint& own = joint(static_cast<std::size_t>(column.joint));
-      Vector3d to = arm(own.to, point(own.at)), from = arm(own.from, point(own.at));
+      const mechanism::Joint& joint_data = joint(static_cast<std::size_t>(column.joint));
+      Vector3d to = arm(joint_data.to, point(joint_data.at)), from = arm(joint_data.from, point(joint_data.at));
       // What slides bears where its `to` is now.
-      if (mechanism::traits(own).slides) from = moved(own.to, point(own.at)) - translation(own.from);
+      if (mechanism::traits(joint_data).slides)
+        from = moved(joint_data.to, point(joint_data.at)) - translation(joint_data.from);
       if (const auto& line = meshes_[static_cast<std::size_t>(column.joint)]) {
-        to = line->at - translation(own.to);
-        from = line->at - translation(own.from);
+        to = line->at - translation(joint_data.to);
+        from = line->at - translation(joint_data.from);
       }
-      add_wrench(model_.mechanism, own.to, wrench_of(to, column.force, column.couple), 1, A.col(k));
-      add_wrench(model_.mechanism, own.from, wrench_of(from, column.force, column.couple), -1, A.col(k));
+      add_wrench(model_.mechanism, joint_data.to, wrench_of(to, column.force, column.couple), 1, A.col(k));
+      add_wrench(model_.mechanism, joint_data.from, wrench_of(from, column.force, column.couple), -1, A.col(k));
     }
     return A;
   }
@@ -98,15 +99,16 @@ class DisplacedMechanism {
     for (Eigen::Index k = 0; k < r.size(); ++k) {
       const ReactionColumn& column = columns_[static_cast<std::size_t>(k)];
       const auto j = static_cast<std::size_t>(column.joint);
-      const mechanism::Joint& own = joint(j);
+      const mechanism::Joint& joint_data = joint(j);
       if (meshes_[j])
         r(k) += meshes_[j]->apart;
       else if (column.force != Vector3d::Zero())
-        r(k) += column.force.dot(moved(own.to, point(own.at)) - moved(own.from, point(own.at)));
-      else if (is_cross(own))
+        r(k) +=
+            column.force.dot(moved(joint_data.to, point(joint_data.at)) - moved(joint_data.from, point(joint_data.at)));
+      else if (is_cross(joint_data))
         r(k) += cross_closure(j);
       else
-        r(k) += column.couple.dot(relative_rotation(own));
+        r(k) += column.couple.dot(relative_rotation(joint_data));
     }
     return r;
   }
@@ -122,12 +124,12 @@ class DisplacedMechanism {
   }
   /// p' - (E + t_i): the arm of a point of link i; of the ground, p - E.
   Vector3d arm(mechanism::LinkIndex link, const Vector3d& p) const { return rotation(link) * (p - reference()); }
-  Vector3d relative_rotation(const mechanism::Joint& own) const {
-    return rotation_vector(rotation(own.to) * rotation(own.from).conjugate());
+  Vector3d relative_rotation(const mechanism::Joint& joint) const {
+    return rotation_vector(rotation(joint.to) * rotation(joint.from).conjugate());
   }
 
-  static bool is_cross(const mechanism::Joint& own) {
-    return own.type == mechanism::JointType::universal && !mechanism::holds_idle_freedom(own);
+  static bool is_cross(const mechanism::Joint& joint) {
+    return joint.type == mechanism::JointType::universal && !mechanism::holds_idle_freedom(joint);
   }
 
   double value(const core::Expression& e) const { return core::to_double(mechanism::value_of(e, model_.mechanism)); }
@@ -151,17 +153,17 @@ class DisplacedMechanism {
     }
     return Vector3d::Zero();
   }
-  Vector3d second_axis(const mechanism::Joint& own) const { return vector(own.axes[1]).normalized(); }
+  Vector3d second_axis(const mechanism::Joint& joint) const { return vector(joint.axes[1]).normalized(); }
 
   /// A column of the nominal posture in the displaced one.
   void turn(ReactionColumn& column) const {
     const auto j = static_cast<std::size_t>(column.joint);
-    const mechanism::Joint& own = joint(j);
-    const Eigen::Quaterniond& q = rotation(own.from);
-    if (mechanism::traits(own).slides) column.force = q * column.force;
-    if (is_cross(own) && column.couple != Vector3d::Zero())
-      column.couple = contacts_[j].axis.cross(rotation(own.to) * second_axis(own)).normalized();
-    else if (mechanism::traits(own).turns_about_axis() || column.actuator)
+    const mechanism::Joint& joint_data = joint(j);
+    const Eigen::Quaterniond& q = rotation(joint_data.from);
+    if (mechanism::traits(joint_data).slides) column.force = q * column.force;
+    if (is_cross(joint_data) && column.couple != Vector3d::Zero())
+      column.couple = contacts_[j].axis.cross(rotation(joint_data.to) * second_axis(joint_data)).normalized();
+    else if (mechanism::traits(joint_data).turns_about_axis() || column.actuator)
       column.couple = q * column.couple;
   }
 
@@ -178,12 +180,12 @@ class DisplacedMechanism {
   void add_spring(const mechanism::Spring& spring, Eigen::VectorXd& w) const {
     const mechanism::Mechanism& m = model_.mechanism;
     if (spring.kind == mechanism::Spring::Kind::torsion) {
-      const auto own = static_cast<int>(&spring - m.springs.data());
+      const auto index = static_cast<int>(&spring - m.springs.data());
       const auto j = static_cast<std::size_t>(spring.joint);
       const Vector3d& axis = contacts_[j].axis;
       const double more = value(spring.stiffness) * axis.dot(relative_rotation(joint(j)));
       for (const AppliedLoad& load : posture_.loads) {
-        if (load.spring != own) continue;
+        if (load.spring != index) continue;
         const Vector3d couple = rotation(joint(j).from) * load.couple + (load.link == spring.to ? -more : more) * axis;
         add_wrench(m, load.link, wrench_of(Vector3d::Zero(), Vector3d::Zero(), couple), -1, w);
       }
@@ -217,19 +219,21 @@ class DisplacedMechanism {
   /// Teeth and belts with another force than along a constant line, where their wheels are now.
   void mesh(std::size_t j) {
     meshes_.emplace_back();
-    const mechanism::Joint& own = joint(j);
-    if (!own.meshing || own.axes.empty()) return;
-    const mechanism::Meshing& wheels = *own.meshing;
+    const mechanism::Joint& joint_data = joint(j);
+    if (!joint_data.meshing || joint_data.axes.empty()) return;
+    const mechanism::Meshing& wheels = *joint_data.meshing;
     const Wheels before{point(wheels.first) - reference(), wheels.second ? point(*wheels.second) - reference() : none(),
-                        point(own.at) - reference(), posture_.axes[j]};
-    const Vector3d first = moved(own.from, point(wheels.first));
+                        point(joint_data.at) - reference(), posture_.axes[j]};
+    const Vector3d first = moved(joint_data.from, point(wheels.first));
     if (!wheels.flank)
-      meshes_[j] = before.belt(first, moved(own.to, point(*wheels.second)), value(wheels.radius), turned(own.from),
-                               turned(own.to));
+      meshes_[j] = before.belt(first, moved(joint_data.to, point(*wheels.second)), value(wheels.radius),
+                               turned(joint_data.from), turned(joint_data.to));
     else if (wheels.second)
-      meshes_[j] = before.teeth(first, moved(own.to, point(*wheels.second)), turned(own.from), turned(own.to));
+      meshes_[j] = before.teeth(first, moved(joint_data.to, point(*wheels.second)), turned(joint_data.from),
+                                turned(joint_data.to));
     else
-      meshes_[j] = before.rack(first, moved(own.to, point(own.at)), rotation(own.to), turned(own.from), turned(own.to));
+      meshes_[j] = before.rack(first, moved(joint_data.to, point(joint_data.at)), rotation(joint_data.to),
+                               turned(joint_data.from), turned(joint_data.to));
     for (ReactionColumn& column : columns_)
       if (column.joint == static_cast<mechanism::JointIndex>(j)) column.force = meshes_[j]->force;
     contacts_[j].axis = meshes_[j]->force / meshes_[j]->force.squaredNorm();
@@ -315,9 +319,10 @@ class Iteration {
 
   void move(const Eigen::VectorXd& by) {
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      const Vector6 own = six_of(model_.mechanism.space, by.segment(rows_ * static_cast<Eigen::Index>(i), rows_));
-      links_[i].t += own.head<3>();
-      links_[i].q = (turned_by(own.tail<3>()) * links_[i].q).normalized();
+      const Vector6 displacement =
+          six_of(model_.mechanism.space, by.segment(rows_ * static_cast<Eigen::Index>(i), rows_));
+      links_[i].t += displacement.head<3>();
+      links_[i].q = (turned_by(displacement.tail<3>()) * links_[i].q).normalized();
     }
   }
 
@@ -325,10 +330,10 @@ class Iteration {
     const std::vector<Eigen::Index>& rows = wrench_rows(model_.mechanism.space);
     Eigen::VectorXd u(rows_ * static_cast<Eigen::Index>(links_.size()));
     for (std::size_t i = 0; i < links_.size(); ++i) {
-      Vector6 own;
-      own << links_[i].t, rotation_vector(links_[i].q);
+      Vector6 displacement;
+      displacement << links_[i].t, rotation_vector(links_[i].q);
       for (Eigen::Index r = 0; r < rows_; ++r)
-        u(rows_ * static_cast<Eigen::Index>(i) + r) = own(rows[static_cast<std::size_t>(r)]);
+        u(rows_ * static_cast<Eigen::Index>(i) + r) = displacement(rows[static_cast<std::size_t>(r)]);
     }
     return u;
   }
@@ -362,10 +367,10 @@ class Iteration {
   /// A gear whose teeth would have to pull in the displaced geometry; empty without one.
   std::string pulled(const DisplacedMechanism& displaced) const {
     for (std::size_t k = 0; k < displaced.columns().size(); ++k) {
-      const mechanism::Joint& own = model_.mechanism.joints[static_cast<std::size_t>(displaced.columns()[k].joint)];
-      const bool teeth = own.meshing && own.meshing->flank;
+      const mechanism::Joint& joint = model_.mechanism.joints[static_cast<std::size_t>(displaced.columns()[k].joint)];
+      const bool teeth = joint.meshing && joint.meshing->flank;
       const double was = linear_.reactions.values(static_cast<Eigen::Index>(k));
-      if (teeth && result_.reactions(static_cast<Eigen::Index>(k)) * was < 0) return own.name;
+      if (teeth && result_.reactions(static_cast<Eigen::Index>(k)) * was < 0) return joint.name;
     }
     return {};
   }
@@ -377,8 +382,8 @@ class Iteration {
     result_.converged = true;
     result_.residual = displaced.closure(result_.take_up).cwiseAbs().maxCoeff();
     result_.displacements = displacements();
-    const Vector6 own = end_effector_displacement(model_.mechanism, result_.displacements);
-    result_.error = {own.tail<3>(), own.head<3>()};
+    const Vector6 displacement = end_effector_displacement(model_.mechanism, result_.displacements);
+    result_.error = {displacement.tail<3>(), displacement.head<3>()};
     result_.beyond_linear = {result_.error.dalpha - linear_.error.dalpha, result_.error.dp - linear_.error.dp};
     result_.link_points = displaced_points(model_, displaced);
     return result_;

@@ -125,13 +125,13 @@ std::optional<EdgeJudge::Stretch> EdgeJudge::stretch_from(double node, double ot
 Finding EdgeJudge::judge_boundary(const LineReaction& reaction, const EdgeNodes& nodes) {
   for (const bool from_low : {true, false}) {
     if (!(from_low ? nodes.first_reachable : nodes.second_reachable)) continue;
-    auto& known = stretches_[from_low ? 0 : 1];
-    if (!known) known = from_low ? stretch_from(low_, high_) : stretch_from(high_, low_);
-    if (!*known) continue;
+    auto& stretch = stretches_[from_low ? 0 : 1];
+    if (!stretch) stretch = from_low ? stretch_from(low_, high_) : stretch_from(high_, low_);
+    if (!*stretch) continue;
     const int inward = from_low ? 1 : -1;
-    const double length = std::abs((*known)->to - (*known)->from);
-    const auto a = clear_position(reaction, (*known)->from, std::array{inward}, length);
-    const auto b = clear_position(reaction, (*known)->to, std::array{-inward}, length);
+    const double length = std::abs((*stretch)->to - (*stretch)->from);
+    const auto a = clear_position(reaction, (*stretch)->from, std::array{inward}, length);
+    const auto b = clear_position(reaction, (*stretch)->to, std::array{-inward}, length);
     if (!a || !b || (*b - *a) * inward <= 0) continue;
     const Finding part = compare(reaction, std::min(*a, *b), std::max(*a, *b));
     if (part.outcome == Outcome::disputed) return part;

@@ -64,7 +64,7 @@ void Equations::add_planar_unknowns() {
 
 void Equations::add_spatial_unknowns(JointIndex j) {
   const mechanism::Joint& joint = m_.joints[static_cast<std::size_t>(j)];
-  const mechanism::JointTraits& own = mechanism::traits(joint);
+  const mechanism::JointTraits& traits = mechanism::traits(joint);
   if (mechanism::is_cable(joint)) {
     for (std::size_t c = 0; c < 3 && joint.holds_turning; ++c)
       add_unknown(j, couples[c], couple(geometry_.direction(c)));
@@ -73,15 +73,15 @@ void Equations::add_spatial_unknowns(JointIndex j) {
   }
   const auto first = static_cast<int>(unknowns_.size());
   for (std::size_t c = 0; c < 3; ++c) add_unknown(j, forces[c], force_at(joint.at, geometry_.direction(c)));
-  if (own.slides) add_side_equation(j, first, Quantity::F, joint.actuated);
-  if (own.couple == mechanism::BorneCouple::none) return;
-  if (own.couple == mechanism::BorneCouple::cross) {
+  if (traits.slides) add_side_equation(j, first, Quantity::F, joint.actuated);
+  if (traits.couple == mechanism::BorneCouple::none) return;
+  if (traits.couple == mechanism::BorneCouple::cross) {
     add_unknown(j, Quantity::T, couple(*geometry_.couple_axes()[static_cast<std::size_t>(j)]));
     return;
   }
   const auto first_couple = static_cast<int>(unknowns_.size());
   for (std::size_t c = 0; c < 3; ++c) add_unknown(j, couples[c], couple(geometry_.direction(c)));
-  if (own.turns_about_axis()) add_side_equation(j, first_couple, Quantity::M, joint.actuated && !own.slides);
+  if (traits.turns_about_axis()) add_side_equation(j, first_couple, Quantity::M, joint.actuated && !traits.slides);
 }
 
 /// u · (three columns from `first` on) = 0, at the row of the last of them; where actuated the unknown F or M is that

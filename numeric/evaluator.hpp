@@ -52,15 +52,15 @@ class Evaluator {
  private:
   /// Lane after lane; lanes that stand for the same pose often follow each other.
   void place_unknowns() {
-    const auto inputs = static_cast<std::size_t>(model_.inputs()), known = model_.box.size() + model_.dyads.size();
+    const auto inputs = static_cast<std::size_t>(model_.inputs()), given = model_.box.size() + model_.dyads.size();
     std::vector<int> sides;
-    for (std::size_t i = model_.box.size(); i < known; ++i)
+    for (std::size_t i = model_.box.size(); i < given; ++i)
       sides.push_back(static_cast<int>(value_of(inputs_[i * Lanes])));
-    std::vector<T> own(inputs);
+    std::vector<T> lane_inputs(inputs);
     for (std::size_t l = 0; l < Lanes; ++l) {
-      for (std::size_t i = 0; i < known; ++i) own[i] = inputs_[i * Lanes + l];
-      place_groups(model_, sides, own);
-      for (std::size_t i = known; i < inputs; ++i) inputs_[i * Lanes + l] = own[i];
+      for (std::size_t i = 0; i < given; ++i) lane_inputs[i] = inputs_[i * Lanes + l];
+      place_groups(model_, sides, lane_inputs);
+      for (std::size_t i = given; i < inputs; ++i) inputs_[i * Lanes + l] = lane_inputs[i];
     }
   }
 

@@ -154,10 +154,10 @@ const std::vector<Width>& widths() {
 /// Ends and middles of the first sectors.
 const std::array<Direction, 2 * sectors + 1>& first_directions() {
   static const auto all = [] {
-    std::array<Direction, 2 * sectors + 1> own;
-    for (std::size_t i = 0; i < own.size(); ++i)
-      own[i] = direction(static_cast<double>(i) * std::numbers::pi / (2 * sectors));
-    return own;
+    std::array<Direction, 2 * sectors + 1> first_directions;
+    for (std::size_t i = 0; i < first_directions.size(); ++i)
+      first_directions[i] = direction(static_cast<double>(i) * std::numbers::pi / (2 * sectors));
+    return first_directions;
   }();
   return all;
 }

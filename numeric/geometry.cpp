@@ -33,8 +33,8 @@ Triple Geometry::direction(std::size_t component) const {
 
 Triple Geometry::direction_of(mechanism::LinkIndex link) {
   if (link == mechanism::ground) return direction(0);
-  const auto& own = m_.links[static_cast<std::size_t>(link)].points;
-  return minus(point(own.at(1)), point(own.at(0)));
+  const auto& points = m_.links[static_cast<std::size_t>(link)].points;
+  return minus(point(points.at(1)), point(points.at(0)));
 }
 
 Triple Geometry::plus(const Triple& a, const Triple& b) {
@@ -66,8 +66,8 @@ Register Geometry::dot(const Triple& a, const Triple& b) {
 Register Geometry::length(const Triple& a) { return tape_.sqrt(dot(a, a)); }
 
 Triple Geometry::unit(const Triple& a) {
-  const Register own = length(a);
-  const auto part = [&](Register c) { return tape_.is_exactly(c, 0) ? zero_ : tape_.divide(c, own); };
+  const Register register_index = length(a);
+  const auto part = [&](Register c) { return tape_.is_exactly(c, 0) ? zero_ : tape_.divide(c, register_index); };
   return {part(a[0]), part(a[1]), part(a[2])};
 }
 
@@ -140,25 +140,25 @@ Triple Geometry::crossing(const mechanism::CrossingPoint& form) {
 Triple Geometry::unknown(const mechanism::GroupPoint& form) {
   int input = named_.first_unknown();
   for (const GroupBlock& block : groups_) input += static_cast<int>(block.unknowns.size());
-  GroupBlock& own = groups_[static_cast<std::size_t>(form.group)];
-  if (own.unknowns.empty()) {
-    own.first_input = input;
-    own.begin = tape_.size();
+  GroupBlock& block = groups_[static_cast<std::size_t>(form.group)];
+  if (block.unknowns.empty()) {
+    block.first_input = input;
+    block.begin = tape_.size();
   }
   Triple place = {zero_, zero_, zero_};
-  for (std::size_t c = 0; c < mechanism::dimension(m_); ++c) own.unknowns.push_back(place[c] = tape_.input(input++));
+  for (std::size_t c = 0; c < mechanism::dimension(m_); ++c) block.unknowns.push_back(place[c] = tape_.input(input++));
   return place;
 }
 
 /// |Q - P|² - l² of every distance, in the plane the moment of u about P from the line through Q along u; in the order
 /// of the unknowns' equations of mechanism.hpp.
 void Geometry::close(const mechanism::Group& group, GroupBlock& block) {
-  for (const mechanism::Group::Distance& own : group.distances) {
-    const Triple way = minus(point(own.second), point(own.first));
-    block.equations.push_back(tape_.subtract(dot(way, way), tape_.square(compile(own.length))));
+  for (const mechanism::Group::Distance& distance : group.distances) {
+    const Triple way = minus(point(distance.second), point(distance.first));
+    block.equations.push_back(tape_.subtract(dot(way, way), tape_.square(compile(distance.length))));
   }
-  for (const mechanism::Group::Line& own : group.lines)
-    block.equations.push_back(cross(minus(point(own.point), point(own.base)), vector(own.along))[2]);
+  for (const mechanism::Group::Line& line : group.lines)
+    block.equations.push_back(cross(minus(point(line.point), point(line.base)), vector(line.along))[2]);
   for (const Register g : block.equations)
     for (const Register u : block.unknowns) block.jacobian.push_back(tape_.derivative(g, u));
   block.end = tape_.size();
@@ -186,7 +186,7 @@ Triple Geometry::vector(const mechanism::VectorExpression& v) {
 }
 
 void Geometry::add_axes(const mechanism::Joint& joint) {
-  const mechanism::JointTraits& own = mechanism::traits(joint);
+  const mechanism::JointTraits& traits = mechanism::traits(joint);
   const bool written = !joint.axes.empty(), planar = m_.space == Space::planar;
   ways_.push_back(written ? vector(joint.axes.front()) : direction(0));
   axes_.emplace_back();
@@ -195,8 +195,8 @@ void Geometry::add_axes(const mechanism::Joint& joint) {
     axes_.back() = unit(ways_.back());
   else if (planar)
     axes_.back() = direction(2);
-  if (planar && own.slides) couple_axes_.back() = direction(2);
-  if (!planar && own.couple == mechanism::BorneCouple::cross)
+  if (planar && traits.slides) couple_axes_.back() = direction(2);
+  if (!planar && traits.couple == mechanism::BorneCouple::cross)
     couple_axes_.back() =
         mechanism::holds_idle_freedom(joint) ? *axes_.back() : unit(cross(ways_.back(), vector(joint.axes.at(1))));
 }

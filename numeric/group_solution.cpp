@@ -17,7 +17,7 @@ std::optional<std::vector<double>> GroupStarts::at(std::span<const double> pose,
   constexpr std::size_t most_known = 1 << 14;
   std::pair<std::vector<int>, std::vector<double>> key{{sides.begin(), sides.end()}, {pose.begin(), pose.end()}};
   const std::lock_guard lock(mutex_);
-  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  if (const auto found = known_.find(key); found != known_.end()) return found->second;
   auto closing = closings_.find(key.first);
   if (closing == closings_.end())
     closing = closings_.emplace(key.first, mechanism::GroupClosing(mechanism_, key.first)).first;
@@ -42,17 +42,17 @@ bool solve_block(const NumericModel& model, const GroupBlock& block, double* inp
   for (int count = 0; count < most_steps; ++count) {
     run<double, 1>(model.tape, block.begin, block.end, inputs, registers);
     std::vector<double> jacobian;
-    for (const Register own : block.jacobian) jacobian.push_back(registers[own]);
+    for (const Register register_index : block.jacobian) jacobian.push_back(registers[register_index]);
     const std::vector<double> inverse = inverse_of(std::move(jacobian), n);
     if (inverse.empty()) return false;
     double most = 0, size = 0;
     for (std::size_t i = 0; i < n; ++i) {
       double move = 0;
       for (std::size_t j = 0; j < n; ++j) move += inverse[i * n + j] * registers[block.equations[j]];
-      double& own = inputs[block.first_input + static_cast<int>(i)];
-      own -= move;
+      double& input = inputs[block.first_input + static_cast<int>(i)];
+      input -= move;
       most = std::max(most, std::abs(move));
-      size = std::max(size, std::abs(own));
+      size = std::max(size, std::abs(input));
     }
     if (!std::isfinite(most)) return false;
     if (most <= rounding * size || (most < 1e-9 * size && most >= 0.5 * before)) return true;
@@ -66,7 +66,7 @@ bool solve_block(const NumericModel& model, const GroupBlock& block, Bounded* in
   const std::size_t n = block.unknowns.size();
   run<Bounded, 1>(model.tape, block.begin, block.end, inputs, registers);
   std::vector<double> jacobian;
-  for (const Register own : block.jacobian) jacobian.push_back(registers[own].value);
+  for (const Register register_index : block.jacobian) jacobian.push_back(registers[register_index].value);
   const std::vector<double> inverse = inverse_of(std::move(jacobian), n);
   if (inverse.empty()) return false;
   const auto up = [&](double sum) { return sum * (1 + static_cast<double>(4 * n + 8) * unit_roundoff) + 1e-300; };

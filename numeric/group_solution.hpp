@@ -52,15 +52,15 @@ bool solve_block(const NumericModel& model, const GroupBlock& block, T* inputs, 
     run<T, 1>(model.tape, block.begin, block.end, inputs, registers);
     if (inverse.empty()) {
       std::vector<double> jacobian;
-      for (const Register own : block.jacobian) jacobian.push_back(registers[own].value());
+      for (const Register register_index : block.jacobian) jacobian.push_back(registers[register_index].value());
       inverse = inverse_of(std::move(jacobian), n);
       if (inverse.empty()) return false;
     }
     for (std::size_t i = 0; i < n; ++i) {
       T move(0.0);
       for (std::size_t j = 0; j < n; ++j) move = move + inverse[i * n + j] * registers[block.equations[j]];
-      T& own = inputs[block.first_input + static_cast<int>(i)];
-      own = own - move;
+      T& input = inputs[block.first_input + static_cast<int>(i)];
+      input = input - move;
     }
   }
   return true;
@@ -97,8 +97,8 @@ bool place_groups(const NumericModel& model, std::span<const int> mode, std::vec
     if (!solve_block(model, block, nominal.data(), at_pose.data())) return lost();
     run<double, 1>(model.tape, block.begin, block.end, nominal.data(), at_pose.data());
     for (std::size_t k = 0; k < block.unknowns.size(); ++k) {
-      const std::size_t own = static_cast<std::size_t>(block.first_input) + k;
-      inputs[own] = T(nominal[own]);
+      const std::size_t input = static_cast<std::size_t>(block.first_input) + k;
+      inputs[input] = T(nominal[input]);
     }
     if constexpr (!std::is_same_v<T, double>) {
       run<T, 1>(model.tape, done, block.begin, inputs.data(), registers.data());

@@ -65,9 +65,9 @@ std::array<double, 2> least_in_disc(const Vector& rest, const Vector& a, const V
 std::optional<TaskFailure> judged(const core::TaskDemand& demand, double load, const std::vector<Bounded>& at_load,
                                   const std::vector<Bounded>& about_load, const Bounded& determinant, double usual) {
   double size2 = 0, most2 = 0;
-  for (const Bounded& own : at_load) {
-    size2 += own.value * own.value;
-    most2 += std::pow(std::abs(own.value) + own.error, 2);
+  for (const Bounded& value : at_load) {
+    size2 += value.value * value.value;
+    most2 += std::pow(std::abs(value.value) + value.error, 2);
   }
   TaskFailure failure{TaskFailure::Kind::too_small, demand, load, std::sqrt(size2) / std::abs(determinant.value)};
   const double least_determinant = std::abs(determinant.value) - determinant.error;
@@ -75,8 +75,9 @@ std::optional<TaskFailure> judged(const core::TaskDemand& demand, double load, c
   const double most = std::sqrt(most2) / least_determinant * (1 + 16 * unit_roundoff);
   if (demand.least > 0 && most < core::to_double(demand.least) * (1 - 2 * unit_roundoff)) return failure;
   failure.kind = TaskFailure::Kind::vanishing;
-  const bool zero = std::all_of(about_load.begin(), about_load.end(),
-                                [&](const Bounded& own) { return is_zero(own) && own.error <= known_zero * usual; });
+  const bool zero = std::all_of(about_load.begin(), about_load.end(), [&](const Bounded& value) {
+    return is_zero(value) && value.error <= known_zero * usual;
+  });
   return zero ? std::optional(failure) : std::nullopt;
 }
 
@@ -86,7 +87,7 @@ class LeastLoad {
   LeastLoad(const LoadedParts& parts, const std::vector<core::LoadBall>& balls)
       : parts_(parts), balls_(balls), first_(values(parts.ends.front())), way_(values(parts.ends.back())) {
     add(way_, -1, first_);
-    for (const std::vector<Bounded>& own : parts.directions) unit_.push_back(values(own));
+    for (const std::vector<Bounded>& direction : parts.directions) unit_.push_back(values(direction));
     changes.resize(balls.size());
     // In turn along the range of loads and in each ball, until it changes no more.
     constexpr int rounds = 60;
@@ -106,18 +107,18 @@ class LeastLoad {
     const Bounded along = t > 0 && t < 1 ? about(t, 1) : Bounded(t);
     std::vector<Bounded> w;
     for (std::size_t k = 0; k < first_.size(); ++k) {
-      Bounded own = parts_.ends.front()[k];
-      if (parts_.ends.size() > 1) own = own + along * (parts_.ends.back()[k] - own);
+      Bounded end = parts_.ends.front()[k];
+      if (parts_.ends.size() > 1) end = end + along * (parts_.ends.back()[k] - end);
       for (std::size_t b = 0; b < balls_.size(); ++b) {
         const auto put = [&](int which, double value) {
           if (which >= 0)
-            own = own + about(value, std::abs(value)) * parts_.directions[static_cast<std::size_t>(which)][k];
+            end = end + about(value, std::abs(value)) * parts_.directions[static_cast<std::size_t>(which)][k];
         };
         put(balls_[b].fx, changes[b].fx);
         put(balls_[b].fy, changes[b].fy);
         put(balls_[b].couple, changes[b].couple);
       }
-      w.push_back(own);
+      w.push_back(end);
     }
     return w;
   }
@@ -128,7 +129,7 @@ class LeastLoad {
  private:
   static Vector values(const std::vector<Bounded>& parts) {
     Vector list;
-    for (const Bounded& own : parts) list.push_back(own.value);
+    for (const Bounded& part : parts) list.push_back(part.value);
     return list;
   }
 

@@ -215,12 +215,12 @@ PoseBatch::TakenUp PoseBatch::taken_up(std::size_t joint) {
   Lanes3 force{}, couple{};
   const Lane* effort = nullptr;
   for (const std::size_t k : unknowns_of_[joint]) {
-    const Lane& own = values_.back()[k];
+    const Lane& lane = values_.back()[k];
     if (ways_[k].effort) {
-      effort = &own;
+      effort = &lane;
       continue;
     }
-    for (const Part& part : ways_[k].parts) add(part, own, ways_[k].couple ? couple : force);
+    for (const Part& part : ways_[k].parts) add(part, lane, ways_[k].couple ? couple : force);
   }
   TakenUp result;
   if (contact.presses()) {

@@ -16,10 +16,10 @@ std::vector<JointInfluence> joint_influence(const mechanism::Mechanism& mechanis
                                             const std::vector<ReactionColumn>& columns, const Influence& H) {
   std::vector<JointInfluence> all(mechanism.joints.size());
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const Vector6 own = six_of(mechanism.space, H.col(static_cast<Eigen::Index>(k)));
+    const Vector6 displacement = six_of(mechanism.space, H.col(static_cast<Eigen::Index>(k)));
     JointInfluence& influence = all[static_cast<std::size_t>(columns[k].joint)];
-    influence.force += own * columns[k].force.transpose();
-    influence.couple += own * columns[k].couple.transpose();
+    influence.force += displacement * columns[k].force.transpose();
+    influence.couple += displacement * columns[k].couple.transpose();
   }
   return all;
 }
@@ -46,8 +46,8 @@ Accuracy pose_accuracy(const NumericModel& model, const Posture& posture, const 
   result.worst = worst_case(result.contacts, joint_influence(m, result.columns, result.influence));
   if (result.undefined.empty()) {
     result.link_displacements = lu.transpose().solve(clearance_displacements(result.columns, result.take_up));
-    const Vector6 own = end_effector_displacement(m, result.link_displacements);
-    result.error = {own.tail<3>(), own.head<3>()};
+    const Vector6 displacement = end_effector_displacement(m, result.link_displacements);
+    result.error = {displacement.tail<3>(), displacement.head<3>()};
   } else {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     result.link_displacements.setConstant(A.rows(), nan);

@@ -33,23 +33,23 @@ void add_columns(const mechanism::Joint& joint, JointIndex j, const Vector3d& u,
   const auto couple = [&](const Vector3d& v) { columns.push_back({j, none, v, false}); };
   const std::array<Vector3d, 3> unit = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   const std::array<Vector3d, 2> across = {u.unitOrthogonal(), u.cross(u.unitOrthogonal())};
-  const mechanism::JointTraits& own = mechanism::traits(joint);
+  const mechanism::JointTraits& traits = mechanism::traits(joint);
   if (mechanism::is_cable(joint)) {
     for (std::size_t c = 0; c < 3 && joint.holds_turning; ++c) couple(unit[c]);
     if (joint.actuated) columns.push_back({j, u, none, true});
     return;
   }
-  if (own.slides)
+  if (traits.slides)
     for (const Vector3d& v : across) force(v);
   else
     for (const Vector3d& v : unit) force(v);
-  if (joint.actuated && own.slides) columns.push_back({j, u, none, true});
-  if (own.couple == mechanism::BorneCouple::any)
+  if (joint.actuated && traits.slides) columns.push_back({j, u, none, true});
+  if (traits.couple == mechanism::BorneCouple::any)
     for (const Vector3d& v : unit) couple(v);
-  if (own.turns_about_axis())
+  if (traits.turns_about_axis())
     for (const Vector3d& v : across) couple(v);
-  if (own.couple == mechanism::BorneCouple::cross) couple(couple_axis);
-  if (joint.actuated && !own.slides) columns.push_back({j, none, u, true});
+  if (traits.couple == mechanism::BorneCouple::cross) couple(couple_axis);
+  if (joint.actuated && !traits.slides) columns.push_back({j, none, u, true});
 }
 
 /// The force of a gear, which has to push, or the couple of a belt.
@@ -78,10 +78,10 @@ double least(const Bounded& bounded) { return bounded.value + bounded.error; }
 /// Whether the flanks of the working mode bear, and no span is slack. `numerator`: of a column.
 template <class Numerator>
 bool meets(const std::vector<Teeth>& all, const Numerator& numerator) {
-  return std::all_of(all.begin(), all.end(), [&](const Teeth& own) {
-    const auto n = numerator(own.column), d = numerator(own.determinant);
-    if (own.most == 0) return !(least(n * d) < 0);
-    return !(least(d * d * decltype(d)(own.most * own.most) - n * n) < 0);
+  return std::all_of(all.begin(), all.end(), [&](const Teeth& teeth) {
+    const auto n = numerator(teeth.column), d = numerator(teeth.determinant);
+    if (teeth.most == 0) return !(least(n * d) < 0);
+    return !(least(d * d * decltype(d)(teeth.most * teeth.most) - n * n) < 0);
   });
 }
 
@@ -175,13 +175,13 @@ std::vector<JointReaction> joint_reactions(std::size_t joints, const std::vector
   std::vector<JointReaction> all(joints);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const double w = values(static_cast<Eigen::Index>(k));
-    JointReaction& own = all[static_cast<std::size_t>(columns[k].joint)];
+    JointReaction& reaction = all[static_cast<std::size_t>(columns[k].joint)];
     if (columns[k].actuator) {
-      own.actuator = w;
+      reaction.actuator = w;
       continue;
     }
-    own.force += w * columns[k].force;
-    own.couple += w * columns[k].couple;
+    reaction.force += w * columns[k].force;
+    reaction.couple += w * columns[k].couple;
   }
   return all;
 }
@@ -272,8 +272,8 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
   result.values.pop_back();
   if (model.mechanism.space == mechanism::Space::planar || !result.reachable) return result;
   for (const std::optional<Triple>& axis : model.axes) {
-    std::array<Bounded, 3>& own = result.axes.emplace_back();
-    for (std::size_t c = 0; axis && c < 3; ++c) own[c] = evaluator.value((*axis)[c], 0);
+    std::array<Bounded, 3>& values = result.axes.emplace_back();
+    for (std::size_t c = 0; axis && c < 3; ++c) values[c] = evaluator.value((*axis)[c], 0);
   }
   return result;
 }

@@ -190,9 +190,9 @@ Eigen::VectorXd clearance_displacements(const std::vector<ReactionColumn>& colum
                                         const std::vector<TakeUp>& take_up) {
   Eigen::VectorXd displacements(static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const TakeUp& own = take_up[static_cast<std::size_t>(columns[k].joint)];
+    const TakeUp& take_up_of_joint = take_up[static_cast<std::size_t>(columns[k].joint)];
     displacements(static_cast<Eigen::Index>(k)) =
-        columns[k].force.dot(own.displacement) + columns[k].couple.dot(own.rotation);
+        columns[k].force.dot(take_up_of_joint.displacement) + columns[k].couple.dot(take_up_of_joint.rotation);
   }
   return displacements;
 }

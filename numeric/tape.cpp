@@ -105,7 +105,7 @@ Register TapeBuilder::power(Register base, int exponent) {
 
 Register TapeBuilder::derivative(Register of, Register by) {
   if (of == by) return constant(1.0);
-  if (const auto known = derivatives_.find({of, by}); known != derivatives_.end()) return known->second;
+  if (const auto found = derivatives_.find({of, by}); found != derivatives_.end()) return found->second;
   const Instruction step = tape_.code[static_cast<std::size_t>(of)];
   const auto inner = [&](Register operand) { return derivative(operand, by); };
   Register result = constant(0.0);
@@ -151,7 +151,7 @@ struct Compiling {
   const std::function<Register(const std::string&)>& name;
 
   Register number(const core::Rational& value) const { return tape.constant(from_rational(value)); }
-  Register symbol(const std::string& own) const { return name(own); }
+  Register symbol(const std::string& symbol_name) const { return name(symbol_name); }
   Register pi() const { return tape.constant({std::numbers::pi, unit_roundoff * std::numbers::pi}); }
   Register negate(Register a) const { return tape.negate(a); }
   Register add(Register a, Register b) const { return tape.add(a, b); }

@@ -74,7 +74,7 @@ class TurnGrid {
     return pose;
   }
   bool any_decided() const {
-    return std::any_of(nodes_.begin(), nodes_.end(), [](const Direction& own) { return own.decided; });
+    return std::any_of(nodes_.begin(), nodes_.end(), [](const Direction& direction) { return direction.decided; });
   }
 
   /// Full turns round the face from a node on along two axes; NaN where they cannot be counted.
@@ -91,29 +91,29 @@ class TurnGrid {
     std::array<double, 3> most{};
     constexpr std::size_t samples = 64;
     for (std::size_t k = 0; k < samples; ++k) {
-      const BoundedNumerators own = bounded_numerators(model_, place(k * nodes_.size() / samples), sides_);
-      if (own.axes.empty()) continue;
+      const BoundedNumerators numerators = bounded_numerators(model_, place(k * nodes_.size() / samples), sides_);
+      if (numerators.axes.empty()) continue;
       for (std::size_t c = 0; c < 3; ++c)
-        most[c] = std::max(most[c], std::abs(own.axes[static_cast<std::size_t>(columns_.pin)][c].value));
+        most[c] = std::max(most[c], std::abs(numerators.axes[static_cast<std::size_t>(columns_.pin)][c].value));
     }
     reference_ = static_cast<std::size_t>(std::min_element(most.begin(), most.end()) - most.begin());
   }
 
-  Direction direction(const BoundedNumerators& own) const {
+  Direction direction(const BoundedNumerators& numerators) const {
     Direction result;
-    result.reachable = own.reachable;
-    if (!own.reachable) return result;
-    const double d = own.determinant.value;
-    result.determinant = std::abs(d) > own.determinant.error ? (d > 0 ? 1 : -1) : 0;
-    result.decided = is_decided(own, columns_);
-    const std::array<Bounded, 3> force = components(own, columns_);
+    result.reachable = numerators.reachable;
+    if (!numerators.reachable) return result;
+    const double d = numerators.determinant.value;
+    result.determinant = std::abs(d) > numerators.determinant.error ? (d > 0 ? 1 : -1) : 0;
+    result.decided = is_decided(numerators, columns_);
+    const std::array<Bounded, 3> force = components(numerators, columns_);
     if (columns_.pin < 0) {
       result.first = force[0].value;
       result.second = force[1].value;
       return result;
     }
     // u x f, along e x u and u x (e x u) = e - u (u . e).
-    const auto& axis = own.axes[static_cast<std::size_t>(columns_.pin)];
+    const auto& axis = numerators.axes[static_cast<std::size_t>(columns_.pin)];
     const Vector3d u(axis[0].value, axis[1].value, axis[2].value);
     const Vector3d f(force[0].value, force[1].value, force[2].value);
     const Vector3d e = Vector3d::Unit(static_cast<Eigen::Index>(reference_));
@@ -178,11 +178,11 @@ class ClaimedZeros {
         const int own_i = cell(p, at[p] + a * clear_[p]), own_j = cell(q, at[q] + b * clear_[q]);
         if (own_i == i && own_j == j) continue;
         alone = false;
-        if (Claim* own = claim(own_i, own_j, p, q, plane)) own->doubtful = true;
+        if (Claim* made = claim(own_i, own_j, p, q, plane)) made->doubtful = true;
       }
-    if (Claim* own = claim(i, j, p, q, plane)) {
-      ++own->crossings;
-      own->doubtful = own->doubtful || !alone;
+    if (Claim* made = claim(i, j, p, q, plane)) {
+      ++made->crossings;
+      made->doubtful = made->doubtful || !alone;
     }
   }
 
@@ -197,7 +197,7 @@ class ClaimedZeros {
     }
     for (int i = first[0]; i <= last[0]; ++i)
       for (int j = first[1]; j <= last[1]; ++j)
-        if (Claim* own = claim(i, j, 0, 1, 0)) own->doubtful = true;
+        if (Claim* made = claim(i, j, 0, 1, 0)) made->doubtful = true;
   }
 
   Claim of(std::size_t node, std::size_t p, std::size_t q) const {

@@ -54,14 +54,14 @@ class ModeValidation {
     turning_ = joints_of_turns(model, map, mode, traced);
     // Where |A| vanishes the force across a pin's axis flips as its components do: no edge tells these from zeros.
     for (const auto& reaction : traced)
-      if (CheckedReaction own = checked_reaction(model, reaction); own.columns.pin < 0)
-        reactions_.push_back(std::move(own));
+      if (CheckedReaction checked = checked_reaction(model, reaction); checked.columns.pin < 0)
+        reactions_.push_back(std::move(checked));
     for (const core::OpenRegion& region : map.open)
       if (region.mode == mode && !region.point) open_.push_back({&region, {}});
-    for (Open& own : open_)
+    for (Open& open : open_)
       for (const CheckedReaction& r : reactions_)
-        own.concerns.push_back(own.region->kind == LocusKind::workspace_boundary ||
-                               times_vanishing(own.region->kind, own.region->vanishing, r) != 0);
+        open.concerns.push_back(open.region->kind == LocusKind::workspace_boundary ||
+                                times_vanishing(open.region->kind, open.region->vanishing, r) != 0);
     for (const auto& curve : map.curves) {
       const bool here = curve.mode == mode;
       boundary_.push_back(here && curve.kind == LocusKind::workspace_boundary ? 1 : 0);
@@ -163,11 +163,11 @@ class ModeValidation {
 
   /// Where a locus of the reaction is open nothing is claimed.
   bool is_open(std::size_t reaction, const std::vector<double>& from, const std::vector<double>& to) const {
-    return std::any_of(open_.begin(), open_.end(), [&](const Open& own) {
-      if (!own.concerns[reaction]) return false;
+    return std::any_of(open_.begin(), open_.end(), [&](const Open& open) {
+      if (!open.concerns[reaction]) return false;
       for (std::size_t c = 0; c < 2; ++c)
-        if (std::max(from[c], to[c]) < own.region->lower[c] - reach_ ||
-            std::min(from[c], to[c]) > own.region->upper[c] + reach_)
+        if (std::max(from[c], to[c]) < open.region->lower[c] - reach_ ||
+            std::min(from[c], to[c]) > open.region->upper[c] + reach_)
           return false;
       return true;
     });
@@ -322,13 +322,13 @@ ValidationReport validate(const mechanism::Mechanism& mechanism, const LocusMap&
   const NumericModel model = compile(mechanism);
   check_call(model, map, spec);
   if (model.box.size() != 2) return validate_lines(model, map, spec, traced.empty() ? named_reactions(map) : traced);
-  const ValidationGrid own = validation_grid(map, spec);
+  const ValidationGrid grid = validation_grid(map, spec);
   ValidationReport report;
   tbb::task_arena arena(spec.threads > 0 ? spec.threads : tbb::task_arena::automatic);
   arena.execute([&] {
     for (const auto& mode : modes_in(map)) {
-      ModeValidation(model, map, own.grid, mode, traced.empty() ? named_reactions(map) : traced, own.reach,
-                     own.diagonal)
+      ModeValidation(model, map, grid.grid, mode, traced.empty() ? named_reactions(map) : traced, grid.reach,
+                     grid.diagonal)
           .run(report, spec.listed_disputes);
     }
   });

@@ -125,20 +125,20 @@ class LinesOfMode {
       diagonal_ = std::hypot(diagonal_, width);
     }
     reach_ = least_reach * diagonal_;
-    for (const LocusSurface& own : map.surfaces)
-      if (own.mode == mode) reach_ = std::max(reach_, times_deviation * own.deviation);
+    for (const LocusSurface& surface : map.surfaces)
+      if (surface.mode == mode) reach_ = std::max(reach_, times_deviation * surface.deviation);
     if (n_ == 1)
       for (std::size_t i = 0; i < map.isolated_points.size(); ++i) {
-        const core::IsolatedPoint& own = map.isolated_points[i];
-        add({"p" + std::to_string(i + 1), own.kind, own.vanishing, own.excited, {{own.at, {1.0}}}}, own.mode);
+        const core::IsolatedPoint& point = map.isolated_points[i];
+        add({"p" + std::to_string(i + 1), point.kind, point.vanishing, point.excited, {{point.at, {1.0}}}}, point.mode);
       }
     else
-      for (const LocusSurface& own : map.surfaces)
-        add({own.id, own.kind, own.vanishing, own.excited, places_of(own, widths_)}, own.mode);
+      for (const LocusSurface& surface : map.surfaces)
+        add({surface.id, surface.kind, surface.vanishing, surface.excited, places_of(surface, widths_)}, surface.mode);
     if (n_ == 3) add_thin_loci();
     turning_ = joints_of_turns(model, map, mode, traced);
-    for (const TracedReaction& own : traced) {
-      CheckedReaction& checked = reactions_.emplace_back(checked_reaction(model, own));
+    for (const TracedReaction& reaction : traced) {
+      CheckedReaction& checked = reactions_.emplace_back(checked_reaction(model, reaction));
       for (const auto& [locus, here] : loci_)
         checked.weights.push_back(here ? times_vanishing(locus.kind, locus.vanishing, checked) : 0);
     }
@@ -163,12 +163,12 @@ class LinesOfMode {
       if (!locus.places.empty()) loci_.emplace_back(std::move(locus), mode == mode_);
       boundary_.resize(loci_.size(), 0);
     };
-    for (const core::SpaceCurve& own : map_.space_curves)
-      add_thin({own.id, own.kind, own.vanishing, true, places_of(own, widths_)}, own.mode);
+    for (const core::SpaceCurve& curve : map_.space_curves)
+      add_thin({curve.id, curve.kind, curve.vanishing, true, places_of(curve, widths_)}, curve.mode);
     for (std::size_t i = 0; i < map_.isolated_points.size(); ++i) {
-      const core::IsolatedPoint& own = map_.isolated_points[i];
-      add_thin({"p" + std::to_string(i + 1), own.kind, own.vanishing, own.excited, {{own.at, {1.0, 0.0, 0.0}}}},
-               own.mode);
+      const core::IsolatedPoint& point = map_.isolated_points[i];
+      add_thin({"p" + std::to_string(i + 1), point.kind, point.vanishing, point.excited, {{point.at, {1.0, 0.0, 0.0}}}},
+               point.mode);
     }
   }
 
@@ -210,7 +210,7 @@ class LinesOfMode {
         any = true;
         for (std::size_t r = 0; r < reactions_.size(); ++r) seen[r] = seen[r] || is_decided(at, reactions_[r].columns);
       }
-      if (std::all_of(seen.begin(), seen.end(), [](bool own) { return own; })) break;
+      if (std::all_of(seen.begin(), seen.end(), [](bool is_checked) { return is_checked; })) break;
     }
     for (std::size_t r = 0; any && r < seen.size(); ++r) zero_[r] = !seen[r];
   }
@@ -238,10 +238,10 @@ class LinesOfMode {
     std::vector<LineTally> tallies(passages.size());
     tbb::parallel_for(std::size_t{0}, passages.size(),
                       [&](std::size_t line) { tallies[line] = judge_line(along, line, passages[line]); });
-    for (const LineTally& own : tallies) {
+    for (const LineTally& tally : tallies) {
       for (std::size_t r = 0; r < counts.size(); ++r)
-        for (std::size_t v = 0; v < counts[r].size(); ++v) counts[r][v] += own.counts[r][v];
-      for (const DisputedEdge& edge : own.disputed)
+        for (std::size_t v = 0; v < counts[r].size(); ++v) counts[r][v] += tally.counts[r][v];
+      for (const DisputedEdge& edge : tally.disputed)
         if (report.disputed_edges.size() < listed) report.disputed_edges.push_back(edge);
     }
   }
@@ -292,7 +292,8 @@ class LinesOfMode {
           for (std::size_t c = 0; c < n_; ++c) pose[c] += side * distance * place.across[c] * widths_[c];
           way.at.push_back(bounded_numerators(model_, pose, signs_));
         }
-        if (std::all_of(way.at.begin(), way.at.end(), [](const BoundedNumerators& own) { return own.reachable; }))
+        if (std::all_of(way.at.begin(), way.at.end(),
+                        [](const BoundedNumerators& numerators) { return numerators.reachable; }))
           ways.push_back(std::move(way));
       }
     return ways;
@@ -330,15 +331,15 @@ class LinesOfMode {
 
   /// Whether another locus on which the map has the reaction vanish runs where most of this one does.
   bool another_passes(std::size_t l, std::size_t r) const {
-    const Locus& own = loci_[l].first;
+    const Locus& locus = loci_[l].first;
     std::size_t met = 0;
-    for (const Locus::Place& place : own.places) {
+    for (const Locus::Place& place : locus.places) {
       bool near = false;
       for (std::size_t k = 0; k < loci_.size() && !near; ++k)
         near = reactions_[r].weights[k] != 0 && passes_near(k, place.at);
       met += near ? 1 : 0;
     }
-    return 2 * met >= own.places.size();
+    return 2 * met >= locus.places.size();
   }
 
   bool passes_near(std::size_t l, const std::vector<double>& at) const {
@@ -373,20 +374,20 @@ class LinesOfMode {
 std::vector<WorkingMode> modes_of(const NumericModel& model, const LocusMap& map) {
   std::vector<WorkingMode> modes;
   const auto add = [&](const auto& all) {
-    for (const auto& own : all)
-      if (std::find(modes.begin(), modes.end(), own.mode) == modes.end()) modes.push_back(own.mode);
+    for (const auto& line : all)
+      if (std::find(modes.begin(), modes.end(), line.mode) == modes.end()) modes.push_back(line.mode);
   };
   add(map.reachable);
   add(map.surfaces);
   if (map.lower.size() == 1) add(map.isolated_points);
   if (!modes.empty()) return modes;
   // No locus at all is a claim, too: in the mode of the file.
-  WorkingMode own;
+  WorkingMode mode;
   std::size_t dyad = 0;
   const std::vector<int> sides = mechanism::working_mode(model.mechanism);
   for (const core::RootNames& root : map.tower.roots)
-    own.push_back(root.role == core::RootRole::working_mode ? sides.at(dyad++) : 1);
-  return {own};
+    mode.push_back(root.role == core::RootRole::working_mode ? sides.at(dyad++) : 1);
+  return {mode};
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class PreloadValidation {
     const double low = along.at(row ? i : j), high = along.at((row ? i : j) + 1);
     const auto& passages = row ? passages_.rows[at(j)] : passages_.columns[at(i)];
     const bool met = std::any_of(passages.begin(), passages.end(),
-                                 [&](const Passage& own) { return own.low <= high && own.high >= low; });
+                                 [&](const Passage& passage) { return passage.low <= high && passage.high >= low; });
     if (a == b || (met && a && b)) {
       ++tally_.held;
       return;
@@ -134,9 +134,9 @@ ChoiceOrder order_of_efforts(const NumericModel& none, const NumericModel& one, 
   std::vector<GapEnd> ends;
   std::vector<int> order, together;
   for (std::size_t d = 0; d < demands.size(); ++d)
-    for (const EffortGap& own : effort_gaps(none, one, pose, sides, {demands[d]})) {
-      if (std::isinf(own.from) && std::isinf(own.to)) order.push_back(always_fails - static_cast<int>(d));
-      add_ends(own.from, own.to, own.rounding, static_cast<int>(d), range, ends);
+    for (const EffortGap& effort_gap : effort_gaps(none, one, pose, sides, {demands[d]})) {
+      if (std::isinf(effort_gap.from) && std::isinf(effort_gap.to)) order.push_back(always_fails - static_cast<int>(d));
+      add_ends(effort_gap.from, effort_gap.to, effort_gap.rounding, static_cast<int>(d), range, ends);
     }
   if (gap) add_ends((*gap)[0], (*gap)[1], 0, static_cast<int>(demands.size()), range, ends);
   std::sort(ends.begin(), ends.end(), [](const GapEnd& a, const GapEnd& b) { return a.least < b.least; });
@@ -147,10 +147,10 @@ ChoiceOrder order_of_efforts(const NumericModel& none, const NumericModel& one, 
     order.insert(order.end(), together.begin(), together.end());
     together.clear();
   };
-  for (const GapEnd& own : ends) {
-    if (own.least > reached) flush();
-    together.push_back(own.demand);
-    reached = std::max(reached, own.most);
+  for (const GapEnd& end : ends) {
+    if (end.least > reached) flush();
+    together.push_back(end.demand);
+    reached = std::max(reached, end.most);
   }
   flush();
   return order;

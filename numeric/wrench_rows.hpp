@@ -50,19 +50,19 @@ inline Eigen::MatrixXd unit_wrenches(const mechanism::Mechanism& mechanism, Eige
 
 /// Three rows of the plane, or six, as six.
 template <class Column>
-Vector6 six_of(mechanism::Space space, const Column& own) {
+Vector6 six_of(mechanism::Space space, const Column& column) {
   const std::vector<Eigen::Index>& rows = wrench_rows(space);
   Vector6 all = Vector6::Zero();
-  for (std::size_t r = 0; r < rows.size(); ++r) all(rows[r]) = own(static_cast<Eigen::Index>(r));
+  for (std::size_t r = 0; r < rows.size(); ++r) all(rows[r]) = column(static_cast<Eigen::Index>(r));
   return all;
 }
 
 /// Of displacements of all links that of the end effector, less that of the link that it is relative to.
 inline Vector6 end_effector_displacement(const mechanism::Mechanism& mechanism, const Eigen::VectorXd& links) {
   const Eigen::Index rows = rows_of_link(mechanism);
-  Eigen::VectorXd own = links.segment(rows * mechanism.end_effector_link, rows);
-  if (mechanism.relative_to != mechanism::ground) own -= links.segment(rows * mechanism.relative_to, rows);
-  return six_of(mechanism.space, own);
+  Eigen::VectorXd segment = links.segment(rows * mechanism.end_effector_link, rows);
+  if (mechanism.relative_to != mechanism::ground) segment -= links.segment(rows * mechanism.relative_to, rows);
+  return six_of(mechanism.space, segment);
 }
 
 }  // namespace clearloci::numeric

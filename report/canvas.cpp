@@ -103,7 +103,7 @@ void check(cairo_status_t status) {
 }
 
 std::shared_ptr<void> owned(cairo_surface_t* surface) {
-  std::shared_ptr<void> owner(surface, [](cairo_surface_t* own) { cairo().surface_destroy(own); });
+  std::shared_ptr<void> owner(surface, [](cairo_surface_t* raw_surface) { cairo().surface_destroy(raw_surface); });
   check(cairo().surface_status(surface));
   return owner;
 }
@@ -132,7 +132,7 @@ int Raster::stride() const { return cairo().image_surface_get_stride(surface_of(
 
 Canvas::Canvas(std::shared_ptr<void> surface)
     : surface_(std::move(surface)),
-      context_(cairo().create(surface_of(surface_)), [](cairo_t* own) { cairo().destroy(own); }) {}
+      context_(cairo().create(surface_of(surface_)), [](cairo_t* context) { cairo().destroy(context); }) {}
 
 Canvas Canvas::on(const Raster& raster) { return Canvas(raster.surface_); }
 

@@ -64,15 +64,15 @@ std::vector<Layer> layers_of(const core::Zones& map, const std::vector<int>& lab
   for (std::size_t k = 0; k < drawn; ++k) {
     const std::size_t layer = (2 * k + 1) * all / (2 * drawn);
     const auto first = labels.begin() + static_cast<std::ptrdiff_t>(layer * size);
-    Layer own{"", columns, rows, {first, first + static_cast<std::ptrdiff_t>(size)}};
+    Layer zones{"", columns, rows, {first, first + static_cast<std::ptrdiff_t>(size)}};
     if (map.grid.size() > 2) {
       const Scale third = scale_of(map.loci, 2);
       const double at =
           third.lower + (static_cast<double>(layer) + 0.5) / static_cast<double>(all) * (third.upper - third.lower);
-      own.title = fmt::format("{} = {:.4g}", printable(map.loci.tower.coordinates[2]), at) +
-                  (third.angle ? " deg" : " " + shown_unit("m", map.loci.units).name);
+      zones.title = fmt::format("{} = {:.4g}", printable(map.loci.tower.coordinates[2]), at) +
+                    (third.angle ? " deg" : " " + shown_unit("m", map.loci.units).name);
     }
-    layers.push_back(std::move(own));
+    layers.push_back(std::move(zones));
   }
   return layers;
 }
@@ -118,10 +118,10 @@ std::map<int, Square> largest_squares(const Layer& layer) {
   std::map<int, Square> largest;
   for (int row = layer.rows - 1; row >= 0; --row)
     for (int column = layer.columns - 1; column >= 0; --column) {
-      int& own = steps[at(row, column)];
-      own = std::min(own, reach(row, column, -1));
+      int& step = steps[at(row, column)];
+      step = std::min(step, reach(row, column, -1));
       Square& best = largest[layer.labels[at(row, column)]];
-      if (own > best.half) best = {row, column, own};
+      if (step > best.half) best = {row, column, step};
     }
   return largest;
 }

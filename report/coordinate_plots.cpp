@@ -112,7 +112,7 @@ class ModePlots {
     std::vector<core::Quantity> zeros;
     for (const core::ErrorEvent& event : errors_.events)
       if (event.point.kind == core::LocusKind::backlash)
-        for (const core::Vanishing& own : event.point.vanishing) zeros.push_back(own.quantity);
+        for (const core::Vanishing& vanishing : event.point.vanishing) zeros.push_back(vanishing.quantity);
     plot.mark_labels = {"contact lost", zero_words(zeros), "direct singularity", "end of the reach"};
     for (const core::ErrorEvent& event : errors_.events) {
       const core::LocusKind kind = event.point.kind;
@@ -139,8 +139,8 @@ class ModePlots {
   /// "F, N" of series F_A, N_A, F_B; "|f|" of sizes.
   static std::string quantities_of(const std::vector<PlotSeries>& series) {
     std::vector<std::string> names;
-    for (const PlotSeries& own : series) {
-      const std::string name = own.label.starts_with("f_") ? "|f|" : own.label.substr(0, 1);
+    for (const PlotSeries& line : series) {
+      const std::string name = line.label.starts_with("f_") ? "|f|" : line.label.substr(0, 1);
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
     return fmt::format("{}", fmt::join(names, ", "));
@@ -153,21 +153,21 @@ class ModePlots {
                      [](const PlotSeries& a, const PlotSeries& b) { return typical_size(a) > typical_size(b); });
     double largest = 0;
     std::size_t first = plot.panels.size();
-    for (PlotSeries& own : series) {
-      const double size = typical_size(own);
+    for (PlotSeries& line : series) {
+      const double size = typical_size(line);
       const bool flattened = size > rounding && size * most_ratio < largest;
       if (plot.panels.size() == first || flattened) {
         largest = size;
         plot.panels.emplace_back();
       }
-      plot.panels.back().series.push_back(std::move(own));
+      plot.panels.back().series.push_back(std::move(line));
     }
     for (std::size_t i = first; i < plot.panels.size(); ++i) {
-      std::vector<PlotSeries>& own = plot.panels[i].series;
-      std::stable_sort(own.begin(), own.end(),
+      std::vector<PlotSeries>& lines = plot.panels[i].series;
+      std::stable_sort(lines.begin(), lines.end(),
                        [](const PlotSeries& a, const PlotSeries& b) { return a.number < b.number; });
       plot.panels[i].y_range = clipped_range(plot.panels[i]);
-      plot.panels[i].y_label = quantities_of(own) + " (" + unit + ")";
+      plot.panels[i].y_label = quantities_of(lines) + " (" + unit + ")";
     }
   }
 
@@ -258,7 +258,7 @@ std::vector<NamedPlot> coordinate_plots(const core::Errors& errors, const core::
   const ModePlots plots(errors, mode);
   std::vector<NamedPlot> all = {
       {"error", plots.error()}, {"take-up", plots.take_up()}, {"reactions", plots.reactions()}};
-  std::erase_if(all, [](const NamedPlot& own) { return own.plot.panels.empty(); });
+  std::erase_if(all, [](const NamedPlot& plot) { return plot.plot.panels.empty(); });
   return all;
 }
 

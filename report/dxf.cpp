@@ -162,8 +162,9 @@ std::vector<DxfLayer> layers_of(const core::LocusMap& map) {
   }
   for (const auto& point : map.isolated_points) {
     const std::string name = point_layer(point);
-    const bool known = std::any_of(layers.begin(), layers.end(), [&](const DxfLayer& l) { return l.name == name; });
-    if (!known) layers.push_back({name, 1, "CONTINUOUS"});
+    const bool is_present =
+        std::any_of(layers.begin(), layers.end(), [&](const DxfLayer& l) { return l.name == name; });
+    if (!is_present) layers.push_back({name, 1, "CONTINUOUS"});
   }
   return layers;
 }

@@ -235,8 +235,8 @@ namespace {
 int insertion_unit(const std::string& name) {
   const std::vector<std::pair<std::string, int>> codes = {{"in", 1}, {"mm", 4},  {"cm", 5}, {"m", 6},
                                                           {"km", 7}, {"um", 13}, {"dm", 14}};
-  for (const auto& [own, code] : codes)
-    if (own == name) return code;
+  for (const auto& [unit, code] : codes)
+    if (unit == name) return code;
   return 0;  // unitless
 }
 

@@ -72,8 +72,8 @@ std::vector<Plane> planes_of(const ErrorSheet& sheet, const core::ModeErrors& mo
 Files plots(const core::Errors& errors, PictureFormat format) {
   Files files;
   for (const core::ModeErrors& mode : errors.modes)
-    for (const NamedPlot& own : coordinate_plots(errors, mode))
-      files.push_back({file_name(own.name, errors, mode, ending_of(format)), plot(own.plot, format)});
+    for (const NamedPlot& named_plot : coordinate_plots(errors, mode))
+      files.push_back({file_name(named_plot.name, errors, mode, ending_of(format)), plot(named_plot.plot, format)});
   return files;
 }
 

@@ -24,7 +24,7 @@ class Scaling {
 
   bool angle(std::size_t c) const { return c < angles_.size() && angles_[c]; }
   bool lengths_only() const {
-    return std::none_of(angles_.begin(), angles_.end(), [](bool own) { return own; });
+    return std::none_of(angles_.begin(), angles_.end(), [](bool angle) { return angle; });
   }
   double factor(std::size_t c) const { return angle(c) ? 1 : k_; }
   double k() const { return k_; }

@@ -90,14 +90,14 @@ void refuse_to_replace(const std::filesystem::path& path, const std::string& why
 
 /// Nothing but a regular file is replaced, and no input.
 void check_target(const std::filesystem::path& asked, const std::filesystem::path& path) {
-  struct stat own = {};
-  if (::stat(path.c_str(), &own) != 0) return;
-  if (!S_ISREG(own.st_mode))
-    refuse_to_replace(asked, S_ISDIR(own.st_mode) ? "a folder has its name" : "it is no regular file");
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) != 0) return;
+  if (!S_ISREG(status.st_mode))
+    refuse_to_replace(asked, S_ISDIR(status.st_mode) ? "a folder has its name" : "it is no regular file");
   Inputs& all = inputs();
   const std::lock_guard lock(all.mutex);
   for (const FileIdentity& input : all.files)
-    if (input.device == own.st_dev && input.number == own.st_ino)
+    if (input.device == status.st_dev && input.number == status.st_ino)
       refuse_to_replace(asked, "it is what this call reads");
 }
 
@@ -116,9 +116,9 @@ int write_all(int descriptor, std::string_view bytes) {
 
 StagedFiles::~StagedFiles() {
   std::error_code ignored;
-  for (const Staged& own : staged_) {
-    std::filesystem::remove(own.temporary, ignored);
-    forget(own.place);
+  for (const Staged& staged : staged_) {
+    std::filesystem::remove(staged.temporary, ignored);
+    forget(staged.place);
   }
 }
 
@@ -134,27 +134,27 @@ void StagedFiles::add(const std::filesystem::path& asked, std::string_view bytes
     if (std::filesystem::weakly_canonical(other.path, failure) == std::filesystem::weakly_canonical(path, failure))
       refuse_to_replace(asked, "two files of the answer would have this name");
 
-  Staged own{path, temporary_name(path), -1};
-  own.place = note(own.temporary.string());
-  const int descriptor = ::open(own.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  Staged staged{path, temporary_name(path), -1};
+  staged.place = note(staged.temporary.string());
+  const int descriptor = ::open(staged.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     const int error = errno;
-    forget(own.place);
+    forget(staged.place);
     refuse(asked, "the file cannot be written", error);
   }
   int error = write_all(descriptor, bytes);
   if (::close(descriptor) != 0 && error == 0) error = errno;
-  staged_.push_back(own);
+  staged_.push_back(staged);
   if (error != 0) refuse(asked, "the file cannot be written", error);
 }
 
 void StagedFiles::commit() {
   while (!staged_.empty()) {
-    const Staged own = staged_.front();
+    const Staged staged = staged_.front();
     std::error_code failure;
-    std::filesystem::rename(own.temporary, own.path, failure);
-    if (failure) refuse(own.path, "the file cannot be written", failure.value());
-    forget(own.place);
+    std::filesystem::rename(staged.temporary, staged.path, failure);
+    if (failure) refuse(staged.path, "the file cannot be written", failure.value());
+    forget(staged.place);
     staged_.erase(staged_.begin());
   }
 }
@@ -169,8 +169,8 @@ void keep_inputs(const std::vector<std::filesystem::path>& named) {
   Inputs& all = inputs();
   const std::lock_guard lock(all.mutex);
   for (const std::filesystem::path& path : named) {
-    struct stat own = {};
-    if (::stat(path.c_str(), &own) == 0) all.files.push_back({own.st_dev, own.st_ino});
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) == 0) all.files.push_back({status.st_dev, status.st_ino});
   }
 }
 

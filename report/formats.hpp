@@ -31,9 +31,9 @@ class Format {
  public:
   /// `holds`: loci over so many free ones. `own`: a maker for each answer that the format holds.
   template <class... Answers>
-  Format(std::string_view called, bool (*holds)(std::size_t), Maker<Answers>... own)
+  Format(std::string_view called, bool (*holds)(std::size_t), Maker<Answers>... answers)
       : name(called), holds_coordinates(holds) {
-    ((std::get<Maker<Answers>>(makers_) = own), ...);
+    ((std::get<Maker<Answers>>(makers_) = answers), ...);
   }
 
   std::string_view name;

@@ -151,12 +151,12 @@ void find_shared_reasons(Groups& groups) {
     for (const core::Vanishing& one : group.vanishing) {
       const std::string common = without_joint(group.why, one.joint);
       if (common.empty()) continue;
-      const auto known =
-          std::find_if(sentences.begin(), sentences.end(), [&](const auto& own) { return own.first == common; });
-      if (known == sentences.end())
+      const auto found = std::find_if(sentences.begin(), sentences.end(),
+                                      [&](const auto& sentence) { return sentence.first == common; });
+      if (found == sentences.end())
         sentences.push_back({common, {&group}});
-      else if (known->second.back() != &group)
-        known->second.push_back(&group);
+      else if (found->second.back() != &group)
+        found->second.push_back(&group);
     }
   for (const auto& [common, members] : sentences) {
     if (members.size() < 2) continue;
@@ -172,12 +172,12 @@ void tell_shared_reasons(Groups& groups) {
   std::vector<std::pair<std::string, std::string>> remarks;
   for (const CurveGroup& group : groups.curves) {
     if (group.shared_why.empty()) continue;
-    const auto known =
-        std::find_if(remarks.begin(), remarks.end(), [&](const auto& own) { return own.first == group.shared_why; });
-    if (known == remarks.end())
+    const auto found = std::find_if(remarks.begin(), remarks.end(),
+                                    [&](const auto& remark) { return remark.first == group.shared_why; });
+    if (found == remarks.end())
       remarks.emplace_back(group.shared_why, ids_of(group));
     else
-      known->second += ", " + ids_of(group);
+      found->second += ", " + ids_of(group);
   }
   for (const auto& [sentence, ids] : remarks) groups.remarks.push_back(ids + ": " + sentence);
 }

@@ -30,7 +30,7 @@ void LabelPlaces::occupy(const core::Point2& from, const core::Point2& to, doubl
 
 double LabelPlaces::cost(const Box& box) const {
   double covered = 0;
-  for (const Occupied& own : occupied_) covered += own.weight * common_area(box, own.box);
+  for (const Occupied& occupied : occupied_) covered += occupied.weight * common_area(box, occupied.box);
   return covered;
 }
 
@@ -43,10 +43,10 @@ std::pair<Box, double> LabelPlaces::cheapest(const std::vector<core::Point2>& pl
     Box box{place[0] - width / 2, place[1] - height / 2, width, height};
     box.x = std::clamp(box.x, room_.x, std::max(room_.x, room_.right() - width));
     box.y = std::clamp(box.y, room_.y, std::max(room_.y, room_.bottom() - height));
-    const double own = cost(box);
-    if (own < least - worth_moving) {
+    const double box_cost = cost(box);
+    if (box_cost < least - worth_moving) {
       best = box;
-      least = own;
+      least = box_cost;
     }
   }
   return {best, least};

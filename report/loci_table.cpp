@@ -52,10 +52,10 @@ std::string open_words(const core::LocusMap& map, const std::vector<const core::
   if (regions.empty()) return {};
   double part = 0;
   for (const core::OpenRegion* region : regions) {
-    double own = 1;
+    double share = 1;
     for (std::size_t c = 0; c < region->lower.size(); ++c)
-      own *= (region->upper[c] - region->lower[c]) / core::to_double(map.upper[c] - map.lower[c]);
-    part += own;
+      share *= (region->upper[c] - region->lower[c]) / core::to_double(map.upper[c] - map.lower[c]);
+    part += share;
   }
   const double percent = 100 * std::min(part, 1.0);
   constexpr double least = 1e-3;
@@ -95,15 +95,15 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
   for (const core::OpenRegion& region : map.open)
     if (region.mode == mode) left.push_back(&region);
   const auto take_those = [&left](const auto& are_wanted) {
-    std::vector<const core::OpenRegion*> own;
+    std::vector<const core::OpenRegion*> curve_rows;
     for (const core::OpenRegion*& region : left)
-      if (region != nullptr && are_wanted(*region)) own.push_back(std::exchange(region, nullptr));
-    return own;
+      if (region != nullptr && are_wanted(*region)) curve_rows.push_back(std::exchange(region, nullptr));
+    return curve_rows;
   };
   for (const auto& curve : map.curves) {
     if (curve.mode != mode) continue;
     const std::string open =
-        open_words(map, take_those([&](const core::OpenRegion& own) { return is_open_place_of(own, curve); }));
+        open_words(map, take_those([&](const core::OpenRegion& region) { return is_open_place_of(region, curve); }));
     rows.push_back({printable(curve.id) + (curve.certified ? "" : "*"), kind_words(curve.kind),
                     where(map, curve) + (open.empty() ? "" : "\n" + open),
                     curve.implicit.is_zero() ? "-" : std::to_string(core::total_degree(curve.implicit)),
@@ -122,11 +122,11 @@ std::string curve_rows(const core::LocusMap& map, const core::WorkingMode& mode,
     nothing.cause = first->cause;
     nothing.mode = mode;
     const bool point = first->point;
-    const auto own = take_those([&](const core::OpenRegion& region) {
+    const auto taken = take_those([&](const core::OpenRegion& region) {
       return point ? region.point && region.vanishing == nothing.vanishing : is_open_place_of(region, nothing);
     });
     const std::string what = point ? what_vanishes(nothing.vanishing) + "\nat isolated points" : where(map, nothing);
-    rows.push_back({"-", kind_words(nothing.kind), what + "\n" + open_words(map, own), "-", "", "0", ""});
+    rows.push_back({"-", kind_words(nothing.kind), what + "\n" + open_words(map, taken), "-", "", "0", ""});
   }
   // The two wide columns share what the others leave of the width.
   constexpr int least = 30;

@@ -67,9 +67,9 @@ std::string picture(const core::LocusMap& in_si, const core::WorkingMode& mode, 
 std::string field_picture(const core::LocusMap& in_si, const core::WorkingMode& mode, const core::FieldMap& si_fields,
                           const core::Field& si_field, PictureFormat format, const std::vector<double>& coloured_by) {
   const core::LocusMap map = in_file_units(in_si);
-  core::FieldMap own = si_fields;
-  own.fields = {si_field};
-  const core::FieldMap fields = in_file_units(std::move(own), map.units);
+  core::FieldMap field_map = si_fields;
+  field_map.fields = {si_field};
+  const core::FieldMap fields = in_file_units(std::move(field_map), map.units);
   const core::Field& field = fields.fields.front();
   std::vector<double> values = coloured_by.empty() ? field.values : coloured_by;
   if (!coloured_by.empty())
@@ -86,7 +86,7 @@ Groups groups_beside_zones(const core::Zones& map, const core::WorkingMode& mode
   std::set<std::string> borders;
   for (const core::Zone& zone : map.zones)
     if (zone.mode == mode)
-      for (const core::ZoneBorder& own : zone.borders) borders.insert(own.curve);
+      for (const core::ZoneBorder& border : zone.borders) borders.insert(border.curve);
   Groups groups = groups_of_mode(group_loci(map.loci), mode);
   for (CurveGroup& group : groups.curves)
     if (group.kind == core::LocusKind::preload)
@@ -99,11 +99,11 @@ Groups groups_beside_zones(const core::Zones& map, const core::WorkingMode& mode
 
 std::string zone_picture(const core::Zones& in_si, const core::WorkingMode& mode, PictureFormat format) {
   if (in_si.by_cells) {
-    const auto own =
+    const auto found =
         std::find_if(in_si.modes.begin(), in_si.modes.end(), [&](const auto& m) { return m.mode == mode; });
-    if (own == in_si.modes.end())
+    if (found == in_si.modes.end())
       throw core::InputError({}, "the zones are not of this working mode", "choose one of modes_of(zones)");
-    return cell_zone_picture(in_si, *own, format);
+    return cell_zone_picture(in_si, *found, format);
   }
   const core::Zones map = in_file_units(in_si);
   return drawn({&map.loci, mode, groups_beside_zones(map, mode), nullptr, nullptr, &map, nullptr}, format);
@@ -112,10 +112,6 @@ std::string zone_picture(const core::Zones& in_si, const core::WorkingMode& mode
 std::string task_picture(const core::Zones& map, const core::WorkingMode& mode, const TaskMark& task,
                          PictureFormat format) {
   return drawn({&map.loci, mode, groups_beside_zones(map, mode), nullptr, nullptr, &map, &task}, format);
-}
-
-std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode) {
-  return legend_of(groups_of_mode(group_loci(map), mode));
 }
 
 }  // namespace clearloci::report

@@ -38,7 +38,4 @@ std::string zone_picture(const core::Zones& map, const core::WorkingMode& mode, 
 std::string task_picture(const core::Zones& map, const core::WorkingMode& mode, const TaskMark& task,
                          PictureFormat format);
 
-/// The legend's labels, unwrapped, in order: also the description inside the SVG.
-std::string legend_text(const core::LocusMap& map, const core::WorkingMode& mode);
-
 }  // namespace clearloci::report

@@ -371,8 +371,8 @@ class PlotDrawing {
       draw_sample(stroke_of(series));
       write(printable(series.label), x + indent, ink);
     }
-    const std::vector<PlotSeries>& own = plot_.panels[i].series;
-    const bool cut = !plot_.panels[i].field && std::any_of(own.begin(), own.end(), [&](const PlotSeries& series) {
+    const std::vector<PlotSeries>& lines = plot_.panels[i].series;
+    const bool cut = !plot_.panels[i].field && std::any_of(lines.begin(), lines.end(), [&](const PlotSeries& series) {
       return draw_cuts(nullptr, f, series);
     });
     if (cut) write("▲ goes beyond the range shown", x, faded_ink);
@@ -399,9 +399,9 @@ class PlotDrawing {
 void share_ranges(Plot& plot) {
   for (PlotPanel& panel : plot.panels)
     if (!panel.y_range) panel.y_range = reach({panel}, 1, 0.06);
-  const std::vector<PlotPanel> own = plot.panels;
+  const std::vector<PlotPanel> panels = plot.panels;
   for (PlotPanel& panel : plot.panels)
-    for (const PlotPanel& other : own)
+    for (const PlotPanel& other : panels)
       if (other.y_label == panel.y_label && !other.series.empty()) {
         widen(*panel.y_range, (*other.y_range)[0]);
         widen(*panel.y_range, (*other.y_range)[1]);

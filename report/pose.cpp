@@ -41,17 +41,17 @@ Json error_json(const std::vector<double>& displacement, const std::vector<doubl
 /// null where the take-up is undefined.
 Json take_up_json(const std::vector<core::JointTakeUp>& take_up) {
   Json all = Json::object();
-  for (const core::JointTakeUp& own : take_up) {
-    Json& joint = all[own.joint] = Json::object();
-    put_displacement(joint, own.displacement);
+  for (const core::JointTakeUp& entry : take_up) {
+    Json& joint = all[entry.joint] = Json::object();
+    put_displacement(joint, entry.displacement);
     const auto put = [&](const char* key, const std::optional<double>& value) {
       if (value) joint[key] = number_json(*value);
     };
-    put("beta", own.beta);
-    put("normal", own.normal);
-    put("tilt", own.tilt);
-    put("axial", own.axial);
-    put("dtheta", own.rotation);
+    put("beta", entry.beta);
+    put("normal", entry.normal);
+    put("tilt", entry.tilt);
+    put("axial", entry.axial);
+    put("dtheta", entry.rotation);
   }
   return all;
 }
@@ -72,9 +72,10 @@ Json pose_object(const core::Pose& pose) {
   Json mode = Json::object(), points = Json::object(), reactions = Json::object();
   for (const auto& [point, side] : pose.working_mode) mode[point] = side;
   for (const core::PosePoint& point : pose.points) points[point.name] = numbers(point.at);
-  for (const core::JointReaction& own : pose.reactions) {
-    Json& joint = reactions[own.joint] = Json::object();
-    for (const core::ReactionComponent& c : own.components) joint[core::to_string(c.quantity)] = number_json(c.value);
+  for (const core::JointReaction& reaction : pose.reactions) {
+    Json& joint = reactions[reaction.joint] = Json::object();
+    for (const core::ReactionComponent& c : reaction.components)
+      joint[core::to_string(c.quantity)] = number_json(c.value);
   }
   Json worst = error_json(pose.worst.displacement, pose.worst.rotation);
   worst["dp"] = number_json(pose.worst.distance);
@@ -94,8 +95,8 @@ Json pose_object(const core::Pose& pose) {
                  {"vanishing", vanishing_array(pose.vanishing)},
                  {"singular", pose.singular},
                  {"worst_case", std::move(worst)}};
-  for (const core::FeasibleEfforts& own : pose.efforts)
-    result["feasible_efforts"][own.joint] = feasible_efforts_object(own);
+  for (const core::FeasibleEfforts& efforts : pose.efforts)
+    result["feasible_efforts"][efforts.joint] = feasible_efforts_object(efforts);
   if (pose.units.declared) result["units"] = "SI";
   if (!pose.relative_to.empty()) result["relative_to"] = pose.relative_to;
   if (!pose.notes.empty()) result["notes"] = pose.notes;
@@ -106,9 +107,9 @@ Json pose_object(const core::Pose& pose) {
 namespace {
 
 /// With the assemblies of groups, beside the sides of dyads.
-core::Pose in_mode(const core::ModePose& own) {
-  core::Pose pose = *own.pose;
-  pose.working_mode = own.working_mode;
+core::Pose in_mode(const core::ModePose& mode_pose) {
+  core::Pose pose = *mode_pose.pose;
+  pose.working_mode = mode_pose.working_mode;
   return pose;
 }
 
@@ -119,24 +120,24 @@ nlohmann::ordered_json pose_in_modes_object(const core::PoseInModes& poses) {
                                 {"mechanism", poses.mechanism},
                                 {"parameters", parameters_object(poses.parameters)},
                                 {"poses", nlohmann::ordered_json::array()}};
-  for (const core::ModePose& own : poses.modes)
-    if (own.pose) all["poses"].push_back(pose_object(in_mode(own)));
+  for (const core::ModePose& pose : poses.modes)
+    if (pose.pose) all["poses"].push_back(pose_object(in_mode(pose)));
   return all;
 }
 
 std::string pose_in_modes_text(const core::PoseInModes& poses) {
   std::string text = parameter_line(poses.parameters);
-  for (const core::ModePose& own : poses.modes) {
+  for (const core::ModePose& mode_pose : poses.modes) {
     if (!text.empty()) text += "\n";
-    if (own.pose) {
-      core::Pose pose = in_mode(own);
+    if (mode_pose.pose) {
+      core::Pose pose = in_mode(mode_pose);
       pose.parameters.clear();  // told once, above
       text += pose_text(pose);
       continue;
     }
     std::string words;
-    for (const auto& [point, side] : own.working_mode) words += (words.empty() ? "" : ", ") + point + " " + side;
-    text += words + ": " + own.why_not + "\n";
+    for (const auto& [point, side] : mode_pose.working_mode) words += (words.empty() ? "" : ", ") + point + " " + side;
+    text += words + ": " + mode_pose.why_not + "\n";
   }
   return text;
 }

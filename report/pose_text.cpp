@@ -131,14 +131,14 @@ std::string reactions_table(const core::Pose& pose) {
     std::vector<std::string> cells;
     for (const core::JointReaction& reaction : pose.reactions) {
       const auto size = [&](Quantity of) {
-        const core::ReactionComponent* const own = component(reaction, of);
-        return own == nullptr ? 0 : own->value;
+        const core::ReactionComponent* const reaction_component = component(reaction, of);
+        return reaction_component == nullptr ? 0 : reaction_component->value;
       };
       const bool whole = quantity == Quantity::f && component(reaction, Quantity::fx) != nullptr;
-      const core::ReactionComponent* const own = component(reaction, quantity);
-      cells.push_back(whole            ? scale(std::hypot(size(Quantity::fx), size(Quantity::fy), size(Quantity::fz)))
-                      : own == nullptr ? std::string()
-                                       : scale(own->value));
+      const core::ReactionComponent* const reaction_component = component(reaction, quantity);
+      cells.push_back(whole ? scale(std::hypot(size(Quantity::fx), size(Quantity::fy), size(Quantity::fz)))
+                      : reaction_component == nullptr ? std::string()
+                                                      : scale(reaction_component->value));
     }
     const auto has_none = [](const std::string& cell) { return cell.empty(); };
     if (std::all_of(cells.begin(), cells.end(), has_none)) continue;
@@ -157,12 +157,12 @@ std::string reactions_table(const core::Pose& pose) {
 
 std::string take_up_table(const core::Pose& pose) {
   Largest lengths, angles;
-  for (const core::JointTakeUp& own : pose.take_up) {
-    lengths.see(own.displacement);
-    lengths.see(own.normal);
-    lengths.see(own.axial);
-    angles.see(own.tilt);
-    angles.see(own.rotation);
+  for (const core::JointTakeUp& take_up : pose.take_up) {
+    lengths.see(take_up.displacement);
+    lengths.see(take_up.normal);
+    lengths.see(take_up.axial);
+    angles.see(take_up.tilt);
+    angles.see(take_up.rotation);
   }
   const Scale length{table_unit("m", pose.units, lengths.value()), lengths.value()};
   const Scale angle{table_unit("rad", pose.units), angles.value()}, direction{table_unit("rad", pose.units), 1};
@@ -174,12 +174,12 @@ std::string take_up_table(const core::Pose& pose) {
         std::pair("axial", &length), std::pair("dtheta", &angle)})
     heading.push_back(number_column(scale->head(name)));
   std::vector<Row> rows;
-  for (const core::JointTakeUp& own : pose.take_up) {
-    Row& row = rows.emplace_back(Row{own.joint});
+  for (const core::JointTakeUp& take_up : pose.take_up) {
+    Row& row = rows.emplace_back(Row{take_up.joint});
     for (std::size_t c = 0; c < pose.worst.displacement.size(); ++c)
-      row.push_back(own.displacement.empty() ? std::string() : length.played(own.displacement[c]));
-    row.insert(row.end(), {direction.played(own.beta), length.played(own.normal), angle.played(own.tilt),
-                           length.played(own.axial), angle.played(own.rotation)});
+      row.push_back(take_up.displacement.empty() ? std::string() : length.played(take_up.displacement[c]));
+    row.insert(row.end(), {direction.played(take_up.beta), length.played(take_up.normal), angle.played(take_up.tilt),
+                           length.played(take_up.axial), angle.played(take_up.rotation)});
   }
   return format_filled_columns(heading, rows);
 }
@@ -243,8 +243,9 @@ std::string pose_text(const core::Pose& pose) {
   text += points_table(pose) + "\n" + reactions_table(pose);
   put(text, "\n|A| = {}, condition number {}\n", engineering(pose.determinant, size_digits),
       std::isfinite(pose.condition) ? engineering(pose.condition, few_digits) : "unbounded");
-  for (const core::FeasibleEfforts& own : pose.efforts)
-    text += (own.cable && &own != &pose.efforts.front() ? "" : "\n") + feasible_efforts_text(own, pose.units);
+  for (const core::FeasibleEfforts& efforts : pose.efforts)
+    text +=
+        (efforts.cable && &efforts != &pose.efforts.front() ? "" : "\n") + feasible_efforts_text(efforts, pose.units);
   if (!pose.take_up.empty()) text += "\n" + take_up_table(pose) + "\n" + error_table(pose);
   for (const std::string& note : pose.notes) put(text, "{}\n", note);
   return text;

@@ -23,9 +23,9 @@ class Efforts {
   std::string told(std::size_t i, double value) const { return fmt::format("{} {}", number(i, value), unit(i).name); }
 
   /// "[6.05, 6.15] N m (beyond: contact lost in A1)", and where nothing beyond was looked at the end alone.
-  std::string end(const std::array<double, 2>& own, const std::string& beyond) const {
-    if (beyond.empty() && own[0] == own[1]) return told(0, own[0]);
-    return fmt::format("[{}, {}] {}{}", number(0, own[0]), number(0, own[1]), unit(0).name,
+  std::string end(const std::array<double, 2>& range, const std::string& beyond) const {
+    if (beyond.empty() && range[0] == range[1]) return told(0, range[0]);
+    return fmt::format("[{}, {}] {}{}", number(0, range[0]), number(0, range[1]), unit(0).name,
                        beyond.empty() ? "" : " (beyond: " + beyond + ")");
   }
 
@@ -130,11 +130,11 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
   } else {
     lines.emplace_back("none was found");
   }
-  for (const core::ProvenRange& own : preload.ranges)
-    lines.push_back(fmt::format("{} verifies from {} to {}", preload.joints.front(), efforts.end(own.from, own.below),
-                                efforts.end(own.to, own.above)));
-  for (const core::PreloadPattern& own : preload.patterns)
-    if (own.verdict != core::Verdict::refuted) lines.push_back(pattern_line(own));
+  for (const core::ProvenRange& range : preload.ranges)
+    lines.push_back(fmt::format("{} verifies from {} to {}", preload.joints.front(),
+                                efforts.end(range.from, range.below), efforts.end(range.to, range.above)));
+  for (const core::PreloadPattern& pattern : preload.patterns)
+    if (pattern.verdict != core::Verdict::refuted) lines.push_back(pattern_line(pattern));
   lines.push_back("looked for with " + looked_for);
   return lines;
 }
@@ -172,12 +172,12 @@ nlohmann::ordered_json preload_object(const core::PreloadAnswer& preload) {
     looked_for[preload.joints[i]] = {preload.lower[i], preload.upper[i]};
     if (preload.value) value[preload.joints[i]] = (*preload.value)[i];
   }
-  for (const core::ProvenRange& own : preload.ranges)
-    ranges.push_back({{"from", own.from}, {"to", own.to}, {"below", own.below}, {"above", own.above}});
+  for (const core::ProvenRange& range : preload.ranges)
+    ranges.push_back({{"from", range.from}, {"to", range.to}, {"below", range.below}, {"above", range.above}});
   Json law = nullptr;
   if (preload.law) law = {{"expression", preload.law->expression}, {"within", preload.law->within}};
   Json patterns = Json::array();
-  for (const core::PreloadPattern& own : preload.patterns) patterns.push_back(pattern_object(preload, own));
+  for (const core::PreloadPattern& pattern : preload.patterns) patterns.push_back(pattern_object(preload, pattern));
   return {{"law", std::move(law)},
           {"value", preload.value ? std::move(value) : Json(nullptr)},
           {"size", {number_json(preload.size[0]), number_json(preload.size[1])}},
@@ -209,7 +209,7 @@ core::ShownUnit unit_of(const core::FeasibleEfforts& efforts, const core::Units&
 std::string tension_text(const core::FeasibleEfforts& tension, const core::ShownUnit& unit) {
   std::string text =
       fmt::format("tension of {} = {} {}", tension.joint, engineering(tension.effort * unit.per_si, digits), unit.name);
-  for (const core::EffortRange& own : tension.ranges) text += ", feasible " + range_words(own, unit);
+  for (const core::EffortRange& range : tension.ranges) text += ", feasible " + range_words(range, unit);
   if (tension.ranges.empty())
     text += "; no tensions within their bounds hold this pose" +
             (tension.never.empty() ? "" : ": those of " + reaction_names(tension.never) + " exclude each other");
@@ -225,7 +225,7 @@ std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const co
       fmt::format("effort of {} = {} {}{}\n", efforts.joint, engineering(efforts.effort * unit.per_si, digits),
                   unit.name, efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
   if (!efforts.never.empty()) text += "  " + reaction_names(efforts.never) + ": lost whatever the effort\n";
-  for (const core::EffortRange& own : efforts.ranges) text += "  " + range_words(own, unit) + "\n";
+  for (const core::EffortRange& range : efforts.ranges) text += "  " + range_words(range, unit) + "\n";
   return text;
 }
 
@@ -239,9 +239,9 @@ std::string zone_preload_text(const std::string& zone, const core::ZonePreload& 
       text += "\n";
       break;
     }
-    for (const core::EffortRange& own : efforts.ranges)
+    for (const core::EffortRange& range : efforts.ranges)
       text += fmt::format("{}{} {}\n", text.empty() ? "" : "       ", efforts.joint,
-                          range_words(own, unit_of(efforts, units)));
+                          range_words(range, unit_of(efforts, units)));
   }
   return fmt::format("{:<6} {}", zone, text);
 }
@@ -249,11 +249,11 @@ std::string zone_preload_text(const std::string& zone, const core::ZonePreload& 
 nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& efforts) {
   using Json = nlohmann::ordered_json;
   Json ranges = Json::array();
-  for (const core::EffortRange& own : efforts.ranges)
-    ranges.push_back({{"from", number_json(own.from)},
-                      {"to", number_json(own.to)},
-                      {"below", vanishing_array(own.below)},
-                      {"above", vanishing_array(own.above)}});
+  for (const core::EffortRange& range : efforts.ranges)
+    ranges.push_back({{"from", number_json(range.from)},
+                      {"to", number_json(range.to)},
+                      {"below", vanishing_array(range.below)},
+                      {"above", vanishing_array(range.above)}});
   return {{"effort", efforts.effort},
           {"given", efforts.given},
           {"within", efforts.within ? Json(*efforts.within) : Json(nullptr)},
@@ -264,11 +264,11 @@ nlohmann::ordered_json feasible_efforts_object(const core::FeasibleEfforts& effo
 nlohmann::ordered_json zone_preload_object(const core::ZonePreload& preload) {
   using Json = nlohmann::ordered_json;
   Json efforts = Json::object();
-  for (const core::FeasibleEfforts& own : preload.efforts) {
-    const Json object = feasible_efforts_object(own);
-    Json& told = efforts[own.joint];
+  for (const core::FeasibleEfforts& feasible_efforts : preload.efforts) {
+    const Json object = feasible_efforts_object(feasible_efforts);
+    Json& told = efforts[feasible_efforts.joint];
     for (const char* key : {"within", "ranges", "never"}) told[key] = object[key];
-    if (preload.patterns.size() != own.ranges.size() || preload.efforts.size() > 1) continue;
+    if (preload.patterns.size() != feasible_efforts.ranges.size() || preload.efforts.size() > 1) continue;
     for (std::size_t i = 0; i < preload.patterns.size(); ++i) {
       Json signs = Json::object();
       for (const auto& [reaction, sign] : preload.patterns[i])

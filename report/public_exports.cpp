@@ -23,11 +23,11 @@
 namespace clearloci {
 namespace {
 
-void check(const std::set<std::string>& wanted, const std::vector<std::string>& known) {
+void check(const std::set<std::string>& wanted, const std::vector<std::string>& allowed) {
   for (const std::string& name : wanted)
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
       throw core::InputError({}, fmt::format("the answer is not written as '{}'", name),
-                             fmt::format("choose from {}", fmt::join(known, ", ")));
+                             fmt::format("choose from {}", fmt::join(allowed, ", ")));
 }
 
 /// An answer that no question gave, such as a LocusMap that a caller has just made, says nothing that could be written.
@@ -76,18 +76,18 @@ using Paths = std::vector<std::filesystem::path>;
 
 template <class Answer>
 Paths write_checked(const Answer& answer, const std::filesystem::path& folder, const std::set<std::string>& formats,
-                    const std::vector<std::string>& known = report::format_names<Answer>()) {
-  check(formats, known);
+                    const std::vector<std::string>& allowed = report::format_names<Answer>()) {
+  check(formats, allowed);
   return report::write_answer(answer, folder, formats);
 }
 
 template <class Answer>
 std::vector<ExportedFile> files_checked(const Answer& answer, const std::set<std::string>& formats,
-                                        const std::vector<std::string>& known = report::format_names<Answer>()) {
-  check(formats, known);
+                                        const std::vector<std::string>& allowed = report::format_names<Answer>()) {
+  check(formats, allowed);
   std::vector<ExportedFile> files;
-  for (report::File& own : report::files_of(answer, formats))
-    files.push_back({std::move(own.name), std::move(own.bytes)});
+  for (report::File& file : report::files_of(answer, formats))
+    files.push_back({std::move(file.name), std::move(file.bytes)});
   return files;
 }
 

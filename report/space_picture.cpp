@@ -72,13 +72,13 @@ std::vector<PlacedView> placed_views(const core::LocusMap& map, double top) {
     height = std::max(height, high[1] - low[1]);
   }
   for (std::size_t v = 0; v < views.size(); ++v) {
-    PlacedView& own = views[v];
-    own.left = page_margin + static_cast<double>(v) * (view_side + view_gap);
-    own.height = std::ceil(zoom * height + label_room);
-    own.view.zoom = zoom;
-    const auto [low, high] = outline(map, own.view);
-    own.view.origin = {own.left + view_side / 2 - (low[0] + high[0]) / 2,
-                       own.top + (own.height - label_room / 2) / 2 - (low[1] + high[1]) / 2};
+    PlacedView& view = views[v];
+    view.left = page_margin + static_cast<double>(v) * (view_side + view_gap);
+    view.height = std::ceil(zoom * height + label_room);
+    view.view.zoom = zoom;
+    const auto [low, high] = outline(map, view.view);
+    view.view.origin = {view.left + view_side / 2 - (low[0] + high[0]) / 2,
+                        view.top + (view.height - label_room / 2) / 2 - (low[1] + high[1]) / 2};
   }
   return views;
 }
@@ -235,10 +235,10 @@ void draw_surfaces(const Canvas& canvas, const core::LocusMap& map, const Placed
 
 std::vector<LineGroup> lines_of_mode(std::vector<LineGroup> groups, const core::WorkingMode& mode) {
   for (LineGroup& group : groups) {
-    std::erase_if(group.curves, [&](const auto* own) { return own->mode != mode; });
-    std::erase_if(group.points, [&](const auto* own) { return own->mode != mode; });
+    std::erase_if(group.curves, [&](const auto* curve) { return curve->mode != mode; });
+    std::erase_if(group.points, [&](const auto* point) { return point->mode != mode; });
   }
-  std::erase_if(groups, [](const LineGroup& own) { return own.curves.empty() && own.points.empty(); });
+  std::erase_if(groups, [](const LineGroup& group) { return group.curves.empty() && group.points.empty(); });
   return groups;
 }
 
@@ -354,10 +354,10 @@ std::vector<Entry> legend_of(const core::LocusMap& map, const std::vector<Surfac
     entries.push_back(std::move(entry));
   }
   for (const std::string& remark : remarks) entries.push_back({nullptr, {}, {remark}});
-  for (const LineGroup& own : lines) {
+  for (const LineGroup& group : lines) {
     Entry entry;
-    entry.lines = {own.what + (own.curves.empty() ? ", at points" : ", along curves")};
-    entry.line = &own;
+    entry.lines = {group.what + (group.curves.empty() ? ", at points" : ", along curves")};
+    entry.line = &group;
     entries.push_back(std::move(entry));
   }
   if (!groups.empty())

@@ -50,8 +50,8 @@ Json cell_object(const StudyResult& result, const core::StudyCell& cell) {
 
 Json ranges_array(const StudyResult& result) {
   Json list = Json::array();
-  for (const core::ProvenRange& own : result.ranges)
-    list.push_back({{"from", own.from}, {"to", own.to}, {"below", own.below}, {"above", own.above}});
+  for (const core::ProvenRange& range : result.ranges)
+    list.push_back({{"from", range.from}, {"to", range.to}, {"below", range.below}, {"above", range.above}});
   return list;
 }
 
@@ -59,17 +59,17 @@ Json cells_object(const StudyResult& result) {
   Json columns = Json::object();
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     Json lower = Json::array(), upper = Json::array();
-    for (const core::StudyCell& own : result.cells) {
-      lower.push_back(number_json(own.lower[i]));
-      upper.push_back(number_json(own.upper[i]));
+    for (const core::StudyCell& cell : result.cells) {
+      lower.push_back(number_json(cell.lower[i]));
+      upper.push_back(number_json(cell.upper[i]));
     }
     columns[result.parameters[i] + "_from"] = std::move(lower);
     columns[result.parameters[i] + "_to"] = std::move(upper);
   }
   Json status = Json::array(), reason = Json::array();
-  for (const core::StudyCell& own : result.cells) {
-    status.push_back(to_string(own.status));
-    reason.push_back(own.reason);
+  for (const core::StudyCell& cell : result.cells) {
+    status.push_back(to_string(cell.status));
+    reason.push_back(cell.reason);
   }
   columns["status"] = std::move(status);
   columns["reason"] = std::move(reason);
@@ -78,11 +78,12 @@ Json cells_object(const StudyResult& result) {
 
 std::string cells_csv(const StudyResult& result) {
   std::string out;
-  for (const std::string& own : result.parameters) out += own + "_from," + own + "_to,";
+  for (const std::string& parameter : result.parameters) out += parameter + "_from," + parameter + "_to,";
   out += "status,reason\n";
-  for (const core::StudyCell& own : result.cells) {
-    for (std::size_t i = 0; i < own.lower.size(); ++i) out += number(own.lower[i]) + "," + number(own.upper[i]) + ",";
-    out += to_string(own.status) + "," + quoted(own.reason) + "\n";
+  for (const core::StudyCell& cell : result.cells) {
+    for (std::size_t i = 0; i < cell.lower.size(); ++i)
+      out += number(cell.lower[i]) + "," + number(cell.upper[i]) + ",";
+    out += to_string(cell.status) + "," + quoted(cell.reason) + "\n";
   }
   return out;
 }
@@ -91,17 +92,17 @@ std::string cells_csv(const StudyResult& result) {
 Json designs_object(const StudyResult& result) {
   Json columns = Json::object();
   Json index = Json::array(), status = Json::array(), reason = Json::array(), task = Json::array(), at = Json::array();
-  for (const StudyDesign& own : result.designs) {
-    index.push_back(own.index);
-    status.push_back(to_string(own.status));
-    reason.push_back(own.reason);
-    task.push_back(own.task + 1);
-    at.push_back(own.at ? Json{number_json((*own.at)[0]), number_json((*own.at)[1])} : Json(nullptr));
+  for (const StudyDesign& design : result.designs) {
+    index.push_back(design.index);
+    status.push_back(to_string(design.status));
+    reason.push_back(design.reason);
+    task.push_back(design.task + 1);
+    at.push_back(design.at ? Json{number_json((*design.at)[0]), number_json((*design.at)[1])} : Json(nullptr));
   }
   columns["index"] = std::move(index);
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     Json values = Json::array();
-    for (const StudyDesign& own : result.designs) values.push_back(number_json(own.values[i]));
+    for (const StudyDesign& design : result.designs) values.push_back(number_json(design.values[i]));
     columns[result.parameters[i]] = std::move(values);
   }
   columns["status"] = std::move(status);
@@ -110,8 +111,8 @@ Json designs_object(const StudyResult& result) {
   columns["at"] = std::move(at);
   for (std::size_t f = 0; f < result.figures.size(); ++f) {
     Json values = Json::array();
-    for (const StudyDesign& own : result.designs)
-      values.push_back(f < own.figures.size() ? number_json(own.figures[f]) : Json(nullptr));
+    for (const StudyDesign& design : result.designs)
+      values.push_back(f < design.figures.size() ? number_json(design.figures[f]) : Json(nullptr));
     columns[core::to_string(result.figures[f])] = std::move(values);
   }
   return columns;
@@ -122,18 +123,19 @@ Json designs_object(const StudyResult& result) {
 std::string study_csv(const StudyResult& result) {
   if (result.study.method.kind == core::StudyMethod::Kind::prove) return cells_csv(result);
   std::string out = "index";
-  for (const std::string& own : result.parameters) out += "," + own;
+  for (const std::string& parameter : result.parameters) out += "," + parameter;
   out += ",status,reason,task,at_1,at_2";
-  for (const core::Figure own : result.figures) out += "," + core::to_string(own);
+  for (const core::Figure figure : result.figures) out += "," + core::to_string(figure);
   out += '\n';
-  for (const StudyDesign& own : result.designs) {
-    out += std::to_string(own.index);
-    for (const double value : own.values) out += "," + number(value);
-    out += "," + to_string(own.status) + "," + quoted(own.reason) + ",";
-    const bool fails = own.status == StudyDesign::Status::infeasible || own.status == StudyDesign::Status::undecided;
-    if (fails) out += std::to_string(own.task + 1);
-    for (std::size_t c = 0; c < 2; ++c) out += "," + (own.at ? number((*own.at)[c]) : std::string());
-    for (const double value : own.figures) out += "," + number(value);
+  for (const StudyDesign& design : result.designs) {
+    out += std::to_string(design.index);
+    for (const double value : design.values) out += "," + number(value);
+    out += "," + to_string(design.status) + "," + quoted(design.reason) + ",";
+    const bool fails =
+        design.status == StudyDesign::Status::infeasible || design.status == StudyDesign::Status::undecided;
+    if (fails) out += std::to_string(design.task + 1);
+    for (std::size_t c = 0; c < 2; ++c) out += "," + (design.at ? number((*design.at)[c]) : std::string());
+    for (const double value : design.figures) out += "," + number(value);
     out += '\n';
   }
   return out;
@@ -142,15 +144,15 @@ std::string study_csv(const StudyResult& result) {
 Json study_object(const StudyResult& result) {
   Json object = {{"format", 1}, {"mechanism", printable(result.mechanism)}, {"study", printable(result.study.file)}};
   Json vary = Json::object();
-  for (const core::StudyParameter& own : result.study.vary)
-    vary[own.name] = {core::to_string(own.lower), core::to_string(own.upper)};
+  for (const core::StudyParameter& parameter : result.study.vary)
+    vary[parameter.name] = {core::to_string(parameter.lower), core::to_string(parameter.upper)};
   object["vary"] = vary;
   object["method"] = method_words(result.study.method);
   Json goals = Json::array();
-  for (const core::StudyGoal& own : result.study.goals) goals.push_back(goal_words(own));
+  for (const core::StudyGoal& goal : result.study.goals) goals.push_back(goal_words(goal));
   object["goals"] = goals;
   Json figures = Json::object();
-  for (const core::Figure own : result.figures) figures[core::to_string(own)] = unit_of(own);
+  for (const core::Figure figure : result.figures) figures[core::to_string(figure)] = unit_of(figure);
   object["figures"] = figures;
   object["complete"] = result.complete;
   using Status = StudyDesign::Status;
@@ -176,7 +178,7 @@ Json study_object(const StudyResult& result) {
   object["best"] = result.best ? design_object(result, result.designs[*result.best]) : Json(nullptr);
   if (result.study.goals.size() > 1) {
     Json front = Json::array();
-    for (const std::size_t own : result.front) front.push_back(design_object(result, result.designs[own]));
+    for (const std::size_t index : result.front) front.push_back(design_object(result, result.designs[index]));
     object["front"] = front;
   }
   object["designs"] = designs_object(result);
@@ -206,9 +208,9 @@ std::string proof_text(const StudyResult& result) {
       out += fmt::format("{:<12}{:>9.4f} %  {}\n", to_string(status), 100 * part, words);
   }
   if (!result.complete) out += "\nincomplete: --resume goes on\n";
-  for (const core::ProvenRange& own : result.ranges)
-    out += fmt::format("\n{} verifies from {} to {}\n", result.parameters.front(), end_words(own.from, own.below),
-                       end_words(own.to, own.above));
+  for (const core::ProvenRange& index : result.ranges)
+    out += fmt::format("\n{} verifies from {} to {}\n", result.parameters.front(), end_words(index.from, index.below),
+                       end_words(index.to, index.above));
   if (result.best_goal) {
     const core::StudyGoal& goal = result.study.goals.front();
     out += fmt::format("\nbest         {}: {}, and no design {} {}, proven\n", goal_words(goal),

@@ -74,15 +74,15 @@ std::string sentence(const StudyResult& result) {
     words += fmt::format(", {} {} {}", core::to_string(result.figures[f]), short_number(best.figures[f], 5),
                          unit_of(result.figures[f]));
   words += ".";
-  for (const std::string& own : edge_words(result)) words += " " + own + ".";
+  for (const std::string& edge_word : edge_words(result)) words += " " + edge_word + ".";
   return words;
 }
 
 std::string what_was_varied(const StudyResult& result) {
   std::string rows = row(head("parameter") + head("from", true) + head("to", true));
-  for (const core::StudyParameter& own : result.study.vary)
-    rows += row(cell(own.name) + number_cell(exact_number(core::to_double(own.lower))) +
-                number_cell(exact_number(core::to_double(own.upper))));
+  for (const core::StudyParameter& parameter : result.study.vary)
+    rows += row(cell(parameter.name) + number_cell(exact_number(core::to_double(parameter.lower))) +
+                number_cell(exact_number(core::to_double(parameter.upper))));
   return table(rows) + "<p>" + text("Method: " + method_words(result.study.method) + ". Values in SI units.") +
          "</p>\n";
 }
@@ -91,13 +91,13 @@ std::string what_was_required(const StudyResult& result) {
   std::string list;
   for (const core::Task& task : result.study.tasks) {
     std::string words = "No joint loses contact, no drive crosses its play, no singularity and no boundary: ";
-    for (const std::string& own : task_words(task)) words += (words.ends_with(": ") ? "" : "; ") + own;
+    for (const std::string& task_word : task_words(task)) words += (words.ends_with(": ") ? "" : "; ") + task_word;
     list += item(words + ".");
   }
-  for (const core::StudyRequirement& own : result.study.require)
-    list += item("Required: " + requirement_words(own) + ".");
-  for (const std::string& own : result.study.keep) list += item("Kept to: " + own + ".");
-  for (const core::StudyGoal& own : result.study.goals) list += item("Goal: " + goal_words(own) + ".");
+  for (const core::StudyRequirement& requirement : result.study.require)
+    list += item("Required: " + requirement_words(requirement) + ".");
+  for (const std::string& name : result.study.keep) list += item("Kept to: " + name + ".");
+  for (const core::StudyGoal& goal : result.study.goals) list += item("Goal: " + goal_words(goal) + ".");
   return "<ul>\n" + list + "</ul>\n";
 }
 
@@ -108,8 +108,9 @@ std::string ranges_of(const StudyResult& result) {
   };
   const auto beyond = [](const std::string& reason) { return reason.empty() ? std::string() : "beyond: " + reason; };
   std::string rows = row(head(result.parameters.front() + " from") + head("to") + head("below") + head("above"));
-  for (const core::ProvenRange& own : result.ranges)
-    rows += row(cell(enclosed(own.from)) + cell(enclosed(own.to)) + cell(beyond(own.below)) + cell(beyond(own.above)));
+  for (const core::ProvenRange& range : result.ranges)
+    rows += row(cell(enclosed(range.from)) + cell(enclosed(range.to)) + cell(beyond(range.below)) +
+                cell(beyond(range.above)));
   return "<p>All values that verify, the ends enclosed:</p>\n" + table(rows);
 }
 
@@ -180,8 +181,9 @@ std::string recommended(const StudyResult& result, const std::vector<core::Verif
 std::string front_of(const StudyResult& result) {
   if (result.front.size() < 2) return {};
   std::string heads;
-  for (const std::string& own : result.parameters) heads += head(own, true);
-  for (const core::Figure own : result.figures) heads += head(core::to_string(own) + ", " + unit_of(own), true);
+  for (const std::string& parameter : result.parameters) heads += head(parameter, true);
+  for (const core::Figure figure : result.figures)
+    heads += head(core::to_string(figure) + ", " + unit_of(figure), true);
   std::string rows = row(heads);
   for (const std::size_t i : result.front) {
     std::string cells;

@@ -44,13 +44,13 @@ class StudyDrawing {
  public:
   explicit StudyDrawing(const StudyResult& result) : result_(result) {
     for (const auto& [reason, many] : study_reasons(result)) reasons_.push_back(reason);
-    for (const core::StudyCell& own : result.cells)
-      if (!own.reason.empty() && std::find(reasons_.begin(), reasons_.end(), own.reason) == reasons_.end())
-        reasons_.push_back(own.reason);
+    for (const core::StudyCell& cell : result.cells)
+      if (!cell.reason.empty() && std::find(reasons_.begin(), reasons_.end(), cell.reason) == reasons_.end())
+        reasons_.push_back(cell.reason);
     if (!result.figures.empty()) {
       std::vector<double> values;
-      for (const StudyDesign& own : result.designs)
-        if (own.status == Status::feasible) values.push_back(own.figures.front());
+      for (const StudyDesign& design : result.designs)
+        if (design.status == Status::feasible) values.push_back(design.figures.front());
       scale_ = scale_of(values, false, unit());
     }
     for (std::size_t i = 0; i < result.designs.size(); ++i) order_.push_back(i);
@@ -62,8 +62,8 @@ class StudyDrawing {
     if (n == 1 && result.figures.empty()) height_ = 90;
     if (n == 1 && !result.figures.empty()) {
       top_ = 0;
-      for (const StudyDesign& own : result.designs)
-        if (own.status == Status::feasible && own.figures.front() > top_) top_ = own.figures.front();
+      for (const StudyDesign& design : result.designs)
+        if (design.status == Status::feasible && design.figures.front() > top_) top_ = design.figures.front();
       top_ *= 1.06;  // room for the mark of the best
     }
     head_ = page_head(title(), subtitle(), page_margin + 60, plots() + gap + legend_width);
@@ -78,13 +78,13 @@ class StudyDrawing {
   }
 
   void draw(const Canvas& canvas) const {
-    const Page own = page();
+    const Page layout = page();
     draw_page_head(canvas, head_);
     const std::size_t n = result_.parameters.size();
     for (std::size_t row = 0; row < panels_; ++row)
       for (std::size_t column = 0; column <= (n < 2 ? 0 : row); ++column)
         draw_panel(canvas, column, n < 2 ? std::optional<std::size_t>() : row + 1, row, column);
-    draw_legend(canvas, own.width - page_margin - legend_width, head_.bottom);
+    draw_legend(canvas, layout.width - page_margin - legend_width, head_.bottom);
   }
 
  private:
@@ -112,22 +112,22 @@ class StudyDrawing {
   }
 
   double rank(std::size_t i) const {
-    const StudyDesign& own = result_.designs[i];
-    if (own.status == Status::left_out) return -3;
-    if (own.status == Status::infeasible) return -2;
-    if (own.status == Status::undecided) return -1;
-    if (result_.figures.empty() || std::isnan(own.figures.front())) return 0;
+    const StudyDesign& design = result_.designs[i];
+    if (design.status == Status::left_out) return -3;
+    if (design.status == Status::infeasible) return -2;
+    if (design.status == Status::undecided) return -1;
+    if (result_.figures.empty() || std::isnan(design.figures.front())) return 0;
     const bool less = !result_.study.goals.empty() && !result_.study.goals.front().maximise;
-    return less ? 1 / (1 + own.figures.front()) : 1 + own.figures.front();
+    return less ? 1 / (1 + design.figures.front()) : 1 + design.figures.front();
   }
 
-  Colour colour(const StudyDesign& own) const {
-    if (own.status == Status::feasible) {
-      if (result_.figures.empty() || std::isnan(own.figures.front())) return plain;
-      return scale_.colour(own.figures.front());
+  Colour colour(const StudyDesign& design) const {
+    if (design.status == Status::feasible) {
+      if (result_.figures.empty() || std::isnan(design.figures.front())) return plain;
+      return scale_.colour(design.figures.front());
     }
-    if (own.status == Status::undecided) return {0.25, 0.25, 0.25};
-    const auto place = std::find(reasons_.begin(), reasons_.end(), own.reason) - reasons_.begin();
+    if (design.status == Status::undecided) return {0.25, 0.25, 0.25};
+    const auto place = std::find(reasons_.begin(), reasons_.end(), design.reason) - reasons_.begin();
     const auto number = static_cast<std::size_t>(place);
     return number < most_reasons ? reason_colour(number) : Colour{0.85, 0.85, 0.85};
   }
@@ -138,8 +138,8 @@ class StudyDrawing {
     const Box box{page_margin + 60 + static_cast<double>(column) * step, head_.bottom + static_cast<double>(row) * step,
                   side_, height()};
     const auto range = [&](std::size_t p) {
-      const core::StudyParameter& own = result_.study.vary[p];
-      return std::array{core::to_double(own.lower), core::to_double(own.upper)};
+      const core::StudyParameter& parameter = result_.study.vary[p];
+      return std::array{core::to_double(parameter.lower), core::to_double(parameter.upper)};
     };
     const std::array<double, 2> across = range(x), up = y ? range(*y) : std::array{0.0, top_};
     const auto [wide, high] = mark_size(x, y, box);
@@ -147,14 +147,15 @@ class StudyDrawing {
     canvas.save();
     canvas.rectangle(box.x, box.y, box.width, box.height);
     canvas.clip();
-    for (const core::StudyCell& own : result_.cells) draw_cell(canvas, own, box, across, up, x, y);
+    for (const core::StudyCell& cell : result_.cells) draw_cell(canvas, cell, box, across, up, x, y);
     for (const std::size_t i : order_) draw_design(canvas, marks, result_.designs[i], x, y);
     if (result_.tolerances) draw_tolerances(canvas, *result_.tolerances, box, across, up, x, y);
     if (result_.best) {
-      const StudyDesign& own = result_.designs[*result_.best];
+      const StudyDesign& design = result_.designs[*result_.best];
       set_colour(canvas, {0.85, 0.1, 0.1});
       canvas.set_line_width(1.4);
-      canvas.arc(marks.x(own.values[x]), y ? marks.y(own.values[*y]) : marks.y(figure(own)), 5, 0, 6.28318530717958648);
+      canvas.arc(marks.x(design.values[x]), y ? marks.y(design.values[*y]) : marks.y(figure(design)), 5, 0,
+                 6.28318530717958648);
       canvas.stroke();
     }
     canvas.restore();
@@ -178,34 +179,36 @@ class StudyDrawing {
     }
   };
 
-  double figure(const StudyDesign& own) const { return result_.figures.empty() ? top_ / 2 : own.figures.front(); }
+  double figure(const StudyDesign& design) const { return result_.figures.empty() ? top_ / 2 : design.figures.front(); }
   double height() const { return height_ > 0 ? height_ : side_; }
 
   /// Over one parameter the first figure goes up, and designs without it are bands.
-  void draw_design(const Canvas& canvas, const Marks& marks, const StudyDesign& own, std::size_t x,
+  void draw_design(const Canvas& canvas, const Marks& marks, const StudyDesign& design, std::size_t x,
                    std::optional<std::size_t> y) const {
-    set_colour(canvas, colour(own));
-    const double left = marks.x(own.values[x]) - marks.wide / 2;
+    set_colour(canvas, colour(design));
+    const double left = marks.x(design.values[x]) - marks.wide / 2;
     if (y)
-      canvas.rectangle(left, marks.y(own.values[*y]) - marks.high / 2 - overlap, marks.wide + overlap,
+      canvas.rectangle(left, marks.y(design.values[*y]) - marks.high / 2 - overlap, marks.wide + overlap,
                        marks.high + overlap);
-    else if (own.status != Status::feasible || result_.figures.empty() || std::isnan(figure(own)))
+    else if (design.status != Status::feasible || result_.figures.empty() || std::isnan(figure(design)))
       canvas.rectangle(left, marks.box.y, marks.wide + overlap, marks.box.height);
     else
-      canvas.rectangle(left, marks.y(figure(own)), marks.wide + overlap, marks.box.bottom() - marks.y(figure(own)));
+      canvas.rectangle(left, marks.y(figure(design)), marks.wide + overlap,
+                       marks.box.bottom() - marks.y(figure(design)));
     canvas.fill();
   }
 
   /// The box that is proven around the file's design.
-  static void draw_tolerances(const Canvas& canvas, const core::StudyCell& own, const Box& box,
+  static void draw_tolerances(const Canvas& canvas, const core::StudyCell& cell, const Box& box,
                               const std::array<double, 2>& across, const std::array<double, 2>& up, std::size_t x,
                               std::optional<std::size_t> y) {
     const auto at = [](double value, const std::array<double, 2>& range, double from, double length) {
       return from + (value - range[0]) / (range[1] - range[0]) * length;
     };
-    const double left = at(own.lower[x], across, box.x, box.width), right = at(own.upper[x], across, box.x, box.width);
-    const double top = y ? at(own.upper[*y], up, box.bottom(), -box.height) : box.y;
-    const double bottom = y ? at(own.lower[*y], up, box.bottom(), -box.height) : box.bottom();
+    const double left = at(cell.lower[x], across, box.x, box.width),
+                 right = at(cell.upper[x], across, box.x, box.width);
+    const double top = y ? at(cell.upper[*y], up, box.bottom(), -box.height) : box.y;
+    const double bottom = y ? at(cell.lower[*y], up, box.bottom(), -box.height) : box.bottom();
     set_colour(canvas, {0.85, 0.1, 0.1});
     canvas.set_line_width(1.6);
     canvas.rectangle(left + 0.8, top + 0.8, right - left - 1.6, bottom - top - 1.6);
@@ -213,18 +216,18 @@ class StudyDrawing {
   }
 
   /// Of a proof over more than two parameters cells lie over one another: what verifies shows through.
-  void draw_cell(const Canvas& canvas, const core::StudyCell& own, const Box& box, const std::array<double, 2>& across,
+  void draw_cell(const Canvas& canvas, const core::StudyCell& cell, const Box& box, const std::array<double, 2>& across,
                  const std::array<double, 2>& up, std::size_t x, std::optional<std::size_t> y) const {
     const auto part = [](double value, const std::array<double, 2>& range) {
       return (value - range[0]) / (range[1] - range[0]);
     };
-    const double left = box.x + box.width * part(own.lower[x], across);
-    const double right = box.x + box.width * part(own.upper[x], across);
-    const double top = y ? box.bottom() - box.height * part(own.upper[*y], up) : box.y;
-    const double bottom = y ? box.bottom() - box.height * part(own.lower[*y], up) : box.bottom();
+    const double left = box.x + box.width * part(cell.lower[x], across);
+    const double right = box.x + box.width * part(cell.upper[x], across);
+    const double top = y ? box.bottom() - box.height * part(cell.upper[*y], up) : box.y;
+    const double bottom = y ? box.bottom() - box.height * part(cell.lower[*y], up) : box.bottom();
     StudyDesign like;
-    like.status = own.status;
-    like.reason = own.reason;
+    like.status = cell.status;
+    like.reason = cell.reason;
     set_colour(canvas, colour(like), result_.parameters.size() > 2 ? 0.25 : 1);
     const double more = result_.parameters.size() > 2 ? 0 : overlap;
     canvas.rectangle(left, top - more, right - left + more, bottom - top + more);

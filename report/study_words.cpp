@@ -69,7 +69,7 @@ std::string method_words(const core::StudyMethod& method) {
   switch (method.kind) {
     case Kind::grid: {
       std::string words;
-      for (const int own : method.counts) words += (words.empty() ? "grid of " : " x ") + std::to_string(own);
+      for (const int count : method.counts) words += (words.empty() ? "grid of " : " x ") + std::to_string(count);
       return words;
     }
     case Kind::sample:
@@ -103,11 +103,12 @@ std::vector<std::string> task_words(const core::Task& task) {
   if (task.loads)
     words.push_back(
         fmt::format("under every load from {} to {} N", place(task.loads->first), place(task.loads->second)));
-  for (const core::LoadWithin& own : task.loads_within)
-    words.push_back(fmt::format("with load {} off by up to {} N in any direction and {} N m", own.load + 1,
-                                number(own.force), number(own.couple)));
-  for (const core::Tolerance& own : task.tolerances)
-    words.push_back(fmt::format("with {} off by {} to {}", own.parameter, number(own.below), number(own.above)));
+  for (const core::LoadWithin& load_range : task.loads_within)
+    words.push_back(fmt::format("with load {} off by up to {} N in any direction and {} N m", load_range.load + 1,
+                                number(load_range.force), number(load_range.couple)));
+  for (const core::Tolerance& tolerance : task.tolerances)
+    words.push_back(
+        fmt::format("with {} off by {} to {}", tolerance.parameter, number(tolerance.below), number(tolerance.above)));
   return words;
 }
 
@@ -130,28 +131,28 @@ std::size_t count(const StudyResult& result, StudyDesign::Status status) {
 }
 
 double share(const StudyResult& result, StudyDesign::Status status) {
-  double own = 0, all = 0;
+  double of_status = 0, all = 0;
   for (const core::StudyCell& cell : result.cells) {
     all += volume(cell);
-    if (cell.status == status) own += volume(cell);
+    if (cell.status == status) of_status += volume(cell);
   }
-  return all > 0 ? own / all : 0;
+  return all > 0 ? of_status / all : 0;
 }
 
 std::vector<std::pair<std::string, std::size_t>> study_reasons(const StudyResult& result) {
   std::map<std::string, std::size_t> counts;
-  for (const StudyDesign& own : result.designs)
-    if (own.status != StudyDesign::Status::feasible) ++counts[own.reason];
+  for (const StudyDesign& count : result.designs)
+    if (count.status != StudyDesign::Status::feasible) ++counts[count.reason];
   return most_first(counts);
 }
 
 std::vector<std::pair<std::string, double>> cell_reasons(const StudyResult& result) {
   std::map<std::string, double> parts;
   double all = 0;
-  for (const core::StudyCell& own : result.cells) {
-    all += volume(own);
-    if (own.status != StudyDesign::Status::feasible && own.status != StudyDesign::Status::undecided)
-      parts[own.reason] += volume(own);
+  for (const core::StudyCell& cell : result.cells) {
+    all += volume(cell);
+    if (cell.status != StudyDesign::Status::feasible && cell.status != StudyDesign::Status::undecided)
+      parts[cell.reason] += volume(cell);
   }
   for (auto& [reason, part] : parts) part /= all;
   return most_first(parts);
@@ -163,12 +164,12 @@ std::vector<std::string> edge_words(const core::StudyResult& result) {
   if (!result.best) return sentences;
   const std::vector<double>& values = result.designs[*result.best].values;
   for (std::size_t i = 0; i < result.study.vary.size() && i < values.size(); ++i) {
-    const core::StudyParameter& own = result.study.vary[i];
-    const double lower = core::to_double(own.lower), upper = core::to_double(own.upper),
+    const core::StudyParameter& parameter = result.study.vary[i];
+    const double lower = core::to_double(parameter.lower), upper = core::to_double(parameter.upper),
                  near = at_end * (upper - lower);
     const bool low = values[i] <= lower + near;
     if (!low && values[i] < upper - near) continue;
-    sentences.push_back(own.name + " is at the " + (low ? "lower" : "upper") + " end of its range, " +
+    sentences.push_back(parameter.name + " is at the " + (low ? "lower" : "upper") + " end of its range, " +
                         exact_number(low ? lower : upper) + ": designs beyond it may be better");
   }
   return sentences;

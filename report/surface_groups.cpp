@@ -97,10 +97,10 @@ std::vector<std::string> tell_shared_reasons(std::vector<SurfaceGroup>& groups) 
     if (const std::string reason = reason_of_any_joint(group.why, group.vanishing); !reason.empty())
       shared[reason].push_back(&group);
   std::vector<std::string> remarks;
-  for (const auto& [reason, own] : shared) {
-    if (own.size() < 2) continue;
+  for (const auto& [reason, same_reason] : shared) {
+    if (same_reason.size() < 2) continue;
     std::string ids;
-    for (SurfaceGroup* const group : own) {
+    for (SurfaceGroup* const group : same_reason) {
       ids += (ids.empty() ? "" : ", ") + ids_of(*group);
       group->why.clear();
     }
@@ -112,16 +112,16 @@ std::vector<std::string> tell_shared_reasons(std::vector<SurfaceGroup>& groups) 
 std::vector<LineGroup> group_lines(const core::LocusMap& map, const std::vector<SurfaceGroup>& surfaces) {
   std::vector<LineGroup> groups;
   const auto of = [&](core::LocusKind kind, const std::vector<core::Vanishing>& vanishing) -> LineGroup& {
-    const auto known =
-        std::find_if(groups.begin(), groups.end(), [&](const LineGroup& own) { return own.vanishing == vanishing; });
-    if (known != groups.end()) return *known;
+    const auto found = std::find_if(groups.begin(), groups.end(),
+                                    [&](const LineGroup& group) { return group.vanishing == vanishing; });
+    if (found != groups.end()) return *found;
     groups.push_back({kind, vanishing, printable(vanishing_words(kind, vanishing)), 0, {}, {}, {}});
     return groups.back();
   };
   for (const core::SpaceCurve& curve : map.space_curves) of(curve.kind, curve.vanishing).curves.push_back(&curve);
   for (const core::IsolatedPoint& point : map.isolated_points) of(point.kind, point.vanishing).points.push_back(&point);
-  auto number = static_cast<int>(std::count_if(surfaces.begin(), surfaces.end(), [](const SurfaceGroup& own) {
-    return own.kind != core::LocusKind::direct_singularity && own.kind != core::LocusKind::workspace_boundary;
+  auto number = static_cast<int>(std::count_if(surfaces.begin(), surfaces.end(), [](const SurfaceGroup& group) {
+    return group.kind != core::LocusKind::direct_singularity && group.kind != core::LocusKind::workspace_boundary;
   }));
   for (LineGroup& group : groups) {
     group.number = number++;

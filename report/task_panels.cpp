@@ -38,7 +38,7 @@ const Colour& colour_of(const core::Verification& result) {
 
 /// As on white, but covering what is below.
 Colour faint(const Colour& colour, double strength) {
-  const auto mixed = [&](double own) { return 1 - strength * (1 - own); };
+  const auto mixed = [&](double dash) { return 1 - strength * (1 - dash); };
   return {mixed(colour.red), mixed(colour.green), mixed(colour.blue)};
 }
 
@@ -55,8 +55,8 @@ double weight_of(const core::Verification& result, std::size_t c) {
 /// How far along a coordinate the task is proven to be free around it.
 double room_along(const core::Verification& result, std::size_t c) {
   const bool apart = result.angles[c] && !result.task.angle_length;
-  const std::optional<double>& own = apart ? result.angle_margin : result.margin;
-  return own.value_or(result.verified() ? 0 : core::to_double(result.task.margin)) / weight_of(result, c);
+  const std::optional<double>& least_margin = apart ? result.angle_margin : result.margin;
+  return least_margin.value_or(result.verified() ? 0 : core::to_double(result.task.margin)) / weight_of(result, c);
 }
 
 Extent extent_of(const core::Verification& result) {
@@ -75,15 +75,15 @@ struct Range {
 
 Range range_of(const core::Verification& result, const Extent& task, std::size_t c) {
   const double room = room_along(result, c);
-  Range own{task.lower[c] - room, task.upper[c] + room};
-  const double bare = own.width();
+  Range range{task.lower[c] - room, task.upper[c] + room};
+  const double bare = range.width();
   const auto reach = [&](double value) {
-    const Range wider{std::min(own.lower, value), std::max(own.upper, value)};
-    if (bare == 0 || wider.width() <= most_growth * bare) own = wider;
+    const Range wider{std::min(range.lower, value), std::max(range.upper, value)};
+    if (bare == 0 || wider.width() <= most_growth * bare) range = wider;
   };
   if (result.nearest) reach(result.nearest->at[c]);
   if (result.witness) reach(result.witness->at[c]);
-  return own;
+  return range;
 }
 
 /// Two coordinates of a panel; of a strip the second is none.
@@ -150,10 +150,10 @@ class Panel {
 
   /// All turned alike, so that together they fill what any of them covers.
   void triangles(const Canvas& canvas, const core::TaskMesh& mesh) const {
-    for (const std::array<int, 3>& own : mesh.triangles) {
+    for (const std::array<int, 3>& triangle : mesh.triangles) {
       std::array<Place, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::array<double, 3>& from = mesh.corners[static_cast<std::size_t>(own[i])];
+        const std::array<double, 3>& from = mesh.corners[static_cast<std::size_t>(triangle[i])];
         corners[i] = at({from.begin(), from.end()});
       }
       const auto& [a, b, c] = corners;
@@ -306,13 +306,13 @@ std::vector<Range> ranges_of(const core::Verification& result, const Extent& tas
   std::array<double, 2> widest{};
   for (std::size_t c = 0; c < result.angles.size(); ++c) {
     all.push_back(range_of(result, task, c));
-    double& own = widest[result.angles[c] ? 1 : 0];
-    own = std::max(own, all.back().width());
+    double& width = widest[result.angles[c] ? 1 : 0];
+    width = std::max(width, all.back().width());
   }
   for (std::size_t c = 0; c < all.size(); ++c) {
     constexpr double around = 1.16;
-    const double own = widest[result.angles[c] ? 1 : 0];
-    const double middle = 0.5 * (all[c].lower + all[c].upper), half = 0.5 * around * (own > 0 ? own : bare);
+    const double width = widest[result.angles[c] ? 1 : 0];
+    const double middle = 0.5 * (all[c].lower + all[c].upper), half = 0.5 * around * (width > 0 ? width : bare);
     all[c] = {middle - half, middle + half};
   }
   return all;

@@ -49,8 +49,8 @@ void align_points(std::vector<Row>& rows, std::size_t column) {
   for (Row& row : rows) {
     std::string& cell = row[column];
     if (!is_number(cell)) continue;
-    const int own = before_point(cell);
-    cell = spaces(before - own) + cell + spaces(after - (columns(cell) - own));
+    const int point = before_point(cell);
+    cell = spaces(before - point) + cell + spaces(after - (columns(cell) - point));
   }
 }
 

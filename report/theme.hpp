@@ -80,18 +80,18 @@ inline constexpr Theme dark_theme{.paper = {0.086, 0.102, 0.125},
 /// Of the zones on white, from 0 on: seven, then these darker, then lighter, so that no two of 21 look alike.
 inline Colour zone_colour(std::size_t number) {
   constexpr double darker = 0.68, lighter = 0.5;
-  const Colour& own = light_theme.zones[number % light_theme.zones.size()];
+  const Colour& zone = light_theme.zones[number % light_theme.zones.size()];
   const auto mixed = [](const Colour& colour, double part, double with) {
     const auto one = [&](double value) { return part * value + (1 - part) * with; };
     return Colour{one(colour.red), one(colour.green), one(colour.blue)};
   };
   switch (number / light_theme.zones.size() % 3) {
     case 1:
-      return mixed(own, darker, 0);
+      return mixed(zone, darker, 0);
     case 2:
-      return mixed(own, lighter, 1);
+      return mixed(zone, lighter, 1);
     default:
-      return own;
+      return zone;
   }
 }
 

@@ -63,24 +63,24 @@ Json shape_json(const core::TaskShape& shape) {
     return {{"centre", core::rounded(ball->centre)}, {"radius", core::to_double(ball->radius)}};
   if (const auto* polygon = std::get_if<core::TaskPolygon>(&shape)) {
     if (polygon->above.empty()) return poses_json(polygon->corners);
-    Json own = range(core::bounds(shape));
-    own["corners"] = Json::array();
-    for (const core::Point2& corner : core::outline(shape)) own["corners"].push_back(corner);
-    own["corners"].erase(own["corners"].size() - 1);
-    return own;
+    Json object = range(core::bounds(shape));
+    object["corners"] = Json::array();
+    for (const core::Point2& corner : core::outline(shape)) object["corners"].push_back(corner);
+    object["corners"].erase(object["corners"].size() - 1);
+    return object;
   }
   if (const auto* mesh = std::get_if<core::TaskMesh>(&shape)) {
-    Json own = {{"file", printable(mesh->file)}, {"triangles", mesh->triangles.size()}};
-    own.update(range(core::bounds(shape)));
-    return own;
+    Json object = {{"file", printable(mesh->file)}, {"triangles", mesh->triangles.size()}};
+    object.update(range(core::bounds(shape)));
+    return object;
   }
   return poses_json(std::get<core::TaskPath>(shape).points);
 }
 
 Json names_of(const std::vector<core::Vanishing>& reactions) {
   Json joints = Json::array();
-  for (const core::Vanishing& own : reactions)
-    if (std::find(joints.begin(), joints.end(), own.joint) == joints.end()) joints.push_back(own.joint);
+  for (const core::Vanishing& vanishing : reactions)
+    if (std::find(joints.begin(), joints.end(), vanishing.joint) == joints.end()) joints.push_back(vanishing.joint);
   return joints;
 }
 
@@ -91,21 +91,21 @@ Json or_null(const std::optional<Value>& value) {
 
 Json witness_json(const core::Verification& result) {
   const core::TaskWitness& witness = *result.witness;
-  Json own = {{"at", witness.at},
-              {"load", witness.load.empty() ? Json(nullptr) : Json(witness.load)},
-              {"distance", witness.distance},
-              {"reason", witness_words(witness, {}, result.margin_of_angles())},
-              {"vanishing", vanishing_array(witness.vanishing)},
-              {"too_small", vanishing_array(witness.too_small)},
-              {"size", or_null(witness.size)}};
-  if (!witness.beyond_bound.empty()) own["beyond_bound"] = vanishing_array(witness.beyond_bound);
-  if (!witness.limit.empty()) own["limit"] = witness.limit;
-  for (const auto& [name, value] : witness.design) own["design"][name] = value;
+  Json object = {{"at", witness.at},
+                 {"load", witness.load.empty() ? Json(nullptr) : Json(witness.load)},
+                 {"distance", witness.distance},
+                 {"reason", witness_words(witness, {}, result.margin_of_angles())},
+                 {"vanishing", vanishing_array(witness.vanishing)},
+                 {"too_small", vanishing_array(witness.too_small)},
+                 {"size", or_null(witness.size)}};
+  if (!witness.beyond_bound.empty()) object["beyond_bound"] = vanishing_array(witness.beyond_bound);
+  if (!witness.limit.empty()) object["limit"] = witness.limit;
+  for (const auto& [name, value] : witness.design) object["design"][name] = value;
   for (const core::WitnessLoad& load : witness.loads)
-    own["loads"].push_back({{"load", load.load + 1},
-                            {"force", load.force},
-                            {"couple", load.couple.size() == 1 ? Json(load.couple.front()) : Json(load.couple)}});
-  return own;
+    object["loads"].push_back({{"load", load.load + 1},
+                               {"force", load.force},
+                               {"couple", load.couple.size() == 1 ? Json(load.couple.front()) : Json(load.couple)}});
+  return object;
 }
 
 /// Values of an answer as they are told, in the units of its mechanism file.
@@ -210,9 +210,9 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
       break;
   }
   if (!witness.load.empty()) words += " under the load " + vector(witness.load);
-  for (const core::WitnessLoad& own : witness.loads)
-    words += fmt::format(" under {} and {} as load {}", vector(own.force), listed(own.couple, shown_unit("N m", units)),
-                         own.load + 1);
+  for (const core::WitnessLoad& load : witness.loads)
+    words += fmt::format(" under {} and {} as load {}", vector(load.force),
+                         listed(load.couple, shown_unit("N m", units)), load.load + 1);
   for (std::size_t i = 0; i < witness.design.size(); ++i)
     words += fmt::format("{}{} = {}", i == 0 ? " of the design " : ", ", witness.design[i].first,
                          exact_number(witness.design[i].second));
@@ -268,11 +268,11 @@ Json verification_object(const core::Verification& result) {
                     {"cells", result.open->cells},
                     {"reason", open_words(result)}};
   root["least"] = Json::array();
-  for (const core::LeastReaction& own : result.least)
-    root["least"].push_back({{"joint", own.reaction.joint},
-                             {"quantity", core::to_string(own.reaction.quantity)},
-                             {"proven", own.proven},
-                             {"met", own.met}});
+  for (const core::LeastReaction& reaction : result.least)
+    root["least"].push_back({{"joint", reaction.reaction.joint},
+                             {"quantity", core::to_string(reaction.reaction.quantity)},
+                             {"proven", reaction.proven},
+                             {"met", reaction.met}});
   if (result.preload) root["preload"] = preload_object(*result.preload);
   root["cells"] = result.cells;
   root["notes"] = result.notes;
@@ -340,10 +340,10 @@ std::string verification_text(const core::Verification& result) {
     put("open", fmt::format("{} from {} to {}: {}; the rest is proven", many(result.open->cells, "cell"),
                             words.pose(result.open->lower, place_digits), words.pose(result.open->upper, place_digits),
                             open_words(result)));
-  for (const core::LeastReaction& own : result.least)
+  for (const core::LeastReaction& reaction : result.least)
     put("least",
-        fmt::format("|{}| at least {} over the task, proven; least value found {}", reaction_name(own.reaction),
-                    words.effort(own.reaction, own.proven), words.effort(own.reaction, own.met)));
+        fmt::format("|{}| at least {} over the task, proven; least value found {}", reaction_name(reaction.reaction),
+                    words.effort(reaction.reaction, reaction.proven), words.effort(reaction.reaction, reaction.met)));
   for (const std::string& note : told_once(core::in_file_units(result.notes, result.units, result.angles)))
     text += printable(note) + "\n";
   return text;

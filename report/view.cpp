@@ -85,9 +85,9 @@ class Shader {
       for (int x = 0; x < width; ++x) {
         std::array<double, 4> sum{};
         for (int i = 0; i < fine * fine; ++i) {
-          const auto own =
+          const auto colour =
               composed(first_[static_cast<std::size_t>(y * fine + i / fine) * width_ + x * fine + i % fine]);
-          for (std::size_t c = 0; c < 4; ++c) sum[c] += own[c] / (fine * fine);
+          for (std::size_t c = 0; c < 4; ++c) sum[c] += colour[c] / (fine * fine);
         }
         const auto byte = [](double value) {
           return static_cast<std::uint32_t>(std::clamp(std::lround(255 * value), 0L, 255L));
@@ -216,9 +216,10 @@ class Shader {
     }
     std::array<double, 4> sum{};
     for (const int i : order_) {
-      const Fragment& own = fragments_[static_cast<std::size_t>(i)];
-      for (std::size_t c = 0; c < 3; ++c) sum[c] = sum[c] * (1 - own.opacity) + own.colour[c] * own.opacity;
-      sum[3] = sum[3] * (1 - own.opacity) + own.opacity;
+      const Fragment& fragment = fragments_[static_cast<std::size_t>(i)];
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[c] = sum[c] * (1 - fragment.opacity) + fragment.colour[c] * fragment.opacity;
+      sum[3] = sum[3] * (1 - fragment.opacity) + fragment.opacity;
     }
     return sum;
   }
@@ -244,8 +245,8 @@ Point3 View::space(const Point3& place) const {
 }
 
 core::Point2 View::page(const Point3& place) const {
-  const Point3 own = space(place);
-  return {origin[0] + zoom * dot(own, right), origin[1] - zoom * dot(own, up)};
+  const Point3 projected = space(place);
+  return {origin[0] + zoom * dot(projected, right), origin[1] - zoom * dot(projected, up)};
 }
 
 double View::nearness(const Point3& place) const { return dot(space(place), toward); }

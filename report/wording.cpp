@@ -302,7 +302,7 @@ std::string engineering_beside(double value, double beside, int digits) {
 std::string zero_words(std::span<const core::Quantity> quantities) {
   const auto any = [&](auto... wanted) {
     return std::any_of(quantities.begin(), quantities.end(),
-                       [&](core::Quantity own) { return ((own == wanted) || ...); });
+                       [&](core::Quantity quantity) { return ((quantity == wanted) || ...); });
   };
   std::vector<std::string> efforts, words;
   if (any(core::Quantity::M)) efforts.emplace_back("M");

@@ -44,8 +44,8 @@ Files zones_vtk(const core::Zones& map) {
   Files files;
   const std::vector<core::WorkingMode> modes = modes_of_zones(map);
   if (map.grid.size() > 1)
-    for (const core::ZonedMode& own : map.modes)
-      files.push_back({"zones" + mode_suffix(modes, map.loci.tower, own.mode) + ".vti", label_vti(map, own)});
+    for (const core::ZonedMode& mode : map.modes)
+      files.push_back({"zones" + mode_suffix(modes, map.loci.tower, mode.mode) + ".vti", label_vti(map, mode)});
   if (map.grid.size() < 3) return files;
   for (const core::Zone& zone : map.zones) {
     core::LocusMap alone;

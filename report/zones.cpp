@@ -103,8 +103,8 @@ std::vector<std::string> joints_lost_at(const core::Zone& zone) {
   for (const core::ZoneBorder& border : zone.borders) {
     if (border.kind != core::LocusKind::contact_loss) continue;
     for (const core::Vanishing& v : border.vanishing) {
-      const bool known = std::find(joints.begin(), joints.end(), v.joint) != joints.end();
-      if (v.quantity == core::Quantity::f && !known) joints.push_back(v.joint);
+      const bool found = std::find(joints.begin(), joints.end(), v.joint) != joints.end();
+      if (v.quantity == core::Quantity::f && !found) joints.push_back(v.joint);
     }
   }
   return joints;
@@ -116,8 +116,8 @@ std::vector<core::WorkingMode> modes_of_zones(const core::Zones& map) {
     if (std::find(modes.begin(), modes.end(), mode) == modes.end()) modes.push_back(mode);
   };
   for (const core::Zone& zone : map.zones) add(zone.mode);
-  for (const core::ZonedMode& own : map.modes)
-    if (map.by_cells || own.in_doubt > 0) add(own.mode);
+  for (const core::ZonedMode& mode : map.modes)
+    if (map.by_cells || mode.in_doubt > 0) add(mode.mode);
   return modes;
 }
 
@@ -144,15 +144,15 @@ Json zones_object(const core::Zones& map) {
   }
   root["areas"] = Json::array();
   core::ZonedMode all;
-  for (const core::ZonedMode& own : map.modes) {
-    root["areas"].push_back({{"working_mode", mode_object(map.loci.tower, own.mode)},
-                             {"workspace", own.workspace},
-                             {"outside", own.outside},
-                             {"in_doubt", own.in_doubt}});
-    if (map.by_cells) root["areas"].back()["cells"] = own.cells;
-    all.outside += own.outside;
-    all.in_doubt += own.in_doubt;
-    all.cells += own.cells;
+  for (const core::ZonedMode& mode : map.modes) {
+    root["areas"].push_back({{"working_mode", mode_object(map.loci.tower, mode.mode)},
+                             {"workspace", mode.workspace},
+                             {"outside", mode.outside},
+                             {"in_doubt", mode.in_doubt}});
+    if (map.by_cells) root["areas"].back()["cells"] = mode.cells;
+    all.outside += mode.outside;
+    all.in_doubt += mode.in_doubt;
+    all.cells += mode.cells;
   }
   if (map.by_cells) {
     root["outside"] = all.outside;

@@ -64,11 +64,11 @@ std::string rows_of(const core::Zones& map, const core::WorkingMode& mode) {
                engineering(zone.size, area_digits), fmt::format("  {:<36} {}", circle, border_words(zone)));
   }
   out += row("all", "", "", engineering(total, area_digits), "");
-  for (const core::ZonedMode& own : map.modes)
-    if (own.mode == mode && own.in_doubt != 0)
-      out += row(
-          "doubt", "", "", engineering(own.in_doubt, area_digits),
-          fmt::format("  of a workspace of {}: not certified, or in no zone", engineering(own.workspace, area_digits)));
+  for (const core::ZonedMode& zoned_mode : map.modes)
+    if (zoned_mode.mode == mode && zoned_mode.in_doubt != 0)
+      out += row("doubt", "", "", engineering(zoned_mode.in_doubt, area_digits),
+                 fmt::format("  of a workspace of {}: not certified, or in no zone",
+                             engineering(zoned_mode.workspace, area_digits)));
   return out;
 }
 
@@ -109,7 +109,7 @@ ShownUnit unit_of_size(const core::LocusMap& map) {
 }
 
 bool at_side(const core::Zone& zone) {
-  return std::any_of(zone.borders.begin(), zone.borders.end(), [](const auto& own) { return !own.kind; });
+  return std::any_of(zone.borders.begin(), zone.borders.end(), [](const auto& border) { return !border.kind; });
 }
 
 std::string bounds_words(const core::Zone& zone) {
@@ -119,10 +119,10 @@ std::string bounds_words(const core::Zone& zone) {
         core::LocusKind::backlash, core::LocusKind::margin, core::LocusKind::preload}) {
     std::vector<core::Vanishing> all;
     bool any = false;
-    for (const core::ZoneBorder& own : zone.borders) {
-      if (own.kind != kind) continue;
+    for (const core::ZoneBorder& border : zone.borders) {
+      if (border.kind != kind) continue;
       any = true;
-      all.insert(all.end(), own.vanishing.begin(), own.vanishing.end());
+      all.insert(all.end(), border.vanishing.begin(), border.vanishing.end());
     }
     if (any) words += (words.empty() ? "" : "; ") + kind_words(kind) + (all.empty() ? "" : " ") + reaction_names(all);
   }
@@ -210,17 +210,17 @@ std::string paragraphs_of(const core::Zones& map, const core::WorkingMode& mode)
                          places.pose(zone.sample));
     if (zone.ball.radius > 0) out += ball_words(map.loci, places, zone.ball);
     out += fmt::format("      beside it: {}\n", bounds_words(zone));
-    for (const core::ZoneEnd& own : zone.ends) out += "      ends at " + end_words(map.loci, places, own) + "\n";
+    for (const core::ZoneEnd& end : zone.ends) out += "      ends at " + end_words(map.loci, places, end) + "\n";
     if (zone.perhaps_one_with.empty()) continue;
     out += "      perhaps the same zone as";
     for (const std::string& other : zone.perhaps_one_with) out += " " + other;
     out += "\n";
   }
   if (out.empty()) out = "no zones: nothing in the box is proven to be free of loci\n";
-  for (const core::ZonedMode& own : map.modes)
-    if (own.mode == mode)
-      out += fmt::format("\nin doubt {} {}, out of reach {} {}; {} cells\n", size(own.in_doubt), unit.name,
-                         size(own.outside), unit.name, own.cells);
+  for (const core::ZonedMode& zoned_mode : map.modes)
+    if (zoned_mode.mode == mode)
+      out += fmt::format("\nin doubt {} {}, out of reach {} {}; {} cells\n", size(zoned_mode.in_doubt), unit.name,
+                         size(zoned_mode.outside), unit.name, zoned_mode.cells);
   return out;
 }
 

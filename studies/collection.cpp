@@ -23,22 +23,22 @@ Collection::Collection(const StudyProblem& problem, std::uint64_t total, const S
   table_.emplace(options.table, hash_of(signature(problem.model(), problem.study())),
                  cells ? 0 : problem.figures().size(), options.resume);
   designs_ = table_->take();
-  for (StudyDesign& own : designs_) count(own);
+  for (StudyDesign& design : designs_) count(design);
   before_ = progress_.done;
 }
 
 std::vector<bool> Collection::known(std::uint64_t count) const {
-  std::vector<bool> known(count, false);
-  for (const StudyDesign& own : designs_)
-    if (own.index < count) known[own.index] = true;
-  return known;
+  std::vector<bool> done(count, false);
+  for (const StudyDesign& design : designs_)
+    if (design.index < count) done[design.index] = true;
+  return done;
 }
 
 void Collection::add(std::vector<StudyDesign> some) {
-  for (StudyDesign& own : some) {
-    if (table_) lines_ += table_line(own);
-    count(own);
-    designs_.push_back(std::move(own));
+  for (StudyDesign& design : some) {
+    if (table_) lines_ += table_line(design);
+    count(design);
+    designs_.push_back(std::move(design));
   }
   const Clock::time_point now = Clock::now();
   if (now - last_write_ < between_writes) return;
@@ -46,9 +46,9 @@ void Collection::add(std::vector<StudyDesign> some) {
   write();
   if (!options_.progress) return;
   const double spent = std::chrono::duration<double>(now - started_).count();
-  const auto own = static_cast<double>(progress_.done - before_);
+  const auto done = static_cast<double>(progress_.done - before_);
   const double left = static_cast<double>(progress_.total) - static_cast<double>(progress_.done);
-  progress_.seconds_left = own > 0 ? spent / own * std::max(0.0, left) : 0;
+  progress_.seconds_left = done > 0 ? spent / done * std::max(0.0, left) : 0;
   options_.progress(progress_);
 }
 
@@ -65,13 +65,13 @@ void Collection::write() {
   lines_.clear();
 }
 
-void Collection::count(const StudyDesign& own) {
+void Collection::count(const StudyDesign& design) {
   ++progress_.done;
-  if (own.status != StudyDesign::Status::feasible) return;
+  if (design.status != StudyDesign::Status::feasible) return;
   ++progress_.feasible;
   const auto& goals = problem_.study().goals;
-  if (goals.empty() || !goals.front().figure || own.figures.empty()) return;
-  const double value = problem_.goal(goals.front(), own);
+  if (goals.empty() || !goals.front().figure || design.figures.empty()) return;
+  const double value = problem_.goal(goals.front(), design);
   if (std::isnan(value)) return;
   if (!progress_.best || (goals.front().maximise ? value > *progress_.best : value < *progress_.best))
     progress_.best = value;

@@ -26,7 +26,7 @@ class Collection {
  private:
   using Clock = std::chrono::steady_clock;
   void write();
-  void count(const core::StudyDesign& own);
+  void count(const core::StudyDesign& design);
 
   const StudyProblem& problem_;
   const StudyOptions& options_;

@@ -159,10 +159,10 @@ DesignTable::~DesignTable() { ::close(file_); }
 
 /// A table is begun in the place of another one, and of nothing else.
 void DesignTable::check_own() const {
-  struct stat own = {};
+  struct stat status = {};
   std::array<char, 16> first{};
   constexpr std::string_view mark = "clearloci design";
-  const bool regular = ::fstat(file_, &own) == 0 && S_ISREG(own.st_mode);
+  const bool regular = ::fstat(file_, &status) == 0 && S_ISREG(status.st_mode);
   const ssize_t size = regular ? ::pread(file_, first.data(), first.size(), 0) : -1;
   if (size < 0 || !mark.starts_with(std::string_view(first.data(), static_cast<std::size_t>(size))))
     throw core::InputError({path_.string()}, "this is no table of designs", "choose another folder with -o");
@@ -193,7 +193,7 @@ void DesignTable::read(const std::string& header, std::size_t figures) {
 
 void DesignTable::settle(const std::vector<StudyDesign>& designs) {
   std::string text = header_;
-  for (const StudyDesign& own : designs) text += table_line(own);
+  for (const StudyDesign& design : designs) text += table_line(design);
   std::filesystem::path temporary = path_;
   temporary += ".tmp";
   const int file = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

@@ -36,15 +36,15 @@ Numbers direction_numbers(std::size_t dimension) {
     for (unsigned i = 0; i < bits; ++i) v[i] = 1U << (bits - 1 - i);
     return v;
   }
-  const Direction& own = directions[dimension - 1];
+  const Direction& direction = directions[dimension - 1];
   for (unsigned i = 0; i < bits; ++i) {
-    if (i < own.degree) {
-      v[i] = own.first[i] << (bits - 1 - i);
+    if (i < direction.degree) {
+      v[i] = direction.first[i] << (bits - 1 - i);
       continue;
     }
-    v[i] = v[i - own.degree] ^ (v[i - own.degree] >> own.degree);
-    for (unsigned k = 1; k < own.degree; ++k)
-      if ((own.polynomial >> (own.degree - 1 - k)) & 1U) v[i] ^= v[i - k];
+    v[i] = v[i - direction.degree] ^ (v[i - direction.degree] >> direction.degree);
+    for (unsigned k = 1; k < direction.degree; ++k)
+      if ((direction.polynomial >> (direction.degree - 1 - k)) & 1U) v[i] ^= v[i - k];
   }
   return v;
 }

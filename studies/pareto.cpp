@@ -28,10 +28,10 @@ void choose(const StudyProblem& problem, core::StudyResult& result) {
   };
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < result.designs.size(); ++i) {
-    const core::StudyDesign& own = result.designs[i];
-    if (own.status != core::StudyDesign::Status::feasible) continue;
+    const core::StudyDesign& design = result.designs[i];
+    if (design.status != core::StudyDesign::Status::feasible) continue;
     Candidate candidate{i, {}};
-    for (const core::StudyGoal& goal : goals) candidate.values.push_back(problem.goal(goal, own));
+    for (const core::StudyGoal& goal : goals) candidate.values.push_back(problem.goal(goal, design));
     if (std::none_of(candidate.values.begin(), candidate.values.end(), [](double v) { return std::isnan(v); }))
       candidates.push_back(std::move(candidate));
   }
@@ -49,12 +49,12 @@ void choose(const StudyProblem& problem, core::StudyResult& result) {
   const auto same = [&](const Candidate& a, const Candidate& b) {
     return result.designs[a.place].values == result.designs[b.place].values;
   };
-  for (const Candidate& own : candidates)
+  for (const Candidate& contender : candidates)
     if (std::none_of(front.begin(), front.end(), [&](const Candidate* other) {
-          return dominates(other->values, own.values, goals) || same(*other, own);
+          return dominates(other->values, contender.values, goals) || same(*other, contender);
         }))
-      front.push_back(&own);
-  for (const Candidate* own : front) result.front.push_back(own->place);
+      front.push_back(&contender);
+  for (const Candidate* candidate : front) result.front.push_back(candidate->place);
 }
 
 }  // namespace clearloci

@@ -45,7 +45,7 @@ class Search {
         judge_(problem),
         found_(problem, problem.study().method.count, options),
         budget_(problem.study().method.count) {
-    for (const StudyDesign& own : found_.designs()) known_.emplace(own.index, own);
+    for (const StudyDesign& design : found_.designs()) known_.emplace(design.index, design);
   }
 
   bool run() {
@@ -58,7 +58,8 @@ class Search {
       const auto first = static_cast<std::uint64_t>(std::ceil(first_share * static_cast<double>(budget_)));
       for (std::uint64_t i = 0; i < first && !stopped(); ++i) {
         std::vector<double> at;
-        for (const std::uint32_t own : sobol_point(i, dimensions())) at.push_back((own + 0.5) * 0x1p-32);
+        for (const std::uint32_t fraction_bits : sobol_point(i, dimensions()))
+          at.push_back((fraction_bits + 0.5) * 0x1p-32);
         (void)evaluate(at);
       }
       measure_goals();
@@ -123,11 +124,11 @@ class Search {
         nlopt_force_stop(self.running_);
         return infeasible;
       }
-      const std::vector<double> own(at, at + n);
-      const double value = self.evaluate(own);
+      const std::vector<double> place(at, at + n);
+      const double value = self.evaluate(place);
       if (value < self.best_value_) {
         self.best_value_ = value;
-        self.best_at_ = own;
+        self.best_at_ = place;
       }
       return value;
     } catch (...) {  // nothing may pass through C
@@ -140,14 +141,14 @@ class Search {
   std::vector<Rational> values_at(const std::vector<double>& at) const {
     std::vector<Rational> values;
     for (std::size_t d = 0; d < at.size(); ++d) {
-      const core::StudyParameter& own = problem_.study().vary[d];
-      const Rational range = own.upper - own.lower;
+      const core::StudyParameter& parameter = problem_.study().vary[d];
+      const Rational range = parameter.upper - parameter.lower;
       const int exponent = static_cast<int>(std::floor(std::log10(core::to_double(range)))) - digits;
       const Rational unit = core::rational_from_decimal("1e" + std::to_string(exponent));
-      const Rational exact = (own.lower + range * Rational(at[d])) / unit + Rational(1, 2);
+      const Rational exact = (parameter.lower + range * Rational(at[d])) / unit + Rational(1, 2);
       core::Integer whole;
       mpz_fdiv_q(whole.get_mpz_t(), exact.get_num_mpz_t(), exact.get_den_mpz_t());
-      values.push_back(std::clamp<Rational>(Rational(whole) * unit, own.lower, own.upper));
+      values.push_back(std::clamp<Rational>(Rational(whole) * unit, parameter.lower, parameter.upper));
     }
     return values;
   }
@@ -164,7 +165,7 @@ class Search {
     } else if (kept != known_.end()) {
       design = kept->second;
       design.values.clear();
-      for (const Rational& own : values) design.values.push_back(core::to_double(own));
+      for (const Rational& value : values) design.values.push_back(core::to_double(value));
     } else {
       design = judge_.judge(index, values);
     }
@@ -179,9 +180,9 @@ class Search {
     double sum = 0;
     const std::vector<core::StudyGoal>& goals = problem_.study().goals;
     for (std::size_t g = 0; g < goals.size() && g < weight_.size(); ++g) {
-      const double own = problem_.goal(goals[g], design);
-      if (std::isnan(own)) return infeasible;
-      const double scaled = scale_.empty() ? own : (own - scale_[g][0]) / (scale_[g][1] - scale_[g][0]);
+      const double goal = problem_.goal(goals[g], design);
+      if (std::isnan(goal)) return infeasible;
+      const double scaled = scale_.empty() ? goal : (goal - scale_[g][0]) / (scale_[g][1] - scale_[g][0]);
       sum += weight_[g] * (goals[g].maximise ? -scaled : scaled);
     }
     return sum;
@@ -190,16 +191,16 @@ class Search {
   void measure_goals() {
     const std::vector<core::StudyGoal>& goals = problem_.study().goals;
     scale_.assign(goals.size(), {HUGE_VAL, -HUGE_VAL});
-    for (const StudyDesign& own : history_) {
-      if (own.status != Status::feasible) continue;
+    for (const StudyDesign& design : history_) {
+      if (design.status != Status::feasible) continue;
       for (std::size_t g = 0; g < goals.size(); ++g) {
-        const double value = problem_.goal(goals[g], own);
+        const double value = problem_.goal(goals[g], design);
         if (std::isnan(value)) continue;
         scale_[g] = {std::min(scale_[g][0], value), std::max(scale_[g][1], value)};
       }
     }
-    for (auto& own : scale_)
-      if (!(own[0] < own[1])) own = {0, 1};
+    for (auto& range : scale_)
+      if (!(range[0] < range[1])) range = {0, 1};
   }
 
   const StudyProblem& problem_;
@@ -224,9 +225,9 @@ void search(const StudyProblem& problem, const StudyOptions& options, core::Stud
   static std::mutex one_at_a_time;  // NLopt's random numbers are the process's
   const std::lock_guard lock(one_at_a_time);
   nlopt_srand(seed);
-  Search own(problem, options);
-  result.complete = own.run();
-  result.designs = own.take();
+  Search search(problem, options);
+  result.complete = search.run();
+  result.designs = search.take();
   choose(problem, result);
 }
 

@@ -33,15 +33,15 @@ void add(Text& text, const core::Task& task) {
   if (const auto* box = std::get_if<core::TaskBox>(&task.shape)) text << box->lower << box->upper;
   if (const auto* circle = std::get_if<core::TaskBall>(&task.shape)) text << circle->centre << circle->radius;
   if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape))
-    for (const core::RationalPose& own : polygon->corners) text << own;
+    for (const core::RationalPose& pose : polygon->corners) text << pose;
   if (const auto* path = std::get_if<core::TaskPath>(&task.shape))
-    for (const core::RationalPose& own : path->points) text << own;
+    for (const core::RationalPose& pose : path->points) text << pose;
   text << task.margin << task.min_force << task.min_couple;
   if (task.loads) text << std::string("loads") << task.loads->first << task.loads->second;
-  for (const core::Tolerance& own : task.tolerances)
-    text << std::string("tolerance") << own.parameter << own.below << own.above;
-  for (const core::LoadWithin& own : task.loads_within)
-    text << std::string("within") << std::uint64_t{own.load} << own.force << own.couple;
+  for (const core::Tolerance& tolerance : task.tolerances)
+    text << std::string("tolerance") << tolerance.parameter << tolerance.below << tolerance.above;
+  for (const core::LoadWithin& load_range : task.loads_within)
+    text << std::string("within") << std::uint64_t{load_range.load} << load_range.force << load_range.couple;
 }
 
 }  // namespace
@@ -50,16 +50,16 @@ std::string signature(const Model& model, const core::Study& study) {
   Text text;
   text << model.text();
   for (const auto& [name, value] : model.values()) text << name << value;
-  for (const core::StudyParameter& own : study.vary) text << own.name << own.lower << own.upper;
-  for (const std::string& own : study.keep) text << std::string("keep") << own;
-  for (const core::Task& own : study.tasks) add(text, own);
-  for (const core::StudyRequirement& own : study.require)
-    text << std::string("require") << core::to_string(own.figure) << own.bound;
-  for (const core::StudyGoal& own : study.goals)
-    text << std::string(own.maximise ? "maximise" : "minimise")
-         << (own.figure ? core::to_string(*own.figure) : "(" + own.expression + ")");
+  for (const core::StudyParameter& parameter : study.vary) text << parameter.name << parameter.lower << parameter.upper;
+  for (const std::string& name : study.keep) text << std::string("keep") << name;
+  for (const core::Task& task : study.tasks) add(text, task);
+  for (const core::StudyRequirement& requirement : study.require)
+    text << std::string("require") << core::to_string(requirement.figure) << requirement.bound;
+  for (const core::StudyGoal& goal : study.goals)
+    text << std::string(goal.maximise ? "maximise" : "minimise")
+         << (goal.figure ? core::to_string(*goal.figure) : "(" + goal.expression + ")");
   text << std::uint64_t{static_cast<std::uint64_t>(study.method.kind)} << study.method.count << study.method.finest;
-  for (const int own : study.method.counts) text << static_cast<std::uint64_t>(own);
+  for (const int count : study.method.counts) text << static_cast<std::uint64_t>(count);
   return text.take();
 }
 

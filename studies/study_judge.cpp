@@ -32,7 +32,8 @@ constexpr loci::SearchBudget figure_budget = {.most_cells = 20'000};
 
 std::vector<mechanism::ParameterRange> ranges_of(const core::Study& study) {
   std::vector<mechanism::ParameterRange> ranges;
-  for (const core::StudyParameter& own : study.vary) ranges.push_back({own.name, own.lower, own.upper});
+  for (const core::StudyParameter& parameter : study.vary)
+    ranges.push_back({parameter.name, parameter.lower, parameter.upper});
   return ranges;
 }
 
@@ -46,7 +47,7 @@ bool wants_less(Figure figure) { return figure == Figure::effort || figure == Fi
 }  // namespace
 
 StudyProblem::StudyProblem(const Model& model, const core::Study& study) : model_(model), study_(study) {
-  const mechanism::Mechanism& own = model_.content().mechanism;
+  const mechanism::Mechanism& current = model_.content().mechanism;
   for (const core::StudyParameter& parameter : study_.vary) varied_.push_back(parameter.name);
   const auto want = [&](Figure figure) {
     if (std::find(figures_.begin(), figures_.end(), figure) == figures_.end()) figures_.push_back(figure);
@@ -57,29 +58,29 @@ StudyProblem::StudyProblem(const Model& model, const core::Study& study) : model
     else
       goal_expressions_.try_emplace(
           goal.expression,
-          mechanism::in_varied(mechanism::parse_expression(goal.expression, {study_.file}), own, varied_));
+          mechanism::in_varied(mechanism::parse_expression(goal.expression, {study_.file}), current, varied_));
   }
   for (const core::StudyRequirement& require : study_.require)
     if (!asked_of_tasks(require.figure)) want(require.figure);
   if (std::find(figures_.begin(), figures_.end(), Figure::pose_error) != figures_.end() &&
-      own.space == mechanism::Space::spatial)
-    throw core::InputError({study_.file}, "pose_error is proven in the plane, and " + own.file + " is spatial",
+      current.space == mechanism::Space::spatial)
+    throw core::InputError({study_.file}, "pose_error is proven in the plane, and " + current.file + " is spatial",
                            "choose another figure");
   for (const std::string& text : study_.keep) {
-    const mechanism::Keep keep = mechanism::parse_keep(text, {study_.file}, own);
+    const mechanism::Keep keep = mechanism::parse_keep(text, {study_.file}, current);
     keep_.push_back(keep);
-    keep_in_varied_.push_back(
-        {mechanism::in_varied(keep.left, own, varied_), mechanism::in_varied(keep.right, own, varied_), keep.strict});
+    keep_in_varied_.push_back({mechanism::in_varied(keep.left, current, varied_),
+                               mechanism::in_varied(keep.right, current, varied_), keep.strict});
   }
   for (const core::Task& task : core::required_tasks(study_))
-    tasks_.push_back(std::make_unique<DesignTask>(own, ranges_of(study_), task));
+    tasks_.push_back(std::make_unique<DesignTask>(current, ranges_of(study_), task));
 }
 
 bool StudyProblem::kept_exactly(const mechanism::Keep& keep, const std::vector<Rational>& values) const {
   std::vector<mechanism::Parameter> parameters = model_.content().mechanism.parameters;
   for (std::size_t i = 0; i < values.size(); ++i)
-    for (mechanism::Parameter& own : parameters)
-      if (own.name == varied_[i]) own.expression = core::Expression::number(values[i]);
+    for (mechanism::Parameter& parameter : parameters)
+      if (parameter.name == varied_[i]) parameter.expression = core::Expression::number(values[i]);
   const Rational left = mechanism::evaluate(keep.left, parameters).value;
   const Rational right = mechanism::evaluate(keep.right, parameters).value;
   return keep.strict ? left > right : left >= right;
@@ -206,10 +207,10 @@ std::optional<Interval> StudyJudge::measured(Figure figure, std::size_t t, const
   const DesignTask& task = *problem_.tasks()[t];
   if (figure == Figure::margin) {
     const core::Point2 lower = task.region().lower(), upper = task.region().upper();
-    const mechanism::Mechanism& own = problem_.model().content().mechanism;
+    const mechanism::Mechanism& current = problem_.model().content().mechanism;
     double limit = task.margin();
     for (std::size_t c = 0; c < 2; ++c)
-      limit += core::to_double(own.coordinates[c].upper - own.coordinates[c].lower) + upper[c] - lower[c];
+      limit += core::to_double(current.coordinates[c].upper - current.coordinates[c].lower) + upper[c] - lower[c];
     return Interval(judges_[t]->clearance(box, task.margin(), limit, figure_accuracy, figure_budget));
   }
   if (!measures_[t]) return std::nullopt;
@@ -245,12 +246,12 @@ void StudyJudge::measure(StudyDesign& design, const std::vector<Rational>& value
     std::optional<Interval> all;
     const bool less = wants_less(figures[f]);
     for (std::size_t t = 0; t < judges_.size(); ++t) {
-      const std::optional<Interval> own = measured(figures[f], t, boxes[t]);
-      if (!own || !all)
-        all = own ? own : all;
+      const std::optional<Interval> interval = measured(figures[f], t, boxes[t]);
+      if (!interval || !all)
+        all = interval ? interval : all;
       else
-        all = less ? Interval(std::max(all->lower(), own->lower()), std::max(all->upper(), own->upper()))
-                   : Interval(std::min(all->lower(), own->lower()), std::min(all->upper(), own->upper()));
+        all = less ? Interval(std::max(all->lower(), interval->lower()), std::max(all->upper(), interval->upper()))
+                   : Interval(std::min(all->lower(), interval->lower()), std::min(all->upper(), interval->upper()));
     }
     if (!all) continue;
     design.figures[f] = less ? all->upper() : all->lower();
@@ -260,16 +261,16 @@ void StudyJudge::measure(StudyDesign& design, const std::vector<Rational>& value
 }
 
 void StudyJudge::measure_zones(StudyDesign& design, const std::vector<Rational>& values) {
-  std::vector<Model::Value> own;
+  std::vector<Model::Value> settings;
   const mechanism::Mechanism& mechanism = problem_.model().content().mechanism;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string& name = problem_.study().vary[i].name;
-    own.emplace_back(name,
-                     mechanism::value_words(*mechanism::parameter_named(mechanism, name), values[i], mechanism.units));
+    settings.emplace_back(
+        name, mechanism::value_words(*mechanism::parameter_named(mechanism, name), values[i], mechanism.units));
   }
   double area = 0, circle = 0;
   try {
-    const Model model = problem_.model().with(own);
+    const Model model = problem_.model().with(settings);
     // Figures of zones are those over two lengths.
     const core::Zones map = mechanism::is_plane(model.content().mechanism) ? find_zones(model) : core::Zones{};
     for (const core::Zone& zone : map.zones) {
@@ -287,21 +288,21 @@ void StudyJudge::measure_zones(StudyDesign& design, const std::vector<Rational>&
 
 void StudyJudge::require(StudyDesign& design) const {
   const std::vector<Figure>& figures = problem_.figures();
-  for (const core::StudyRequirement& own : problem_.study().require) {
-    const auto place = std::find(figures.begin(), figures.end(), own.figure);
-    if (place == figures.end() || asked_of_tasks(own.figure)) continue;
+  for (const core::StudyRequirement& requirement : problem_.study().require) {
+    const auto place = std::find(figures.begin(), figures.end(), requirement.figure);
+    if (place == figures.end() || asked_of_tasks(requirement.figure)) continue;
     const auto f = static_cast<std::size_t>(place - figures.begin());
     const double value = design.figures[f], best = std::isnan(at_best_[f]) ? value : at_best_[f];
-    const double bound = core::to_double(own.bound);
+    const double bound = core::to_double(requirement.bound);
     if (std::isnan(value)) {
       design.status = StudyDesign::Status::undecided;
-      design.reason = core::to_string(own.figure) + " is not known";
-    } else if (wants_less(own.figure) ? best > bound : best < bound) {
+      design.reason = core::to_string(requirement.figure) + " is not known";
+    } else if (wants_less(requirement.figure) ? best > bound : best < bound) {
       design.status = StudyDesign::Status::infeasible;
-      design.reason = core::to_string(own.figure);
-    } else if (wants_less(own.figure) ? value > bound : value < bound) {
+      design.reason = core::to_string(requirement.figure);
+    } else if (wants_less(requirement.figure) ? value > bound : value < bound) {
       design.status = StudyDesign::Status::undecided;
-      design.reason = core::to_string(own.figure) + " is too near to what is required";
+      design.reason = core::to_string(requirement.figure) + " is too near to what is required";
     }
   }
 }

@@ -143,23 +143,24 @@ void hand_out(Desk& desk, const Work& work, const StudyRanks& ranks, const std::
   while (true) {
     bool more = true;
     while (more && !waiting.empty()) {
-      Given& own = given[static_cast<std::size_t>(waiting.back())];
-      const std::vector<std::uint64_t> items = desk.take(own.items);
+      Given& order = given[static_cast<std::size_t>(waiting.back())];
+      const std::vector<std::uint64_t> items = desk.take(order.items);
       more = !items.empty();
       if (!more) break;
-      own.at = Clock::now();
+      order.at = Clock::now();
       ranks.send(waiting.back(), list_of(items));
       waiting.pop_back();
       ++out;
     }
     if (const auto message = ranks.poll()) {
-      Given& own = given[static_cast<std::size_t>(message->first)];
-      const std::chrono::duration<double> took = Clock::now() - own.at;
-      const double fitting = static_cast<double>(own.items) * (between_messages.count() / std::max(took.count(), 1e-6));
+      Given& order = given[static_cast<std::size_t>(message->first)];
+      const std::chrono::duration<double> took = Clock::now() - order.at;
+      const double fitting =
+          static_cast<double>(order.items) * (between_messages.count() / std::max(took.count(), 1e-6));
       // At most twice as many at a time: what is next may be harder.
-      own.items = static_cast<std::size_t>(
-          std::clamp(fitting, static_cast<double>(piece), 2.0 * static_cast<double>(own.items)));
-      own.items = std::min(own.items, largest_piece);
+      order.items = static_cast<std::size_t>(
+          std::clamp(fitting, static_cast<double>(piece), 2.0 * static_cast<double>(order.items)));
+      order.items = std::min(order.items, largest_piece);
       desk.give(results_of(message->second, work.figures));
       waiting.push_back(message->first);
       --out;
@@ -192,7 +193,7 @@ bool do_work(const Work& work, const StudyOptions& options) {
   } catch (...) {
     desk.fail(std::current_exception());
   }
-  for (std::thread& own : others) own.join();
+  for (std::thread& thread : others) thread.join();
   return desk.end();
 }
 
@@ -206,21 +207,21 @@ void serve(const Work& work, const StudyOptions& options) {
     std::vector<std::uint64_t> items = items_of(message);
     std::size_t next = 0, taken = 0;
     std::string lines;
-    Work own = work;
-    own.worker = [&] {
+    Work rest = work;
+    rest.worker = [&] {
       const std::lock_guard lock(mutex);
       if (taken == workers.size()) workers.push_back(work.worker());
       return workers[taken++];
     };
-    own.next = [&]() -> std::optional<std::uint64_t> {
+    rest.next = [&]() -> std::optional<std::uint64_t> {
       return next < items.size() ? std::optional(items[next++]) : std::nullopt;
     };
-    own.found = [&](std::vector<StudyDesign> results) {
+    rest.found = [&](std::vector<StudyDesign> results) {
       for (const StudyDesign& result : results) lines += table_line(result);
     };
     StudyOptions local;
     local.threads = threads_of(options);
-    do_work(own, local);
+    do_work(rest, local);
     ranks.send(0, lines);
   }
 }

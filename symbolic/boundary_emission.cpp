@@ -46,10 +46,10 @@ void FactorEmission::add_flip(const TowerRoot& root, const Fold& fold, LocusFact
                      d_.point_name(root.point) + " has no place";
   core::Rational constant;
   for (const PolyFactor& part : fold.where.factors(constant)) {
-    LocusFactor own = factor;
-    own.sheet = core::scaled_for_doubles(part.poly.plain(d_.geometry.tower_variables()));
-    put_implicit({part.poly, 1, d_.elimination.implicit_of_divisor(part.poly)}, own);
-    d_.result.problem.factors.push_back(std::move(own));
+    LocusFactor locus_factor = factor;
+    locus_factor.sheet = core::scaled_for_doubles(part.poly.plain(d_.geometry.tower_variables()));
+    put_implicit({part.poly, 1, d_.elimination.implicit_of_divisor(part.poly)}, locus_factor);
+    d_.result.problem.factors.push_back(std::move(locus_factor));
   }
 }
 
@@ -88,9 +88,9 @@ void FactorEmission::add_limit(const LimitCondition& limit) {
 bool FactorEmission::add_rims(std::size_t index) {
   const TowerRoot& root = d_.geometry.roots()[index];
   if (d_.geometry.coordinates() != 2) return false;
-  const auto own = std::find_if(d_.geometry.dyad_ways().begin(), d_.geometry.dyad_ways().end(),
-                                [&](const Geometry::Way& way) { return way.point == root.point; });
-  if (own == d_.geometry.dyad_ways().end() || !d_.elimination.is_too_heavy(root.square)) return false;
+  const auto dyad_way = std::find_if(d_.geometry.dyad_ways().begin(), d_.geometry.dyad_ways().end(),
+                                     [&](const Geometry::Way& way) { return way.point == root.point; });
+  if (dyad_way == d_.geometry.dyad_ways().end() || !d_.elimination.is_too_heavy(root.square)) return false;
   const auto lines = d_.lines.rims(root.point);
   if (!lines) return false;
   const auto& dyad = std::get<mechanism::DyadPoint>(d_.mechanism.points[static_cast<std::size_t>(root.point)].form);
@@ -102,8 +102,8 @@ bool FactorEmission::add_rims(std::size_t index) {
   if (!(d_.geometry.squared_length(dyad.from_length) == squared(a)) ||
       !(d_.geometry.squared_length(dyad.to_length) == squared(b)))
     return false;
-  const std::array<Poly, 2> rims = {d_.geometry.reduce(squared(a + b) * own->w2 - own->d),
-                                    d_.geometry.reduce(own->d - squared(a - b) * own->w2)};
+  const std::array<Poly, 2> rims = {d_.geometry.reduce(squared(a + b) * dyad_way->w2 - dyad_way->d),
+                                    d_.geometry.reduce(dyad_way->d - squared(a - b) * dyad_way->w2)};
   for (std::size_t k = 0; k < rims.size(); ++k) {
     const std::size_t first = d_.result.problem.factors.size();
     add(FactorRole::workspace_boundary, nullptr, rims[k], true, stretched(root));

@@ -251,8 +251,8 @@ bool CodeNames::is_free(const std::string& name) const {
 
 const std::string& CodeNames::name(const std::string& kind, const std::string& wanted) {
   const auto key = std::pair(kind, wanted);
-  const auto known = names_.find(key);
-  if (known != names_.end()) return known->second;
+  const auto found = names_.find(key);
+  if (found != names_.end()) return found->second;
   // MATLAB tells names apart by their first 63 characters, C99 too; one that begins with _ is C's or no MATLAB.
   constexpr std::size_t longest = 50;
   std::string written = wanted;

@@ -33,10 +33,10 @@ void collect_factors(Derivation& d) {
       if (shared > 0) d.cancelled.push_back({factor.poly, {joint, reaction.quantity, shared}});
       const int multiplicity = factor.multiplicity - shared;
       if (multiplicity == 0) continue;
-      auto known = std::find_if(d.factors.begin(), d.factors.end(),
+      auto found = std::find_if(d.factors.begin(), d.factors.end(),
                                 [&](const SharedFactor& f) { return f.natural == factor.poly; });
-      if (known == d.factors.end()) known = d.factors.insert(known, {factor.poly, {}});
-      known->vanishing.push_back({joint, reaction.quantity, multiplicity});
+      if (found == d.factors.end()) found = d.factors.insert(found, {factor.poly, {}});
+      found->vanishing.push_back({joint, reaction.quantity, multiplicity});
     }
   }
 }

@@ -239,36 +239,37 @@ class CramerElimination {
   }
 
   /// The same of a column `own`, whose entry in the pivot's row is to vanish.
-  void take_column(int own, const SparseRow& pivot_row, int column, std::vector<std::pair<int, FactoredPoly>>& times) {
-    const Poly shared = gcd(pivot_row.at(own), pivot_row.at(column));
-    const Poly e = pivot_row.at(own).exact_quotient(shared), p = pivot_row.at(column).exact_quotient(shared);
+  void take_column(int target, const SparseRow& pivot_row, int column,
+                   std::vector<std::pair<int, FactoredPoly>>& times) {
+    const Poly shared = gcd(pivot_row.at(target), pivot_row.at(column));
+    const Poly e = pivot_row.at(target).exact_quotient(shared), p = pivot_row.at(column).exact_quotient(shared);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!active_[i]) continue;
       const auto by = rows_[i].find(column);
-      auto place = rows_[i].find(own);
+      auto place = rows_[i].find(target);
       if (place != rows_[i].end()) place->second = product(place->second, p);
       if (by == rows_[i].end()) continue;
-      if (place == rows_[i].end()) place = rows_[i].emplace(own, ring_).first;
+      if (place == rows_[i].end()) place = rows_[i].emplace(target, ring_).first;
       place->second -= product(e, by->second);
       if (place->second.is_zero()) rows_[i].erase(place);
     }
     FactoredPoly factor = factored(p, {});
-    multiply(factor, divide_column(own), -1);
+    multiply(factor, divide_column(target), -1);
     multiply(determinant_, factor, -1);
-    times.emplace_back(own, std::move(factor));
+    times.emplace_back(target, std::move(factor));
   }
 
   /// What the entries of a column share, taken out of them.
-  FactoredPoly divide_column(int own) {
+  FactoredPoly divide_column(int target) {
     Content content(ring_);
     bool any = true;
     for (std::size_t i = 0; any && i < rows_.size(); ++i)
-      if (active_[i] && rows_[i].contains(own)) any = content.add(rows_[i].at(own));
+      if (active_[i] && rows_[i].contains(target)) any = content.add(rows_[i].at(target));
     const Poly common = content.value();
     if (common.is_constant()) return {1, {}};
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!active_[i]) continue;
-      const auto place = rows_[i].find(own);
+      const auto place = rows_[i].find(target);
       if (place != rows_[i].end()) place->second = place->second.exact_quotient(common);
     }
     return factored(common, {});
@@ -337,8 +338,8 @@ class CramerElimination {
 
   /// Of the first rows, as many as there are columns in the set, expanded along the last of them.
   const Poly& minor(const std::vector<std::size_t>& rest, const std::vector<int>& columns, unsigned set,
-                    std::map<unsigned, Poly>& known) const {
-    if (const auto found = known.find(set); found != known.end()) return found->second;
+                    std::map<unsigned, Poly>& minors) const {
+    if (const auto found = minors.find(set); found != minors.end()) return found->second;
     const auto size = static_cast<std::size_t>(std::popcount(set));
     Poly sum(ring_, size == 0 ? 1 : 0);
     std::size_t place = 0;
@@ -346,7 +347,7 @@ class CramerElimination {
       if ((set >> j & 1U) == 0) continue;
       const SparseRow& row = rows_[rest[size - 1]];
       if (const auto entry = row.find(columns[j]); entry != row.end()) {
-        const Poly summand = product(entry->second, minor(rest, columns, set & ~(1U << j), known));
+        const Poly summand = product(entry->second, minor(rest, columns, set & ~(1U << j), minors));
         if ((size - 1 + place) % 2 == 0)
           sum += summand;
         else
@@ -354,7 +355,7 @@ class CramerElimination {
       }
       ++place;
     }
-    return known.emplace(set, std::move(sum)).first->second;
+    return minors.emplace(set, std::move(sum)).first->second;
   }
 
   /// The unknown of a step's column, from its equation and what is known of the other unknowns.
@@ -366,14 +367,14 @@ class CramerElimination {
     std::vector<FactoredPoly> summands;
     for (const auto& [column, entry] : step.equation) {
       if (column == step.column) continue;
-      FactoredPoly own = factored(entry, {});
+      FactoredPoly polynomial = factored(entry, {});
       if (column < n_) {
         const FactoredPoly& w = solution_[static_cast<std::size_t>(column)];
         if (w.is_zero()) continue;
-        multiply(own, w);
-        own.constant = -own.constant;
+        multiply(polynomial, w);
+        polynomial.constant = -polynomial.constant;
       }
-      summands.push_back(std::move(own));
+      summands.push_back(std::move(polynomial));
     }
     FactoredPoly& w = solution_[static_cast<std::size_t>(step.column)];
     w = sum_of(ring_, summands, most_terms_);

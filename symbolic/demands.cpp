@@ -13,27 +13,27 @@ using core::Quantity;
 using mechanism::Mechanism;
 
 std::vector<std::string> selected_joints(const Mechanism& m, const Selection& selection) {
-  std::vector<std::string> known, with_clearance;
+  std::vector<std::string> joints, with_clearance;
   for (const mechanism::Joint& joint : m.joints) {
-    known.push_back(joint.name);
+    joints.push_back(joint.name);
     if (joint.clearance) with_clearance.push_back(joint.name);
   }
   for (const std::string& name : selection.joints) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::find(joints.begin(), joints.end(), name) != joints.end()) continue;
     std::string list;
-    for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
+    for (const std::string& k : joints) list += (list.empty() ? "" : ", ") + k;
     throw core::InputError({m.file}, "there is no joint '" + name + "'", "choose among " + list);
   }
   if (!selection.joints.empty()) return selection.joints;
   if (!with_clearance.empty()) return with_clearance;
   // Tensions that are chosen are held within their bounds, which exclude that they vanish.
   if (!mechanism::joints_without_preload(m).empty())
-    std::erase_if(known, [&](const std::string& name) {
+    std::erase_if(joints, [&](const std::string& name) {
       return std::any_of(m.joints.begin(), m.joints.end(), [&](const mechanism::Joint& joint) {
         return joint.name == name && mechanism::is_cable(joint);
       });
     });
-  return known;
+  return joints;
 }
 
 /// Where contact losses are wanted, so are those of either end of a prismatic joint's contact; where backlash is, so is

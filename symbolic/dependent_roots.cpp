@@ -57,14 +57,14 @@ std::optional<Residues> residues(const Poly& p) {
 /// prime it is now a square there and now none.
 bool may_be_square(const Poly& p, int coordinates, const std::vector<TowerRoot>& roots) {
   constexpr int tries = 4096;
-  const std::optional<Residues> own = residues(p);
+  const std::optional<Residues> remainders = residues(p);
   std::vector<Residues> squares;
   for (const TowerRoot& root : roots) {
     std::optional<Residues> square = residues(root.square);
     if (!square) return true;
     squares.push_back(std::move(*square));
   }
-  if (!own) return true;
+  if (!remainders) return true;
   std::uint64_t state = 20110101;
   const auto next = [&state] {
     state = state * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -81,7 +81,7 @@ bool may_be_square(const Poly& p, int coordinates, const std::vector<TowerRoot>&
       at[static_cast<std::size_t>(roots[j].variable)] = next() % 2 == 0 ? s : (prime - s) % prime;
     }
     if (!placed) continue;
-    const std::uint64_t value = own->at(at);
+    const std::uint64_t value = remainders->at(at);
     if (value == 0) continue;
     (power(value, (prime - 1) / 2) == 1 ? square : none) = true;
     if (square && none) return false;
@@ -220,10 +220,10 @@ int sign_over_box(const core::Polynomial& p, const std::vector<Rational>& lower,
     const std::vector<Range> box = open.back();
     open.pop_back();
     const Range value = value_over(p, box);
-    const int own = value[0] > 0 ? 1 : value[1] < 0 ? -1 : 0;
-    if (own != 0) {
-      if (sign != 0 && own != sign) return 0;
-      sign = own;
+    const int box_sign = value[0] > 0 ? 1 : value[1] < 0 ? -1 : 0;
+    if (box_sign != 0) {
+      if (sign != 0 && box_sign != sign) return 0;
+      sign = box_sign;
       continue;
     }
     if (value[0] == 0 && value[1] == 0) return 0;

@@ -16,7 +16,7 @@ namespace {
 
 FactoredDeterminants determinants_of(const Geometry& geometry, const Family* family) {
   if (family != nullptr)
-    if (std::optional<FactoredDeterminants> known = family->at(geometry)) return std::move(*known);
+    if (std::optional<FactoredDeterminants> from_family = family->at(geometry)) return std::move(*from_family);
   return factored_determinants(geometry);
 }
 }  // namespace
@@ -103,8 +103,8 @@ const std::string& Derivation::point_name(mechanism::PointIndex point) const {
 }
 
 const Poly& Derivation::sheet_of(std::size_t factor) {
-  const auto known = sheets_.find(factor);
-  if (known != sheets_.end()) return known->second;
+  const auto found = sheets_.find(factor);
+  if (found != sheets_.end()) return found->second;
   return sheets_.emplace(factor, elimination.over_tower(factors[factor].natural)).first->second;
 }
 

@@ -73,9 +73,9 @@ void Elimination::know_stretched() {
 const Elimination::Stretched* Elimination::stretched(const Poly& natural) const {
   if (stretched_.empty() || natural.is_zero()) return nullptr;
   const Poly primitive = natural.primitive();
-  const auto known = std::find_if(stretched_.begin(), stretched_.end(),
-                                  [&](const Stretched& own) { return own.natural == primitive; });
-  return known == stretched_.end() ? nullptr : &*known;
+  const auto found = std::find_if(stretched_.begin(), stretched_.end(),
+                                  [&](const Stretched& scaled) { return scaled.natural == primitive; });
+  return found == stretched_.end() ? nullptr : &*found;
 }
 
 bool Elimination::are_components_of_link(const Poly& a, const Poly& b) const {
@@ -92,10 +92,10 @@ bool Elimination::are_components_of_link(const Poly& a, const Poly& b) const {
 }
 
 const Poly& Elimination::over_tower(const Poly& natural) const {
-  for (const auto& [asked, known] : over_tower_)
-    if (asked == natural) return known;
-  if (const Stretched* const own = stretched(natural))
-    return over_tower_.emplace_back(natural, own->root.scaled(sign_of_content(natural))).second;
+  for (const auto& [asked, result] : over_tower_)
+    if (asked == natural) return result;
+  if (const Stretched* const scaled = stretched(natural))
+    return over_tower_.emplace_back(natural, scaled->root.scaled(sign_of_content(natural))).second;
   Poly result = natural;
   for (const Substitution& pair : geometry_->substitutions()) {
     const int degree = Geometry::degree_in(result, pair);
@@ -123,8 +123,8 @@ Poly Elimination::over_tower_at_one_pose(const Poly& natural) const {
 }
 
 bool Elimination::vanishes_everywhere(const Poly& natural) const {
-  for (const auto& [asked, known] : vanishing_)
-    if (asked == natural) return known;
+  for (const auto& [asked, result] : vanishing_)
+    if (asked == natural) return result;
   const bool vanishes = over_tower_at_one_pose(natural).is_zero() && over_tower(natural).is_zero();
   vanishing_.emplace_back(natural, vanishes);
   return vanishes;
@@ -326,8 +326,8 @@ void Elimination::eliminate(Poly p, std::vector<Poly>& found, bool keeps_divisor
 }
 
 const ResiduePoly& Elimination::over_tower_on_line(const Poly& natural) const {
-  for (const auto& [asked, known] : over_tower_on_line_)
-    if (asked == natural) return known;
+  for (const auto& [asked, result] : over_tower_on_line_)
+    if (asked == natural) return result;
   const LineImage& line = line_image();
   return over_tower_on_line_
       .emplace_back(natural, stretched(natural) != nullptr ? line.of(over_tower(natural)) : line.over_tower(natural))

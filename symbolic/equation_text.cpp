@@ -79,9 +79,9 @@ std::string format_text(const EquationSheet& sheet) {
   if (!sheet.preload.empty())
     out << "\nPreload: |A| with -w_e and the columns of the free efforts in the place of the columns of reactions, "
            "without what vanishes at every effort\n";
-  for (const PreloadEquation& own : sheet.preload) {
-    out << "\n" << own.words << ": " << own.determinant.expression << "\n";
-    write_factors(out, own.determinant, "    ");
+  for (const PreloadEquation& equation : sheet.preload) {
+    out << "\n" << equation.words << ": " << equation.determinant.expression << "\n";
+    write_factors(out, equation.determinant, "    ");
   }
   return out.str();
 }
@@ -178,7 +178,7 @@ std::string arguments(const EquationSheet& sheet, const std::string& type) {
 std::vector<const Determinant*> all_determinants(const EquationSheet& sheet) {
   std::vector<const Determinant*> list{&sheet.determinant};
   for (const Determinant& numerator : sheet.numerators) list.push_back(&numerator);
-  for (const PreloadEquation& own : sheet.preload) list.push_back(&own.determinant);
+  for (const PreloadEquation& equation : sheet.preload) list.push_back(&equation.determinant);
   return list;
 }
 
@@ -215,7 +215,7 @@ std::string format_c(const EquationSheet& sheet) {
   if (!sheet.closing.empty()) {
     out << closing << ";\n\n/* zero where the points of groups close */\n" << closing << " {\n";
     std::vector<const std::string*> polynomials;
-    for (const std::string& own : sheet.closing) polynomials.push_back(&own);
+    for (const std::string& entry : sheet.closing) polynomials.push_back(&entry);
     write_c_definitions(out, sheet, polynomials);
     for (std::size_t i = 0; i < sheet.closing.size(); ++i) out << "  g[" << i << "] = " << sheet.closing[i] << ";\n";
     out << "}\n";
@@ -265,7 +265,7 @@ std::string format_python(const EquationSheet& sheet) {
   if (!sheet.closing.empty()) {
     out << "\n\ndef closing(" << arguments(sheet, "") << "):\n    \"\"\"Zero where the points of groups close.\"\"\"\n";
     std::set<std::string> needed;
-    for (const std::string& own : sheet.closing) needed.merge(identifiers(own));
+    for (const std::string& closing : sheet.closing) needed.merge(identifiers(closing));
     for (const auto& [name, value] : used(sheet.closure, needed)) out << "    " << name << " = " << value << "\n";
     out << "    return [";
     for (std::size_t i = 0; i < sheet.closing.size(); ++i) out << (i == 0 ? "" : ", ") << sheet.closing[i];
@@ -290,8 +290,8 @@ std::string format_matlab(const EquationSheet& sheet) {
   write_renamed(out, sheet, "% ");
   out << "% determinants: |A|, then the numerator of every unknown\n";
   if (closes) out << "% closing: zero where the points of groups close\n";
-  for (const PreloadEquation& own : sheet.preload)
-    out << "% then: " << comment_text(own.words, Language::matlab) << "\n";
+  for (const PreloadEquation& equation : sheet.preload)
+    out << "% then: " << comment_text(equation.words, Language::matlab) << "\n";
   for (const Lines* lines : {&sheet.parameters, &sheet.closure})
     for (const auto& [name, value] : *lines) out << name << " = " << value << ";\n";
   out << "A = [\n";
@@ -305,7 +305,7 @@ std::string format_matlab(const EquationSheet& sheet) {
   for (const Determinant* d : all_determinants(sheet)) out << "  (" << d->expression << ");\n";
   out << "];\n";
   if (closes) out << "closing = [\n";
-  for (const std::string& own : sheet.closing) out << "  (" << own << ");\n";
+  for (const std::string& closing : sheet.closing) out << "  (" << closing << ");\n";
   out << (closes ? "];\n" : "") << "end\n";
   return out.str();
 }

@@ -45,14 +45,14 @@ std::vector<Vanishing> FactorEmission::without_determinant(const Poly& sheet, st
   for (DeterminantPart& part : d_.determinant_parts) {
     if (!(part.sheet.sheet == sheet)) continue;
     for (Vanishing& v : vanishing) {
-      auto known = std::find_if(part.cancelled.begin(), part.cancelled.end(), [&](const Vanishing& own) {
-        return own.joint == v.joint && own.quantity == v.quantity;
+      auto found = std::find_if(part.cancelled.begin(), part.cancelled.end(), [&](const Vanishing& candidate) {
+        return candidate.joint == v.joint && candidate.quantity == v.quantity;
       });
-      if (known == part.cancelled.end()) known = part.cancelled.insert(known, {v.joint, v.quantity, 0});
-      const int shared = std::min(v.multiplicity, part.multiplicity - known->multiplicity);
-      known->multiplicity += shared;
+      if (found == part.cancelled.end()) found = part.cancelled.insert(found, {v.joint, v.quantity, 0});
+      const int shared = std::min(v.multiplicity, part.multiplicity - found->multiplicity);
+      found->multiplicity += shared;
       v.multiplicity -= shared;
-      if (known->multiplicity == 0) part.cancelled.erase(known);
+      if (found->multiplicity == 0) part.cancelled.erase(found);
     }
   }
   std::erase_if(vanishing, [](const Vanishing& v) { return v.multiplicity == 0; });
@@ -82,23 +82,23 @@ void FactorEmission::reactions() {
 
 bool FactorEmission::is_inverse_length(const Poly& p) const {
   const std::vector<InverseLength>& all = d_.geometry.inverse_lengths();
-  return std::any_of(all.begin(), all.end(), [&](const InverseLength& own) {
-    return own.variable >= 0 && p == Poly::variable(d_.geometry.ring(), own.variable);
+  return std::any_of(all.begin(), all.end(), [&](const InverseLength& length) {
+    return length.variable >= 0 && p == Poly::variable(d_.geometry.ring(), length.variable);
   });
 }
 
 void FactorEmission::drop_known(std::size_t first) {
   std::vector<LocusFactor>& factors = d_.result.problem.factors;
-  const auto is_known = [&](const LocusFactor& own) {
+  const auto is_known = [&](const LocusFactor& factor) {
     const bool singular =
         std::any_of(d_.determinant_parts.begin(), d_.determinant_parts.end(), [&](const DeterminantPart& part) {
           return !part.chosen &&
-                 core::scaled_for_doubles(part.sheet.sheet.plain(d_.geometry.tower_variables())) == own.sheet;
+                 core::scaled_for_doubles(part.sheet.sheet.plain(d_.geometry.tower_variables())) == factor.sheet;
         });
     return singular ||
            std::any_of(
                factors.begin(), factors.begin() + static_cast<std::ptrdiff_t>(first), [&](const LocusFactor& other) {
-                 return other.role == FactorRole::reaction && other.sheet == own.sheet && !other.implicit.empty();
+                 return other.role == FactorRole::reaction && other.sheet == factor.sheet && !other.implicit.empty();
                });
   };
   factors.erase(std::remove_if(factors.begin() + static_cast<std::ptrdiff_t>(first), factors.end(), is_known),
@@ -114,8 +114,9 @@ void FactorEmission::preload() {
         "with free efforts no curves are traced on which the force of a pin or at an end of a guide, or in space a "
         "couple, has its least size: "
         "the efforts of a zone are those at its sample");
-  if (!d_.preload.joints.empty() && std::any_of(d_.mechanism.joints.begin(), d_.mechanism.joints.end(),
-                                                [](const mechanism::Joint& own) { return own.meshing.has_value(); }))
+  if (!d_.preload.joints.empty() &&
+      std::any_of(d_.mechanism.joints.begin(), d_.mechanism.joints.end(),
+                  [](const mechanism::Joint& joint) { return joint.meshing.has_value(); }))
     notes.emplace_back("flanks of gears and spans of belts bound no preload here");
   const std::size_t efforts = d_.preload.joints.size();
   const std::string motors = d_.preload.motors(d_.mechanism);
@@ -125,12 +126,12 @@ void FactorEmission::preload() {
                                                d_.result.problem, d_.selection, notes));
   for (const std::string& names : all.left_out)
     notes.push_back("where " + names + " vanish together is too long a determinant to be derived");
-  for (const PreloadFactor& own : all.factors) {
-    const Poly sheet = d_.elimination.over_tower(own.natural);
-    if (sheet.is_zero() || is_inverse_length(own.natural)) continue;
+  for (const PreloadFactor& preload_factor : all.factors) {
+    const Poly sheet = d_.elimination.over_tower(preload_factor.natural);
+    if (sheet.is_zero() || is_inverse_length(preload_factor.natural)) continue;
     LocusFactor factor;
-    factor.expression = d_.words.of(own.natural);
-    for (const PreloadEvent& event : own.events) {
+    factor.expression = d_.words.of(preload_factor.natural);
+    for (const PreloadEvent& event : preload_factor.events) {
       factor.cause += (factor.cause.empty() ? "" : "; ") + words_of(event, motors, efforts);
       for (const std::vector<Vanishing>* list : {&event.vanishing, &event.bounded})
         for (const Vanishing& one : *list)
@@ -138,7 +139,7 @@ void FactorEmission::preload() {
             factor.vanishing.push_back(one);
     }
     const std::size_t before = d_.result.problem.factors.size();
-    add(FactorRole::preload, &own.natural, sheet, true, factor);
+    add(FactorRole::preload, &preload_factor.natural, sheet, true, factor);
     drop_known(before);
   }
 }
@@ -152,8 +153,8 @@ bool FactorEmission::is_passed_by_tensions(const DeterminantPart& part) const {
 
 void FactorEmission::name_motors(LocusFactor& factor) const {
   for (const mechanism::JointIndex joint : d_.preload.joints) {
-    const mechanism::Joint& own = d_.mechanism.joints[static_cast<std::size_t>(joint)];
-    factor.vanishing.push_back({own.name, mechanism::actuator_quantity(own), 1});
+    const mechanism::Joint& joint_data = d_.mechanism.joints[static_cast<std::size_t>(joint)];
+    factor.vanishing.push_back({joint_data.name, mechanism::actuator_quantity(joint_data), 1});
   }
   factor.cause += (factor.cause.empty() ? "" : "; ") + std::string("singular with a constant effort of ") +
                   d_.preload.motors(d_.mechanism);

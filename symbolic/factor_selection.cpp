@@ -51,8 +51,8 @@ void FactorSelection::mark_contact_loss(const std::string& joint) {
   }
   // Over three coordinates they vanish together along curves and at points besides.
   if (d_.result.problem.tower.coordinates.size() == 3 && components.size() > 2)
-    for (const std::vector<std::size_t>& own : components)
-      for (const std::size_t i : own) d_.factors[i].wanted_point = true;
+    for (const std::vector<std::size_t>& component : components)
+      for (const std::size_t i : component) d_.factors[i].wanted_point = true;
   // Two equations over a plane have isolated zeros besides, three in general none.
   if (components.size() > 2) return;
   const auto in = [](const std::vector<std::size_t>& list, std::size_t f) {
@@ -68,22 +68,22 @@ void FactorSelection::mark_contact_loss(const std::string& joint) {
 }
 
 bool FactorSelection::never_both(std::size_t i, std::size_t k) {
-  const auto [known, fresh] = never_both_.try_emplace({i, k}, false);
-  if (!fresh) return known->second;
+  const auto [found, fresh] = never_both_.try_emplace({i, k}, false);
+  if (!fresh) return found->second;
   const Poly &a = d_.factors[i].natural, &b = d_.factors[k].natural;
   if (a.total_degree() > 1 || b.total_degree() > 1) return false;
-  if (d_.elimination.are_components_of_link(a, b)) return known->second = true;
+  if (d_.elimination.are_components_of_link(a, b)) return found->second = true;
   const Poly squared = a * a + b * b;
   if (!shared_.may_be_constant(squared)) return false;
   const std::optional<core::Rational> length2 = d_.elimination.constant_over_tower(squared);
-  return known->second = length2 && *length2 != 0;
+  return found->second = length2 && *length2 != 0;
 }
 
 bool FactorSelection::may_share_curve(std::size_t i, std::size_t k) {
-  const auto [known, fresh] = may_share_.try_emplace({i, k}, false);
+  const auto [found, fresh] = may_share_.try_emplace({i, k}, false);
   // Curves are told to be the same by their polynomials: where one is too large to be had, norms say nothing of use.
-  if (fresh && !is_heavy(i) && !is_heavy(k)) known->second = Elimination::may_share_curve(on_line(i), on_line(k));
-  return known->second;
+  if (fresh && !is_heavy(i) && !is_heavy(k)) found->second = Elimination::may_share_curve(on_line(i), on_line(k));
+  return found->second;
 }
 
 bool FactorSelection::meet_nowhere(std::size_t i, std::size_t k) {
@@ -93,14 +93,14 @@ bool FactorSelection::meet_nowhere(std::size_t i, std::size_t k) {
 }
 
 bool FactorSelection::is_heavy(std::size_t factor) {
-  const auto [known, fresh] = heavy_.try_emplace(factor, false);
-  if (fresh) known->second = d_.elimination.is_too_heavy_over_tower(d_.factors[factor].natural);
-  return known->second;
+  const auto [found, fresh] = heavy_.try_emplace(factor, false);
+  if (fresh) found->second = d_.elimination.is_too_heavy_over_tower(d_.factors[factor].natural);
+  return found->second;
 }
 
 const ResiduePoly& FactorSelection::on_line(std::size_t factor) {
-  const auto known = on_line_.find(factor);
-  if (known != on_line_.end()) return known->second;
+  const auto found = on_line_.find(factor);
+  if (found != on_line_.end()) return found->second;
   return on_line_.emplace(factor, d_.elimination.norm_on_line(d_.factors[factor].natural)).first->second;
 }
 
@@ -125,9 +125,9 @@ void FactorSelection::by_order() {
       return core::is_guide_end(reaction.quantity) || is_finite_perhaps(reaction);  // ends are made of N and T
     });
     for (const std::size_t i : involved) {
-      const auto& own = d_.factors[i].vanishing;
+      const auto& vanishing = d_.factors[i].vanishing;
       d_.factors[i].wanted_order = d_.factors[i].wanted_order || part.may_be_idle ||
-                                   std::any_of(own.begin(), own.end(), [&](const Vanishing& v) {
+                                   std::any_of(vanishing.begin(), vanishing.end(), [&](const Vanishing& v) {
                                      return d_.selected(v.joint) && d_.is_asked_for(v.joint, v.quantity);
                                    });
     }

@@ -8,8 +8,8 @@
 namespace clearloci::symbolic {
 
 int FactoredPoly::multiplicity(const Poly& factor) const {
-  for (const PolyFactor& own : factors)
-    if (own.poly == factor) return own.multiplicity;
+  for (const PolyFactor& poly_factor : factors)
+    if (poly_factor.poly == factor) return poly_factor.multiplicity;
   return 0;
 }
 
@@ -42,12 +42,12 @@ void multiply(FactoredPoly& product, const FactoredPoly& factor, int times) {
   }
   const std::size_t before = product.factors.size();
   for (const PolyFactor& part : factor.factors) {
-    const auto known = std::find_if(product.factors.begin(), product.factors.end(),
+    const auto found = std::find_if(product.factors.begin(), product.factors.end(),
                                     [&](const PolyFactor& f) { return f.poly == part.poly; });
-    if (known == product.factors.end())
+    if (found == product.factors.end())
       product.factors.push_back({part.poly, part.multiplicity * times});
     else
-      known->multiplicity += part.multiplicity * times;
+      found->multiplicity += part.multiplicity * times;
   }
   const bool in_order = product.factors.size() == before || before == 0;
   std::erase_if(product.factors, [](const PolyFactor& f) { return f.multiplicity == 0; });

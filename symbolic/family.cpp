@@ -72,8 +72,8 @@ std::optional<FactoredDeterminants> Family::at(const Geometry& geometry) const {
       } catch (const std::exception&) {
         return std::nullopt;  // division by zero, another set of parameters
       }
-    } else if (const int own = geometry.ring().index(name); own >= 0) {
-      value = Poly::variable(geometry.ring(), own);
+    } else if (const int index = geometry.ring().index(name); index >= 0) {
+      value = Poly::variable(geometry.ring(), index);
     }
   }
 
@@ -84,11 +84,11 @@ std::optional<FactoredDeterminants> Family::at(const Geometry& geometry) const {
     for (std::size_t j = 0; j < matrix[i].size(); ++j)
       if (!(substituted(matrix_[i][j], geometry, values) == matrix[i][j])) return std::nullopt;
 
-  std::vector<Refactored> known;
+  std::vector<Refactored> recent;
   const auto factored_again = [&](const Poly& factor) -> const FactoredPoly& {
-    for (const Refactored& entry : known)
+    for (const Refactored& entry : recent)
       if (entry.before == factor) return entry.after;
-    return known.emplace_back(Refactored{factor, factored(substituted(factor, geometry, values), {})}).after;
+    return recent.emplace_back(Refactored{factor, factored(substituted(factor, geometry, values), {})}).after;
   };
   const auto with_values = [&](const FactoredPoly& p) {
     FactoredPoly result{p.constant, {}};

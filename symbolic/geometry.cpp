@@ -155,8 +155,8 @@ struct Geometry::Naturals {
   GiNaC::ex symbol(const std::string& name) const {
     const auto& all = geometry.mechanism().coordinates;
     const auto coordinate = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
-    const Expression own = Expression::symbol(name);
-    if (coordinate == all.end() || coordinate->angle) return kept(name, own, own);
+    const Expression symbol = Expression::symbol(name);
+    if (coordinate == all.end() || coordinate->angle) return kept(name, symbol, symbol);
     return geometry.symbol(name);
   }
   GiNaC::ex negate(const GiNaC::ex& a) const { return -a; }
@@ -384,18 +384,18 @@ core::RootTower Geometry::plain_tower() const {
   for (const TowerRoot& root : roots_) {
     const std::string name = "s" + std::to_string(tower.roots.size() + 1);
     if (root.is_angle()) {
-      const auto own = std::find_if(torsion_angles_.begin(), torsion_angles_.end(), [&](const TorsionAngle& angle) {
-        return angle.root == static_cast<int>(tower.roots.size());
-      });
-      tower.roots.push_back({name, name_of(*own), root.role, root.square.plain(variables)});
+      const auto torsion_angle =
+          std::find_if(torsion_angles_.begin(), torsion_angles_.end(),
+                       [&](const TorsionAngle& angle) { return angle.root == static_cast<int>(tower.roots.size()); });
+      tower.roots.push_back({name, name_of(*torsion_angle), root.role, root.square.plain(variables)});
       for (const Poly& part : root.cosine_and_sine) tower.roots.back().cosine_and_sine.push_back(part.plain(variables));
       continue;
     }
     if (root.point < 0) {
-      const auto own = std::find_if(inverse_lengths_.begin(), inverse_lengths_.end(), [&](const InverseLength& length) {
-        return length.root == static_cast<int>(tower.roots.size());
-      });
-      tower.roots.push_back({name, own->name, root.role, root.square.plain(variables)});
+      const auto found = std::find_if(
+          inverse_lengths_.begin(), inverse_lengths_.end(),
+          [&](const InverseLength& length) { return length.root == static_cast<int>(tower.roots.size()); });
+      tower.roots.push_back({name, found->name, root.role, root.square.plain(variables)});
       continue;
     }
     tower.roots.push_back({name, mechanism_->points[index(root.point)].name, root.role, root.square.plain(variables)});

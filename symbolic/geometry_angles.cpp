@@ -23,9 +23,9 @@ void collect_tangents(const core::Expression& e, std::vector<core::Expression>& 
   for (const core::Expression& argument : e.arguments()) collect_tangents(argument, tangents);
   if (e.kind() != core::Expression::Kind::atan) return;
   const std::string text = core::to_string(e.arguments()[0]);
-  const bool known = std::any_of(tangents.begin(), tangents.end(),
-                                 [&](const core::Expression& own) { return core::to_string(own) == text; });
-  if (!known) tangents.push_back(e.arguments()[0]);
+  const bool is_turned = std::any_of(tangents.begin(), tangents.end(),
+                                     [&](const core::Expression& tangent) { return core::to_string(tangent) == text; });
+  if (!is_turned) tangents.push_back(e.arguments()[0]);
 }
 
 }  // namespace
@@ -58,10 +58,10 @@ const std::string& Geometry::name_of(const TorsionAngle& angle) const {
 
 GiNaC::ex Geometry::arc_tangent(const core::Expression& tangent) const {
   const std::string text = core::to_string(tangent);
-  const auto own = std::find_if(torsion_angles_.begin(), torsion_angles_.end(), [&](const TorsionAngle& angle) {
-    return angle.tangent && core::to_string(*angle.tangent) == text;
-  });
-  if (own != torsion_angles_.end()) return GiNaC::ex(symbol(own->name));
+  const auto torsion_angle =
+      std::find_if(torsion_angles_.begin(), torsion_angles_.end(),
+                   [&](const TorsionAngle& angle) { return angle.tangent && core::to_string(*angle.tangent) == text; });
+  if (torsion_angle != torsion_angles_.end()) return GiNaC::ex(symbol(torsion_angle->name));
   (void)expression(tangent);  // throws where it is no polynomial
   return GiNaC::ex(0);        // not listed yet
 }
@@ -102,11 +102,11 @@ std::optional<TowerPoint> Geometry::same_angle(const Poly& x, const Poly& y) con
   if (keep_parameters_ || sheet_.all_sheets || y.is_zero()) return std::nullopt;
   for (const TorsionAngle& earlier : torsion_angles_) {
     if (earlier.root < 0 || !earlier.place) continue;
-    const std::vector<Poly>& known = roots_[static_cast<std::size_t>(earlier.root)].cosine_and_sine;
-    const bool opposite = (x * known[1] + y * known[0]).is_zero();
-    if (!opposite && !(x * known[1] - y * known[0]).is_zero()) continue;
+    const std::vector<Poly>& cosine_and_sine = roots_[static_cast<std::size_t>(earlier.root)].cosine_and_sine;
+    const bool opposite = (x * cosine_and_sine[1] + y * cosine_and_sine[0]).is_zero();
+    if (!opposite && !(x * cosine_and_sine[1] - y * cosine_and_sine[0]).is_zero()) continue;
     Poly times(*ring_);
-    if (!y.divides(known[1], times) || !times.is_constant()) continue;
+    if (!y.divides(cosine_and_sine[1], times) || !times.is_constant()) continue;
     if ((times.constant() > 0) == opposite) continue;  // half a turn apart
     TowerPoint place = *earlier.place;
     if (opposite) place.x = -place.x;
@@ -124,8 +124,8 @@ void Geometry::place_torsion_angle(TorsionAngle& angle) {
     y = y.exact_quotient(common);
   }
   angle.natural = GiNaC::ex(symbol(ring_->name(angle.variable)));
-  if (const std::optional<TowerPoint> known = same_angle(x, y)) {
-    angle.place = known;
+  if (const std::optional<TowerPoint> same = same_angle(x, y)) {
+    angle.place = same;
     return;
   }
   angle.root = static_cast<int>(roots_.size());

@@ -22,10 +22,10 @@ bool is_needed(const mechanism::Action& action, const mechanism::Mechanism& mech
 /// The direction of a link of a torsion spring's joint, turned a quarter about the axis in space.
 mechanism::VectorExpression across_axis(const mechanism::Mechanism& mechanism, const mechanism::Spring& spring,
                                         bool second) {
-  mechanism::VectorExpression own = mechanism::direction_of(mechanism, second ? spring.to : spring.from);
-  if (mechanism.space == mechanism::Space::planar) return own;
+  mechanism::VectorExpression expression = mechanism::direction_of(mechanism, second ? spring.to : spring.from);
+  if (mechanism.space == mechanism::Space::planar) return expression;
   const auto& axis = mechanism.joints[static_cast<std::size_t>(spring.joint)].axes.at(0);
-  return {mechanism::VectorExpression::Kind::cross, {}, 0, {axis, own}};
+  return {mechanism::VectorExpression::Kind::cross, {}, 0, {axis, expression}};
 }
 
 const mechanism::VectorExpression& joint_axis(const mechanism::Mechanism& mechanism, const mechanism::Action& action) {

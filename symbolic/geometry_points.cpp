@@ -46,9 +46,9 @@ void Geometry::place(PointIndex point) {
 }
 
 void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
-  auto& own = natural_[index(point)];
-  for (std::size_t i = 0; i < form.coordinates.size(); ++i) own[i] = expression(form.coordinates[i]).expand();
-  TowerPoint place(poly(own[0]), poly(own[1]), poly(own[2]), Poly(*ring_, 1));
+  auto& components = natural_[index(point)];
+  for (std::size_t i = 0; i < form.coordinates.size(); ++i) components[i] = expression(form.coordinates[i]).expand();
+  TowerPoint place(poly(components[0]), poly(components[1]), poly(components[2]), Poly(*ring_, 1));
   for (const Substitution& angle : angles_) {
     const int degree = std::max({degree_in(place.x, angle), degree_in(place.y, angle), degree_in(place.z, angle)});
     place = {substituted(place.x, angle, degree), substituted(place.y, angle, degree),
@@ -132,10 +132,10 @@ void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
 }
 
 void Geometry::construct(PointIndex point) {
-  const auto own =
+  const auto found =
       std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
-  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own->x))), GiNaC::ex(symbol(ring_->name(own->y))),
-                            own->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own->z)))};
+  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(found->x))), GiNaC::ex(symbol(ring_->name(found->y))),
+                            found->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(found->z)))};
 }
 
 Poly Geometry::by_known_lengths(Poly squared) const {
@@ -180,11 +180,12 @@ std::array<Poly, 2> Geometry::squared_distance(PointIndex from, PointIndex to) c
 }
 
 Poly Geometry::squared_length(const Expression& length) const {
-  const Poly own = poly(expression(length).expand());
-  if (!own.is_constant() || is_free(length) || crank_lengths_.contains(own.constant())) return own * own;
+  const Poly length_poly = poly(expression(length).expand());
+  if (!length_poly.is_constant() || is_free(length) || crank_lengths_.contains(length_poly.constant()))
+    return length_poly * length_poly;
   const Expression square = Expression::apply(Expression::Kind::power, {length, Expression::number(2)});
   const mechanism::ExactValue exact = mechanism::evaluate(square, mechanism_->parameters);
-  return exact.exact ? Poly(*ring_, exact.value) : own * own;
+  return exact.exact ? Poly(*ring_, exact.value) : length_poly * length_poly;
 }
 
 void Geometry::list_crank_lengths() {
@@ -263,18 +264,18 @@ std::optional<Poly> Geometry::constant_quotient(const Poly& p, const Poly& divis
 void Geometry::keep_beside_another(PointIndex point) {
   const auto beside = [&](PointIndex other) {
     const auto [x, y, w, z] = difference(tower(point), tower(other));
-    auto own = natural(other);
+    auto components = natural(other);
     const Vector way = {x, y, z};
     bool same = true;
     for (std::size_t i = 0; i < 3; ++i) {
       Poly step(*ring_);
       if (!way[i].is_zero() && (!way[i].divides(w, step) || !step.is_constant())) return false;
       same = same && step.is_zero();
-      own[i] += number(step.constant());
+      components[i] += number(step.constant());
     }
     // A point in the place of another one makes modes that are singular in every pose, of which its own factor tells
     // why.
-    if (!same) natural_[index(point)] = own;
+    if (!same) natural_[index(point)] = components;
     return !same;
   };
   for (PointIndex other = 0; other < point; ++other)
@@ -288,12 +289,12 @@ void Geometry::keep_in_plane(PointIndex point, PointIndex base, const Vector& no
   for (std::size_t i = 0; i < 3; ++i)
     if (!normal[i].is_zero()) told = i;
   if (told == 3) return;
-  auto& own = natural_[index(point)];
+  auto& components = natural_[index(point)];
   const auto& from = natural(base);
   GiNaC::ex value = from[told];
   for (std::size_t i = 0; i < 3; ++i)
-    if (i != told) value -= number(normal[i].constant() / normal[told].constant()) * (own[i] - from[i]);
-  own[told] = value.expand();
+    if (i != told) value -= number(normal[i].constant() / normal[told].constant()) * (components[i] - from[i]);
+  components[told] = value.expand();
 }
 
 void Geometry::keep_on_line(PointIndex point, PointIndex base, const Vector& along) {
@@ -301,11 +302,12 @@ void Geometry::keep_on_line(PointIndex point, PointIndex base, const Vector& alo
   const auto free = static_cast<std::size_t>(
       std::find_if(along.begin(), along.end(), [](const Poly& u) { return !u.is_zero(); }) - along.begin());
   if (free == 3) return;
-  auto& own = natural_[index(point)];
+  auto& components = natural_[index(point)];
   const auto& from = natural(base);
   for (std::size_t i = 0; i < 3; ++i)
     if (i != free)
-      own[i] = (from[i] + number(along[i].constant() / along[free].constant()) * (own[free] - from[free])).expand();
+      components[i] =
+          (from[i] + number(along[i].constant() / along[free].constant()) * (components[free] - from[free])).expand();
 }
 
 TowerPoint Geometry::sum(const TowerPoint& a, const TowerPoint& way) const {
@@ -377,14 +379,14 @@ void Geometry::place_slider(PointIndex point, const SliderPoint& form) {
 
 void Geometry::place_shifted(PointIndex point, const mechanism::ShiftedPoint& form) {
   const std::vector<GiNaC::ex> by = vector(form.by);
-  auto& own = natural_[index(point)];
+  auto& components = natural_[index(point)];
   TowerPoint way{Poly(*ring_), Poly(*ring_), Poly(*ring_), Poly(*ring_, 1)};
   std::array<Poly*, 3> parts = {&way.x, &way.y, &way.z};
   for (std::size_t i = 0; i < by.size(); ++i) {
-    own[i] = (natural(form.from)[i] + by[i]).expand();
+    components[i] = (natural(form.from)[i] + by[i]).expand();
     *parts[i] = poly(by[i]);
   }
-  for (std::size_t i = by.size(); i < 3; ++i) own[i] = natural(form.from)[i];
+  for (std::size_t i = by.size(); i < 3; ++i) components[i] = natural(form.from)[i];
   for (const Substitution& pair : substitutions()) {
     const int degree = std::max({degree_in(way.x, pair), degree_in(way.y, pair), degree_in(way.z, pair)});
     if (degree == 0) continue;
@@ -419,13 +421,13 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
   // On a rigid link the distance is constant: then the point is linear in the two others.
   const std::optional<Poly> squared_length = constant_quotient(d, reduce(w * w));
   Poly length(*ring_);
-  bool known = squared_length && squared_length->square_root(length);
-  if (squared_length && !known && squared_length->is_constant()) {
+  bool has_root = squared_length && squared_length->square_root(length);
+  if (squared_length && !has_root && squared_length->is_constant()) {
     const Expression root = Expression::apply(Expression::Kind::sqrt, {Expression::number(squared_length->constant())});
     length = Poly(*ring_, mechanism::value_of(root, *mechanism_));
-    known = true;
+    has_root = true;
   }
-  if (known && length.is_constant()) {
+  if (has_root && length.is_constant()) {
     // Parts of the way to the second point: rational numbers where the offsets and the length have a root in common.
     const auto part = [&](const Expression& offset) -> GiNaC::ex {
       if (squared_length->is_constant() && !keep_parameters_ && !is_free(offset)) {
@@ -447,7 +449,7 @@ void Geometry::place_offset(PointIndex point, const OffsetPoint& form) {
     return;
   }
   construct(point);
-  if (known) {
+  if (has_root) {
     tower_[index(point)] = offset_over_tower(form, length, one);
     return;
   }

@@ -34,11 +34,12 @@ Poly Geometry::add_root(TowerRoot root) {
   }
   Poly times_divisor = reduce(over_tower * root.scale_divisor);
   roots_.push_back(std::move(root));
-  const TowerRoot& own = roots_.back();
+  const TowerRoot& tower_root = roots_.back();
   const int side = side_of(roots_.size() - 1, sheet_.sides);
   for (std::vector<double>& at : samples_)
-    at[static_cast<std::size_t>(own.variable)] = side * std::sqrt(value(own.square, at));
-  std::erase_if(samples_, [&](const auto& at) { return std::isnan(at[static_cast<std::size_t>(own.variable)]); });
+    at[static_cast<std::size_t>(tower_root.variable)] = side * std::sqrt(value(tower_root.square, at));
+  std::erase_if(samples_,
+                [&](const auto& at) { return std::isnan(at[static_cast<std::size_t>(tower_root.variable)]); });
   return times_divisor;
 }
 
@@ -85,16 +86,16 @@ std::optional<Poly> Geometry::depend(TowerRoot& root) {
   if (number != 1 && element.is_constant()) return std::nullopt;  // the root of a number: an element like others
   // s = +-|e| sqrt(c):  the sign of the side times that of e on this sheet times e, and sqrt(c) for what s stood for.
   std::vector<std::size_t> odd_roots;
-  const std::size_t own = roots_.size();
-  int sign = sign_on_sheet(element, own, odd_roots);
+  const std::size_t roots = roots_.size();
+  int sign = sign_on_sheet(element, roots, odd_roots);
   for (const std::size_t earlier : odd_roots) sign *= side_of(earlier, sheet_.sides);
   Poly value = element;
   if (number == 1) {
     // The side is a factor of its own: there is no root left to carry it.
     roots_.push_back(root);
-    sign *= side_of(own, sheet_.sides);
+    sign *= side_of(roots, sheet_.sides);
     roots_.pop_back();
-    odd_roots.push_back(own);
+    odd_roots.push_back(roots);
   } else {
     value = reduce(value * Poly::variable(*ring_, root.variable));
   }
@@ -130,14 +131,14 @@ int Geometry::sign_on_sheet(Poly element, std::size_t root, std::vector<std::siz
     const bool rooted = std::any_of(roots_.begin(), roots_.end(),
                                     [&](const TowerRoot& r) { return factor.poly.depends_on(r.variable); });
     const auto is = [&](const Poly& p) { return factor.poly == p; };
-    int known = 0;
-    if (std::any_of(positive_.begin(), positive_.end(), is)) known = 1;
-    if (std::any_of(positive_.begin(), positive_.end(), [&](const Poly& p) { return is(-p); })) known = -1;
-    if (known == 0 && !rooted) known = sign_over_box(factor.poly.plain(free), lower, upper);
-    if (known == 0)
+    int factor_sign = 0;
+    if (std::any_of(positive_.begin(), positive_.end(), is)) factor_sign = 1;
+    if (std::any_of(positive_.begin(), positive_.end(), [&](const Poly& p) { return is(-p); })) factor_sign = -1;
+    if (factor_sign == 0 && !rooted) factor_sign = sign_over_box(factor.poly.plain(free), lower, upper);
+    if (factor_sign == 0)
       open *= factor.poly;
     else
-      sign *= known;
+      sign *= factor_sign;
   }
   if (constant < 0) sign = -sign;
   if (open.is_constant()) return sign;

@@ -43,11 +43,11 @@ Poly end_numerator(const Guide& guide, Quantity end) {
 std::vector<Reaction> end_reactions(const Guide& guide, const FactoredPoly& determinant) {
   std::vector<Reaction> ends;
   for (const auto& [end, sign] : mechanism::guide_end_signs) {
-    FactoredPoly own{1, {}};
-    if (guide.is_polynomial()) own = factored(end_numerator(guide, end), determinant.factors);
-    multiply(own, guide.common);
-    own.constant /= 2 * guide.half_length;
-    ends.push_back({guide.joint, end, core::to_string(end) + " of " + guide.joint, std::move(own)});
+    FactoredPoly polynomial{1, {}};
+    if (guide.is_polynomial()) polynomial = factored(end_numerator(guide, end), determinant.factors);
+    multiply(polynomial, guide.common);
+    polynomial.constant /= 2 * guide.half_length;
+    ends.push_back({guide.joint, end, core::to_string(end) + " of " + guide.joint, std::move(polynomial)});
   }
   return ends;
 }

@@ -44,13 +44,13 @@ ResiduePoly LineImage::of(const Poly& p) const {
 
 ResiduePoly LineImage::over_tower(const Poly& natural) const {
   ResiduePoly result = of(natural);
-  for (const PlacedAt& own : places_) {
-    std::vector<int> variables = {own.x};
-    if (own.y >= 0) variables.push_back(own.y);
-    if (own.z >= 0) variables.push_back(own.z);
+  for (const PlacedAt& placed : places_) {
+    std::vector<int> variables = {placed.x};
+    if (placed.y >= 0) variables.push_back(placed.y);
+    if (placed.z >= 0) variables.push_back(placed.z);
     const int degree = result.degree(variables);
     if (degree == 0) continue;
-    result = with_place(result, own, degree, roots_);
+    result = with_place(result, placed, degree, roots_);
     divide_out(result, divisors_);
   }
   return result;

@@ -35,9 +35,9 @@ bool LinearElimination::choose(std::size_t most_fill, Pivot& pivot) const {
 
 void LinearElimination::eliminate(const Pivot& pivot) {
   used_[pivot.row] = true;
-  const SymbolicRow own = rows_[pivot.row];
+  const SymbolicRow row = rows_[pivot.row];
   for (std::size_t r = 0; r < rows_.size(); ++r)
-    if (!used_[r] && rows_[r].entries.contains(pivot.unknown)) subtract(rows_[r], own, pivot.unknown, -1);
+    if (!used_[r] && rows_[r].entries.contains(pivot.unknown)) subtract(rows_[r], row, pivot.unknown, -1);
   pivots_.push_back(pivot);
 }
 

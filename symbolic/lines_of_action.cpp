@@ -166,9 +166,9 @@ void LinesOfAction::add_loads(const NewtonEulerEquations& equations) {
     bool any = false;
     for (unsigned i = 0; i < rows; ++i) any = any || !row(i).is_zero();
     if (!any) continue;
-    Resultant own{link, {{values(row(0)), values(row(1)), planar_ ? Values{} : values(row(2))}}, {}};
-    if (planar_) own.moment = values(row(2));
-    resultants_.push_back(own);
+    Resultant resultant{link, {{values(row(0)), values(row(1)), planar_ ? Values{} : values(row(2))}}, {}};
+    if (planar_) resultant.moment = values(row(2));
+    resultants_.push_back(resultant);
   }
   for (const std::vector<std::size_t>& set : loaded_sets()) {
     if (set.size() > 1 && set.size() < resultants_.size()) continue;
@@ -317,9 +317,10 @@ void LinesOfAction::add_balances() {
 
 std::string LinesOfAction::of(const Poly& factor, bool loads) const {
   if (factor.length() > longest_factor) return "";
-  const Values own = values(factor);
+  const Values factor_values = values(factor);
   for (const Condition& condition : conditions_)
-    if ((loads || !condition.of_loads) && own[0] * condition.values[1] == own[1] * condition.values[0])
+    if ((loads || !condition.of_loads) &&
+        factor_values[0] * condition.values[1] == factor_values[1] * condition.values[0])
       return condition.lines.empty() ? condition.words : listed(condition.lines) + " " + condition.words;
   return "";
 }

@@ -107,11 +107,11 @@ Piece problems_of(const Mechanism& mechanism, const Selection& selection, const 
                   const Family* family, const std::vector<Sides>& modes) {
   auto start = Clock::now();
   Piece piece;
-  const Charts own = charts_of(mechanism, charts);
-  std::vector<SheetGeometry> sheets = sheet_geometries(mechanism, own, modes, &piece.bent);
+  const Charts half_angles = charts_of(mechanism, charts);
+  std::vector<SheetGeometry> sheets = sheet_geometries(mechanism, half_angles, modes, &piece.bent);
   if (sheets.empty())
-    piece.without_modes = without_modes(
-        Derivation(mechanism, selection, charts, family, {Geometry(mechanism, false, own, {modes.front()}), {}}));
+    piece.without_modes = without_modes(Derivation(mechanism, selection, charts, family,
+                                                   {Geometry(mechanism, false, half_angles, {modes.front()}), {}}));
   for (SheetGeometry& sheet : sheets) {
     Derivation derivation(mechanism, selection, charts, family, std::move(sheet));
     if (const std::optional<std::string> why = singular(derivation)) {
@@ -135,13 +135,13 @@ Piece problems_of(const Mechanism& mechanism, const Selection& selection, const 
 /// Of the modes that are bent whatever the charts.
 std::vector<std::string> words_of_bent(const Mechanism& mechanism, const std::vector<Piece>& pieces) {
   std::vector<std::string> list;
-  for (const BentMode& own : pieces.front().bent) {
+  for (const BentMode& mode : pieces.front().bent) {
     const auto is_bent = [&](const Piece& piece) {
       return std::any_of(piece.bent.begin(), piece.bent.end(),
-                         [&](const BentMode& other) { return other.sides == own.sides; });
+                         [&](const BentMode& other) { return other.sides == mode.sides; });
     };
     if (std::all_of(pieces.begin(), pieces.end(), is_bent))
-      list.push_back("the working mode " + mode_words(mechanism, own.sides) + " bends a link: " + own.what);
+      list.push_back("the working mode " + mode_words(mechanism, mode.sides) + " bends a link: " + mode.what);
   }
   return list;
 }
@@ -162,10 +162,10 @@ std::vector<DerivedProblem> problems_of(const Mechanism& mechanism, const Select
   for (const std::string& words : bent) pieces.front().refused.push_back(words);
   std::vector<DerivedProblem> problems;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    std::vector<DerivedProblem>& own = pieces[i].problems;
-    if (own.empty()) own.push_back(std::move(pieces[i].without_modes));
-    for (const std::string& note : pieces[i].refused) own.front().notes.push_back(note + "; left out");
-    for (DerivedProblem& problem : own) {
+    std::vector<DerivedProblem>& derived_problems = pieces[i].problems;
+    if (derived_problems.empty()) derived_problems.push_back(std::move(pieces[i].without_modes));
+    for (const std::string& note : pieces[i].refused) derived_problems.front().notes.push_back(note + "; left out");
+    for (DerivedProblem& problem : derived_problems) {
       problem.piece = static_cast<int>(i);
       problems.push_back(std::move(problem));
     }

@@ -44,10 +44,10 @@ std::optional<Poly> FactorEmission::add_both_senses(const TwoSenses& senses, std
     gained *= 2;
   }
   left = left.scaled(1 / *rational_root(gained));
-  const auto known = std::find_if(more_roots_.begin(), more_roots_.end(),
+  const auto found = std::find_if(more_roots_.begin(), more_roots_.end(),
                                   [&](const core::Root& root) { return root.square == square; });
-  const auto index = static_cast<int>(variables.size() + static_cast<std::size_t>(known - more_roots_.begin()));
-  if (known == more_roots_.end())
+  const auto index = static_cast<int>(variables.size() + static_cast<std::size_t>(found - more_roots_.begin()));
+  if (found == more_roots_.end())
     more_roots_.push_back({"s" + std::to_string(d_.result.problem.tower.roots.size() + more_roots_.size() + 1), "",
                            core::RootRole::length, square});
   for (const int sense : {1, -1}) {
@@ -119,11 +119,11 @@ void FactorEmission::add_guide_margins() {
     margin.role = FactorRole::margin;
     margin.cleared = cleared_by(below, 1);
     const auto of_end = [&](Quantity end) {
-      LocusFactor own = margin;
-      own.vanishing = {{guide.joint, end, 1}};
-      own.cause =
+      LocusFactor factor = margin;
+      factor.vanishing = {{guide.joint, end, 1}};
+      factor.cause =
           "end of guide " + guide.joint + " at " + core::told(core::to_double(*d_.selection.min_force), "N", {});
-      return own;
+      return factor;
     };
     if (!guide.length && !bears.is_zero()) {
       for (const Poly& bound : {turns - limit, turns + limit})
@@ -135,12 +135,12 @@ void FactorEmission::add_guide_margins() {
     for (const Quantity end : {Quantity::end_ahead, Quantity::end_behind})
       for (const Poly& bound : {limit, -limit}) {
         const Poly natural = (end_numerator(guide, end) * common - bound).primitive();
-        const auto known =
+        const auto found =
             std::find_if(curves.begin(), curves.end(), [&](const auto& c) { return c.first == natural; });
-        if (known == curves.end())
+        if (found == curves.end())
           curves.emplace_back(natural, of_end(end));
         else
-          known->second.vanishing.push_back({guide.joint, end, 1});
+          found->second.vanishing.push_back({guide.joint, end, 1});
       }
     for (auto& [natural, factor] : curves) {
       factor.expression = d_.words.of(natural);
@@ -187,8 +187,8 @@ std::string words_of_sizes(const std::vector<core::Vanishing>& reactions) {
   for (const auto& [quantity, name] :
        {std::pair{Quantity::f, "contact force of "}, {Quantity::F, "force of "}, {Quantity::M, "couple of "}}) {
     std::string names;
-    for (const core::Vanishing& own : reactions)
-      if (own.quantity == quantity) names += (names.empty() ? "" : ", ") + own.joint;
+    for (const core::Vanishing& vanishing : reactions)
+      if (vanishing.quantity == quantity) names += (names.empty() ? "" : ", ") + vanishing.joint;
     if (!names.empty()) words += (words.empty() ? "" : " and ") + (name + names);
   }
   return words;

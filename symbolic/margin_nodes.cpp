@@ -24,8 +24,9 @@ std::optional<MarginNodes::Form> MarginNodes::of(const Margin& margin) {
   int sum = builder.constant(0);
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) sum = builder.add(sum, builder.power(steps[k], 2));
   form.line = builder.line(builder.subtract(sum, builder.power(steps.back(), 2)));
-  const auto force = std::find_if(margin.reactions.begin(), margin.reactions.end(),
-                                  [](const core::Vanishing& own) { return own.quantity == core::Quantity::f; });
+  const auto force =
+      std::find_if(margin.reactions.begin(), margin.reactions.end(),
+                   [](const core::Vanishing& vanishing) { return vanishing.quantity == core::Quantity::f; });
   core::ensure(force != margin.reactions.end(), "a squared force is that of a joint");
   for (const core::Quantity quantity : {core::Quantity::fx, core::Quantity::fy}) {
     const FactoredPoly* const probe = numerator(probed(), force->joint, quantity);

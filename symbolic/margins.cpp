@@ -108,15 +108,15 @@ class Margins {
   Margin& add(const std::string& joint, Quantity quantity, const Poly& polynomial, const Rational& bound,
               const std::pair<FactoredPoly, int>& below, std::optional<TwoSenses> senses = std::nullopt) {
     const Poly natural = polynomial.primitive();
-    auto known = std::find_if(margins_.begin(), margins_.end(), [&](const Margin& m) {
+    auto found = std::find_if(margins_.begin(), margins_.end(), [&](const Margin& m) {
       const bool couple = m.reactions.front().quantity == Quantity::M;
       return couple == (quantity == Quantity::M) && m.natural == natural;
     });
-    if (known == margins_.end()) known = margins_.insert(known, {natural, bound, {}, below.first, below.second});
-    if (!known->senses) known->senses = std::move(senses);
+    if (found == margins_.end()) found = margins_.insert(found, {natural, bound, {}, below.first, below.second});
+    if (!found->senses) found->senses = std::move(senses);
     const core::Vanishing reaction{joint, quantity, 1};
-    if (known->reactions.empty() || known->reactions.back() != reaction) known->reactions.push_back(reaction);
-    return *known;
+    if (found->reactions.empty() || found->reactions.back() != reaction) found->reactions.push_back(reaction);
+    return *found;
   }
 
   std::optional<Rational> constant_length(const Poly& square) const {

@@ -48,15 +48,15 @@ class StaticsBuilder {
     elimination.reduce(most_fill);
     const std::vector<int> places = elimination.places();
     core::PoseStatics result;
-    for (const mechanism::Coordinate& own : m_.coordinates) result.coordinates.push_back(own.name);
+    for (const mechanism::Coordinate& coordinate : m_.coordinates) result.coordinates.push_back(coordinate.name);
     result.loads = loads_.size();
     for (const SymbolicRow& row : elimination.equations()) result.equations.push_back(placed(row, places));
     result.unknowns = static_cast<int>(result.equations.size());
     for (const core::TaskDemand& demand : demands) {
-      core::PoseDemand own{demand, {}};
+      core::PoseDemand pose_demand{demand, {}};
       for (const SymbolicRow& row : components(demand))
-        own.components.push_back(placed(elimination.substituted(row), places));
-      result.demands.push_back(std::move(own));
+        pose_demand.components.push_back(placed(elimination.substituted(row), places));
+      result.demands.push_back(std::move(pose_demand));
     }
     const std::vector<bool> idle = mechanism::idle_limits(m_);
     for (std::size_t i = 0; i < idle.size(); ++i)
@@ -92,10 +92,10 @@ class StaticsBuilder {
   };
 
   static core::LinearRow placed(const SymbolicRow& row, const std::vector<int>& places) {
-    core::LinearRow own{{}, row.free};
+    core::LinearRow linear_row{{}, row.free};
     for (const auto& [unknown, step] : row.entries)
-      own.terms.push_back({places[static_cast<std::size_t>(unknown)], step});
-    return own;
+      linear_row.terms.push_back({places[static_cast<std::size_t>(unknown)], step});
+    return linear_row;
   }
 
   Vector arm(mechanism::PointIndex point) {
@@ -121,7 +121,7 @@ class StaticsBuilder {
     const auto add = [&](LinkIndex link, bool negative) {
       if (link == mechanism::ground) return;
       for (std::size_t c = 0; c < components_.size(); ++c) {
-        const int own = wrench[components_[c]], value = negative ? b_.negate(own) : own;
+        const int component = wrench[components_[c]], value = negative ? b_.negate(component) : component;
         auto& entries = row_of(link, c).entries;
         const auto [place, fresh] = entries.try_emplace(unknown, b_.zero());
         place->second = b_.add(place->second, value);
@@ -145,47 +145,48 @@ class StaticsBuilder {
   void add_joint(const mechanism::Joint& joint) {
     const mechanism::JointTraits& traits = mechanism::traits(joint);
     const Vector r = arm(joint.at);
-    JointUnknowns own;
+    JointUnknowns unknowns;
     const bool planar = m_.space == mechanism::Space::planar;
-    if (!joint.axes.empty()) own.axis = points_.unit(points_.vector(joint.axes.front()));
+    if (!joint.axes.empty()) unknowns.axis = points_.unit(points_.vector(joint.axes.front()));
     if (mechanism::is_cable(joint)) {
       for (std::size_t c = planar ? 2 : 0; c < 3 && joint.holds_turning; ++c) add_unknown(joint, couple(direction(c)));
-      if (joint.actuated) own.along = add_unknown(joint, force_at(r, own.axis));
+      if (joint.actuated) unknowns.along = add_unknown(joint, force_at(r, unknowns.axis));
     } else if (planar && traits.slides) {
-      const Vector& u = own.axis;
-      own.normal = add_unknown(joint, force_at(r, {b_.negate(u[1]), u[0], b_.zero()}));
-      if (mechanism::is_guide(m_, joint)) own.couple = {add_unknown(joint, couple(direction(2)))};
-      if (joint.actuated) own.along = add_unknown(joint, force_at(r, u));
+      const Vector& u = unknowns.axis;
+      unknowns.normal = add_unknown(joint, force_at(r, {b_.negate(u[1]), u[0], b_.zero()}));
+      if (mechanism::is_guide(m_, joint)) unknowns.couple = {add_unknown(joint, couple(direction(2)))};
+      if (joint.actuated) unknowns.along = add_unknown(joint, force_at(r, u));
     } else if (traits.meshes && joint.axes.empty()) {
-      own.couple = {add_unknown(joint, couple(direction(2)))};
+      unknowns.couple = {add_unknown(joint, couple(direction(2)))};
     } else if (traits.meshes) {
-      own.along = add_unknown(joint, force_at(r, own.axis));
+      unknowns.along = add_unknown(joint, force_at(r, unknowns.axis));
     } else if (planar) {
-      for (std::size_t c = 0; c < 2; ++c) own.force.push_back(add_unknown(joint, force_at(r, direction(c))));
-      if (joint.actuated) own.couple = {add_unknown(joint, couple(direction(2)))};
+      for (std::size_t c = 0; c < 2; ++c) unknowns.force.push_back(add_unknown(joint, force_at(r, direction(c))));
+      if (joint.actuated) unknowns.couple = {add_unknown(joint, couple(direction(2)))};
     } else {
-      add_spatial(joint, traits, r, own);
+      add_spatial(joint, traits, r, unknowns);
     }
-    joints_.push_back(std::move(own));
+    joints_.push_back(std::move(unknowns));
     for (SymbolicRow& row : side_rows_) rows_.push_back(std::move(row));
     side_rows_.clear();
   }
 
   void add_spatial(const mechanism::Joint& joint, const mechanism::JointTraits& traits, const Vector& r,
-                   JointUnknowns& own) {
+                   JointUnknowns& unknowns) {
     using mechanism::BorneCouple;
-    for (std::size_t c = 0; c < 3; ++c) own.force.push_back(add_unknown(joint, force_at(r, direction(c))));
-    if (traits.slides && !joint.actuated) add_side_equation(own.axis, own.force);
+    for (std::size_t c = 0; c < 3; ++c) unknowns.force.push_back(add_unknown(joint, force_at(r, direction(c))));
+    if (traits.slides && !joint.actuated) add_side_equation(unknowns.axis, unknowns.force);
     if (traits.couple == BorneCouple::none) return;
     if (traits.couple == BorneCouple::cross) {
       const Vector along = mechanism::holds_idle_freedom(joint)
-                               ? own.axis
-                               : points_.unit(points_.cross(own.axis, points_.vector(joint.axes.at(1))));
-      own.across = add_unknown(joint, couple(along));
+                               ? unknowns.axis
+                               : points_.unit(points_.cross(unknowns.axis, points_.vector(joint.axes.at(1))));
+      unknowns.across = add_unknown(joint, couple(along));
       return;
     }
-    for (std::size_t c = 0; c < 3; ++c) own.couple.push_back(add_unknown(joint, couple(direction(c))));
-    if (traits.turns_about_axis() && (traits.slides || !joint.actuated)) add_side_equation(own.axis, own.couple);
+    for (std::size_t c = 0; c < 3; ++c) unknowns.couple.push_back(add_unknown(joint, couple(direction(c))));
+    if (traits.turns_about_axis() && (traits.slides || !joint.actuated))
+      add_side_equation(unknowns.axis, unknowns.couple);
   }
 
   void add_load(LinkIndex link, const Wrench& wrench, std::size_t load, bool opposite = false) {
@@ -222,12 +223,12 @@ class StaticsBuilder {
     if (action.law == Law::torsion) {
       const auto [x, y] = off_rest(m_.springs[action.index]);
       const int back = b_.negate(b_.multiply(points_.expression(action.stiffness), b_.angle(y, x)));
-      const Wrench own = couple(points_.times(back, axis_of(m_.springs[action.index])));
-      return both(own, own);
+      const Wrench wrench = couple(points_.times(back, axis_of(m_.springs[action.index])));
+      return both(wrench, wrench);
     }
     if (!action.along) {
-      const Wrench own = couple({b_.zero(), b_.zero(), points_.expression(action.effort)});
-      return both(own, own);
+      const Wrench wrench = couple({b_.zero(), b_.zero(), points_.expression(action.effort)});
+      return both(wrench, wrench);
     }
     const Vector v = points_.vector(*action.along);
     int per_length = b_.zero();
@@ -296,33 +297,35 @@ class StaticsBuilder {
     const auto found = std::find_if(m_.joints.begin(), m_.joints.end(),
                                     [&](const mechanism::Joint& joint) { return joint.name == demand.joint; });
     core::ensure(found != m_.joints.end(), "a demand is of a joint of the mechanism");
-    const JointUnknowns& own = joints_[static_cast<std::size_t>(found - m_.joints.begin())];
+    const JointUnknowns& unknowns = joints_[static_cast<std::size_t>(found - m_.joints.begin())];
     const bool planar = m_.space == mechanism::Space::planar;
     for (const auto& [end, sign] : mechanism::guide_end_signs)
       if (demand.quantity == end) {
         const Rational h = mechanism::value_of(found->clearance->half_length, m_);
-        SymbolicRow row = scalar(own.normal);
-        row.entries[own.normal] = b_.constant(Rational(1, 2));
-        row.entries[own.couple.front()] = b_.constant(Rational(sign) / (2 * h));
+        SymbolicRow row = scalar(unknowns.normal);
+        row.entries[unknowns.normal] = b_.constant(Rational(1, 2));
+        row.entries[unknowns.couple.front()] = b_.constant(Rational(sign) / (2 * h));
         return {row};
       }
     if (demand.quantity == Quantity::F)
-      return {within_bound(demand, own.along >= 0 ? scalar(own.along) : along(own.axis, own.force))};
+      return {
+          within_bound(demand, unknowns.along >= 0 ? scalar(unknowns.along) : along(unknowns.axis, unknowns.force))};
     if (demand.quantity == Quantity::M)
-      return {within_bound(demand, planar ? scalar(own.couple.front()) : along(own.axis, own.couple))};
+      return {within_bound(demand, planar ? scalar(unknowns.couple.front()) : along(unknowns.axis, unknowns.couple))};
     core::ensure(demand.quantity == Quantity::f, "a task asks for forces, ends of guides and efforts");
     std::vector<SymbolicRow> rows;
-    if (own.normal >= 0) {
-      rows.push_back(scalar(own.normal));
-      for (const int unknown : own.couple) rows.push_back(scalar(unknown));
+    if (unknowns.normal >= 0) {
+      rows.push_back(scalar(unknowns.normal));
+      for (const int unknown : unknowns.couple) rows.push_back(scalar(unknown));
       return rows;
     }
     if (mechanism::presses_across_axis(m_, *found)) {
       for (std::size_t i = 0; i < 3; ++i)
-        if (SymbolicRow row = across(own.axis, own.force, i); !row.entries.empty()) rows.push_back(std::move(row));
+        if (SymbolicRow row = across(unknowns.axis, unknowns.force, i); !row.entries.empty())
+          rows.push_back(std::move(row));
       return rows;
     }
-    for (const int unknown : own.force) rows.push_back(scalar(unknown));
+    for (const int unknown : unknowns.force) rows.push_back(scalar(unknown));
     return rows;
   }
 

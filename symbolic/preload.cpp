@@ -34,9 +34,9 @@ bool are_proportional(const PreloadRow& a, const PreloadRow& b) {
   for (std::size_t c = 0; c < x.size(); ++c) {
     if (x[c]->is_zero() != y[c]->is_zero() || !same_factors(*x[c], *y[c])) return false;
     if (x[c]->is_zero()) continue;
-    const Rational own = x[c]->constant / y[c]->constant;
-    if (ratio && *ratio != own) return false;
-    ratio = own;
+    const Rational value = x[c]->constant / y[c]->constant;
+    if (ratio && *ratio != value) return false;
+    ratio = value;
   }
   return true;
 }
@@ -69,23 +69,26 @@ class Arrangement {
     std::map<std::size_t, FactoredPoly> contents;
     for (const PreloadRow& row : constraint.rows) {
       if (row.content.is_zero() || (!constraint.infinite && is_fixed(row))) continue;
-      const auto [own, fresh] = contents.try_emplace(place_of(row), row.content);
-      if (!fresh) own->second = common_factors(own->second, row.content);
+      const auto [content, fresh] = contents.try_emplace(place_of(row), row.content);
+      if (!fresh) content->second = common_factors(content->second, row.content);
     }
     std::set<std::size_t> rows;
     for (const auto& [row, content] : contents) rows.insert(row);
     if (rows.empty()) return;
-    const auto known =
-        std::find_if(constraints_.begin(), constraints_.end(), [&](const Constraint& own) { return own.rows == rows; });
-    Constraint& own = known == constraints_.end() ? constraints_.emplace_back(Constraint{rows, {}, {}}) : *known;
+    const auto found = std::find_if(constraints_.begin(), constraints_.end(),
+                                    [&](const Constraint& candidate) { return candidate.rows == rows; });
+    Constraint& constraint_of_row =
+        found == constraints_.end() ? constraints_.emplace_back(Constraint{rows, {}, {}}) : *found;
     // Where one of several components is zero at every effort, the others can be zero, too.
     if (rows.size() > 1)
-      for (const auto& [row, content] : contents) own.contents.emplace_back(content, constraint.vanishing);
-    own.event.vanishing.insert(own.event.vanishing.end(), constraint.vanishing.begin(), constraint.vanishing.end());
-    if (!constraint.words.empty()) own.event.words.push_back(constraint.words);
-    own.event.infinite = own.event.infinite || constraint.infinite;
-    own.bounded.insert(constraint.bounded ? constraint.bounded->joint : "");
-    if (constraint.bounded) own.event.bounded.push_back(*constraint.bounded);
+      for (const auto& [row, content] : contents)
+        constraint_of_row.contents.emplace_back(content, constraint.vanishing);
+    constraint_of_row.event.vanishing.insert(constraint_of_row.event.vanishing.end(), constraint.vanishing.begin(),
+                                             constraint.vanishing.end());
+    if (!constraint.words.empty()) constraint_of_row.event.words.push_back(constraint.words);
+    constraint_of_row.event.infinite = constraint_of_row.event.infinite || constraint.infinite;
+    constraint_of_row.bounded.insert(constraint.bounded ? constraint.bounded->joint : "");
+    if (constraint.bounded) constraint_of_row.event.bounded.push_back(*constraint.bounded);
   }
 
   PreloadDeterminants run() {
@@ -127,9 +130,9 @@ class Arrangement {
   }
 
   std::size_t place_of(const PreloadRow& row) {
-    const auto known =
-        std::find_if(rows_.begin(), rows_.end(), [&](const PreloadRow& own) { return are_proportional(own, row); });
-    if (known != rows_.end()) return static_cast<std::size_t>(known - rows_.begin());
+    const auto found = std::find_if(rows_.begin(), rows_.end(),
+                                    [&](const PreloadRow& preload_row) { return are_proportional(preload_row, row); });
+    if (found != rows_.end()) return static_cast<std::size_t>(found - rows_.begin());
     rows_.push_back(row);
     return rows_.size() - 1;
   }
@@ -150,8 +153,8 @@ class Arrangement {
 
   /// One effort at two bounds.
   bool exclude(std::size_t a, std::size_t b) const {
-    const std::set<std::string>& own = constraints_[a].bounded;
-    return own.size() == 1 && !own.begin()->empty() && own == constraints_[b].bounded;
+    const std::set<std::string>& bounded = constraints_[a].bounded;
+    return bounded.size() == 1 && !bounded.begin()->empty() && bounded == constraints_[b].bounded;
   }
 
   static void add_new(const std::vector<Vanishing>& from, std::vector<Vanishing>& to) {
@@ -163,11 +166,11 @@ class Arrangement {
     PreloadEvent event;
     event.alone = chosen.size() == 1;
     for (const std::size_t c : chosen) {
-      const PreloadEvent& own = constraints_[c].event;
-      add_new(own.vanishing, event.vanishing);
-      add_new(own.bounded, event.bounded);
-      event.words.insert(event.words.end(), own.words.begin(), own.words.end());
-      event.infinite = event.infinite || own.infinite;
+      const PreloadEvent& preload_event = constraints_[c].event;
+      add_new(preload_event.vanishing, event.vanishing);
+      add_new(preload_event.bounded, event.bounded);
+      event.words.insert(event.words.end(), preload_event.words.begin(), preload_event.words.end());
+      event.infinite = event.infinite || preload_event.infinite;
     }
     return event;
   }
@@ -177,8 +180,8 @@ class Arrangement {
     PreloadEvent event = event_of(chosen);
     if (!product) {
       std::string names;
-      for (const Vanishing& own : event.vanishing)
-        names += (names.empty() ? "" : ", ") + core::to_string(own.quantity) + "_" + own.joint;
+      for (const Vanishing& vanishing : event.vanishing)
+        names += (names.empty() ? "" : ", ") + core::to_string(vanishing.quantity) + "_" + vanishing.joint;
       result_.left_out.push_back(std::move(names));
       return;
     }
@@ -270,39 +273,39 @@ class Arrangement {
   /// With one effort free, constraints that meet others at one effort meet each other there.
   void merge_factors() {
     for (const Found& found : found_) {
-      auto known = std::find_if(result_.factors.begin(), result_.factors.end(),
-                                [&](const PreloadFactor& own) { return own.natural == found.factor; });
-      if (known == result_.factors.end()) {
+      auto same_factor = std::find_if(result_.factors.begin(), result_.factors.end(),
+                                      [&](const PreloadFactor& factor) { return factor.natural == found.factor; });
+      if (same_factor == result_.factors.end()) {
         result_.factors.push_back({found.factor, {}});
         sets_.emplace_back();
-        known = std::prev(result_.factors.end());
+        same_factor = std::prev(result_.factors.end());
       }
       if (found.alone)
-        add_alone(known->events, *found.alone);
+        add_alone(same_factor->events, *found.alone);
       else
-        join(sets_[static_cast<std::size_t>(known - result_.factors.begin())], found.constraints);
+        join(sets_[static_cast<std::size_t>(same_factor - result_.factors.begin())], found.constraints);
     }
     for (std::size_t f = 0; f < sets_.size(); ++f)
-      for (const std::set<std::size_t>& own : sets_[f])
-        result_.factors[f].events.push_back(event_of({own.begin(), own.end()}));
+      for (const std::set<std::size_t>& joined : sets_[f])
+        result_.factors[f].events.push_back(event_of({joined.begin(), joined.end()}));
   }
 
   static void add_alone(std::vector<PreloadEvent>& events, const PreloadEvent& event) {
-    if (std::none_of(events.begin(), events.end(), [&](const PreloadEvent& own) {
-          return own.vanishing == event.vanishing && own.words == event.words;
+    if (std::none_of(events.begin(), events.end(), [&](const PreloadEvent& preload_event) {
+          return preload_event.vanishing == event.vanishing && preload_event.words == event.words;
         }))
       events.push_back(event);
   }
 
   void join(std::vector<std::set<std::size_t>>& sets, const std::vector<std::size_t>& constraints) const {
-    std::set<std::size_t> own(constraints.begin(), constraints.end());
+    std::set<std::size_t> merged(constraints.begin(), constraints.end());
     if (efforts_ == 1)
       std::erase_if(sets, [&](const std::set<std::size_t>& other) {
-        const bool meets = std::any_of(other.begin(), other.end(), [&](std::size_t c) { return own.contains(c); });
-        if (meets) own.insert(other.begin(), other.end());
+        const bool meets = std::any_of(other.begin(), other.end(), [&](std::size_t c) { return merged.contains(c); });
+        if (meets) merged.insert(other.begin(), other.end());
         return meets;
       });
-    sets.push_back(std::move(own));
+    sets.push_back(std::move(merged));
   }
 
   static constexpr double most_terms = 4e6;
@@ -343,22 +346,23 @@ PreloadRow infinite_row(std::size_t efforts, const FactoredPoly& determinant) {
   return {{1, {}}, std::vector<FactoredPoly>(efforts), determinant};
 }
 
-PreloadRow bound_row(std::size_t efforts, std::size_t own, const Rational& bound, const FactoredPoly& determinant) {
+PreloadRow bound_row(std::size_t efforts, std::size_t effort, const Rational& bound, const FactoredPoly& determinant) {
   PreloadRow row{{-bound, {}}, std::vector<FactoredPoly>(efforts), determinant};
-  row.efforts[own] = {1, {}};
+  row.efforts[effort] = {1, {}};
   return row;
 }
 
 PreloadDeterminants preload_determinants(const Ring& ring, const FactoredPoly& determinant, std::size_t efforts,
                                          const std::vector<PreloadConstraint>& constraints) {
   Arrangement all(ring, determinant, efforts);
-  for (const PreloadConstraint& own : constraints) all.add(own);
+  for (const PreloadConstraint& constraint : constraints) all.add(constraint);
   return all.run();
 }
 
 std::string words_of(const PreloadEvent& event, const std::string& motors, std::size_t efforts) {
   std::vector<std::string> names;
-  for (const Vanishing& own : event.vanishing) names.push_back(core::to_string(own.quantity) + "_" + own.joint);
+  for (const Vanishing& vanishing : event.vanishing)
+    names.push_back(core::to_string(vanishing.quantity) + "_" + vanishing.joint);
   const bool one = names.size() == 1;
   if (event.infinite && efforts == 1)
     return listed(names) + (one ? " does" : " do") + " not depend on the effort of " + motors;

@@ -34,7 +34,7 @@ struct PreloadConstraint {
 
 /// Of a number of rows, as of constraints: an effort without bound, one at a bound, one that has backlash itself.
 PreloadRow infinite_row(std::size_t efforts, const FactoredPoly& determinant);
-PreloadRow bound_row(std::size_t efforts, std::size_t own, const core::Rational& bound,
+PreloadRow bound_row(std::size_t efforts, std::size_t effort, const core::Rational& bound,
                      const FactoredPoly& determinant);
 
 /// What of an effort's choice ends where a factor vanishes.

@@ -104,7 +104,7 @@ class Demands {
 
   const mechanism::Joint& joint_of(const std::string& name) const {
     return *std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
-                         [&](const mechanism::Joint& own) { return own.name == name; });
+                         [&](const mechanism::Joint& joint) { return joint.name == name; });
   }
 
   /// The least size of what has one component.
@@ -140,10 +140,10 @@ class Demands {
   }
 
   std::optional<PreloadRow> row_at(std::size_t reaction, const Rational& size) const {
-    const std::vector<const FactoredPoly*> own = numerators(reaction);
+    const std::vector<const FactoredPoly*> polynomials = numerators(reaction);
     const Ring& ring = geometry_.ring();
     const Reaction& what = columns_.reactions.front()[reaction];
-    const Poly load = own.front()->is_zero() ? Poly(ring) : expanded(*own.front(), ring);
+    const Poly load = polynomials.front()->is_zero() ? Poly(ring) : expanded(*polynomials.front(), ring);
     Poly unit = expanded(determinant_, ring);
     if (what.quantity != Quantity::M) {
       const mechanism::Joint& joint = joint_of(what.joint);
@@ -154,7 +154,7 @@ class Demands {
         unit = unit * squared_axis(geometry_, joint);
     }
     const FactoredPoly beyond = factored(load - unit.scaled(size), determinant_.factors);
-    std::vector<const FactoredPoly*> columns = own;
+    std::vector<const FactoredPoly*> columns = polynomials;
     columns.front() = &beyond;
     return preload_row(columns);
   }
@@ -198,20 +198,20 @@ class Demands {
     if (const auto& within = joint.free_effort->within) {
       for (const Rational& bound : {within->first, within->second})
         result_.push_back({{at(bound)}, {}, words_at(joint, bound), false, core::Vanishing{joint.name, quantity, 1}});
-    } else if (std::none_of(result_.begin(), result_.end(), [](const auto& own) { return own.infinite; })) {
+    } else if (std::none_of(result_.begin(), result_.end(), [](const auto& candidate) { return candidate.infinite; })) {
       result_.push_back({{infinite_row(efforts(), determinant_)}, {}, "", true});
     }
     if (!joint.clearance || !contains(demanded_.joints, joint.name) || !wanted(quantity)) return;
     if (mechanism::value_of(force ? joint.clearance->axial : joint.clearance->angular, mechanism_) == 0) return;
-    const core::Vanishing own{joint.name, quantity, 1};
+    const core::Vanishing vanishing{joint.name, quantity, 1};
     const std::optional<Rational> least = least_of(joint.name, quantity);
     if (!least || *least == 0) {
-      result_.push_back({{at(0)}, {own}});
+      result_.push_back({{at(0)}, {vanishing}});
       return;
     }
     const Rational size = *least * (force ? Rational(1) : scale);
     for (const Rational& end : {size, Rational(-size)})
-      result_.push_back({{at(end)}, {}, words_at(own, end), false, own});
+      result_.push_back({{at(end)}, {}, words_at(vanishing, end), false, vanishing});
   }
 
   const Geometry& geometry_;
@@ -246,9 +246,9 @@ PreloadColumns preload_columns(const Geometry& geometry, const Elimination& elim
 std::vector<Reaction> at_every_effort(const PreloadColumns& columns) {
   std::vector<Reaction> contents = columns.reactions.front();
   for (std::size_t i = 0; i < contents.size(); ++i) {
-    std::vector<const FactoredPoly*> own;
-    for (const std::vector<Reaction>& column : columns.reactions) own.push_back(&column[i].numerator);
-    contents[i].numerator = preload_row(own).content;
+    std::vector<const FactoredPoly*> polynomials;
+    for (const std::vector<Reaction>& column : columns.reactions) polynomials.push_back(&column[i].numerator);
+    contents[i].numerator = preload_row(polynomials).content;
   }
   return contents;
 }
@@ -257,8 +257,8 @@ bool is_singular_by_choice(const PreloadColumns& columns, const Mechanism& mecha
                            bool controlled) {
   for (std::size_t e = 0; e < columns.joints.size(); ++e) {
     if (!controlled && !mechanism::is_cable(mechanism.joints[static_cast<std::size_t>(columns.joints[e])])) continue;
-    for (const Reaction& own : columns.reactions[e + 1])
-      if (!own.numerator.is_zero() && own.numerator.multiplicity(factor) == 0) return true;
+    for (const Reaction& reaction : columns.reactions[e + 1])
+      if (!reaction.numerator.is_zero() && reaction.numerator.multiplicity(factor) == 0) return true;
   }
   return false;
 }

@@ -50,15 +50,15 @@ std::vector<std::array<core::Rational, 3>> span_of(const Geometry& geometry, con
     for (const core::Term& term : geometry.poly(u[c]).plain().terms) coefficients[term.exponents][c] = term.coefficient;
   std::vector<std::array<core::Rational, 3>> independent;
   std::vector<std::size_t> pivots;
-  for (auto& [exponents, own] : coefficients) {
+  for (auto& [exponents, row] : coefficients) {
     for (std::size_t i = 0; i < independent.size(); ++i) {
-      const core::Rational times = own[pivots[i]] / independent[i][pivots[i]];
-      for (std::size_t c = 0; c < 3; ++c) own[c] -= times * independent[i][c];
+      const core::Rational times = row[pivots[i]] / independent[i][pivots[i]];
+      for (std::size_t c = 0; c < 3; ++c) row[c] -= times * independent[i][c];
     }
-    const auto pivot = std::find_if(own.begin(), own.end(), [](const core::Rational& value) { return value != 0; });
-    if (pivot == own.end()) continue;
-    independent.push_back(own);
-    pivots.push_back(static_cast<std::size_t>(pivot - own.begin()));
+    const auto pivot = std::find_if(row.begin(), row.end(), [](const core::Rational& value) { return value != 0; });
+    if (pivot == row.end()) continue;
+    independent.push_back(row);
+    pivots.push_back(static_cast<std::size_t>(pivot - row.begin()));
   }
   return independent;
 }
@@ -137,10 +137,10 @@ AcrossPin across_pin(const Geometry& geometry, const mechanism::Joint& joint) {
   const std::vector<std::array<core::Rational, 3>> span = span_of(geometry, u);
   AcrossPin across;
   if (span.size() == 1) {
-    const std::array<core::Rational, 3>& own = span.front();
-    const std::size_t k = own[0] != 0 ? 0 : own[1] != 0 ? 1 : 2, i = k == 0 ? 1 : 0;
-    across.first[i] = geometry.expression(core::Expression::number(own[k]));
-    across.first[k] = geometry.expression(core::Expression::number(-own[i]));
+    const std::array<core::Rational, 3>& values = span.front();
+    const std::size_t k = values[0] != 0 ? 0 : values[1] != 0 ? 1 : 2, i = k == 0 ? 1 : 0;
+    across.first[i] = geometry.expression(core::Expression::number(values[k]));
+    across.first[k] = geometry.expression(core::Expression::number(-values[i]));
   } else if (span.size() == 2) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;

@@ -139,17 +139,17 @@ std::optional<std::string> what_bends(const Geometry& geometry, const Eliminatio
   const mechanism::Mechanism& m = geometry.mechanism();
   const std::vector<mechanism::PosturePoints> postures = postures_of(geometry, sides);
   if (postures.empty()) return std::nullopt;  // nothing of the sheet is in the box
-  const auto kept = [&](const auto& own) {
+  const auto kept = [&](const auto& candidate) {
     return std::all_of(postures.begin(), postures.end(),
-                       [&](const mechanism::PosturePoints& points) { return mechanism::keeps(own, points); });
+                       [&](const mechanism::PosturePoints& points) { return mechanism::keeps(candidate, points); });
   };
-  for (const HeldDistance& own : held.distances)
-    if (!kept(own) ||
-        (!is_constant(geometry, elimination, squared_distance(geometry, own)) && !stands_for_irrational(m)))
-      return "the " + mechanism::words_of(m, own) + " changes";
+  for (const HeldDistance& distance : held.distances)
+    if (!kept(distance) ||
+        (!is_constant(geometry, elimination, squared_distance(geometry, distance)) && !stands_for_irrational(m)))
+      return "the " + mechanism::words_of(m, distance) + " changes";
   // Constants on the sheet, since the distances are.
-  for (const HeldTurn& own : held.turns)
-    if (!kept(own)) return "the " + mechanism::words_of(m, own) + " is the other one";
+  for (const HeldTurn& turn : held.turns)
+    if (!kept(turn)) return "the " + mechanism::words_of(m, turn) + " is the other one";
   return std::nullopt;
 }
 

@@ -328,9 +328,9 @@ std::vector<PolyFactor> Poly::factors(Rational& constant) const {
   fmpq_mpoly_get_term_coeff_fmpq(leading.get(), value_, 0, ring_->context());
   constant = leading.rational();
   for (const PolyFactor& factor : result) {
-    Fmpq own;
-    fmpq_mpoly_get_term_coeff_fmpq(own.get(), factor.poly.value_, 0, ring_->context());
-    for (int i = 0; i < factor.multiplicity; ++i) constant /= own.rational();
+    Fmpq fraction;
+    fmpq_mpoly_get_term_coeff_fmpq(fraction.get(), factor.poly.value_, 0, ring_->context());
+    for (int i = 0; i < factor.multiplicity; ++i) constant /= fraction.rational();
   }
   return result;
 }

@@ -79,8 +79,8 @@ std::optional<Residue> root_of(const std::vector<unsigned long>& coefficients) {
 SharedCurves::SharedCurves(const Geometry& geometry) : geometry_(geometry) {}
 
 const SharedCurves::Reduced& SharedCurves::reduced(const Poly& p) {
-  for (const auto& [known, result] : known_)
-    if (known == p) return result;
+  for (const auto& [other, result] : known_)
+    if (other == p) return result;
   Reduced result;
   for (const core::Term& term : p.plain().terms) {
     result.coefficients.push_back(residue(term.coefficient));
@@ -95,13 +95,13 @@ Extension::Element SharedCurves::value(const Reduced& p, const Point& point) {
   const Extension& field = point.field;
   std::map<std::pair<int, int>, Extension::Element> powers;
   const auto power_of = [&](const std::pair<int, int>& factor) -> const Extension::Element& {
-    const auto [known, fresh] = powers.try_emplace(factor);
+    const auto [found, fresh] = powers.try_emplace(factor);
     if (fresh) {
-      known->second = Extension::number({1, 0});
+      found->second = Extension::number({1, 0});
       for (int k = 0; k < factor.second; ++k)
-        known->second = field.multiply(known->second, point.at[static_cast<std::size_t>(factor.first)]);
+        found->second = field.multiply(found->second, point.at[static_cast<std::size_t>(factor.first)]);
     }
-    return known->second;
+    return found->second;
   };
   Extension::Element total = Extension::number({});
   for (std::size_t i = 0; i < p.coefficients.size(); ++i) {
@@ -133,16 +133,17 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
   Point first;
   for (const Residue& coordinate : start) first.at.push_back(Extension::number(coordinate));
   Fibre points = {std::move(first)};
-  for (const TowerRoot& own : geometry_.roots()) {
-    const auto variable = static_cast<std::size_t>(own.variable);
+  for (const TowerRoot& tower_root : geometry_.roots()) {
+    const auto variable = static_cast<std::size_t>(tower_root.variable);
     Fibre next;
     for (Point& point : points) {
-      if (own.is_angle()) {  // depends on nothing algebraic: any value
-        point.at[variable] = Extension::number({scattered(seed * 8UL + static_cast<unsigned long>(own.variable)), 0});
+      if (tower_root.is_angle()) {  // depends on nothing algebraic: any value
+        point.at[variable] =
+            Extension::number({scattered(seed * 8UL + static_cast<unsigned long>(tower_root.variable)), 0});
         next.push_back(std::move(point));
         continue;
       }
-      const Extension::Element square = value(reduced(own.square), point);
+      const Extension::Element square = value(reduced(tower_root.square), point);
       const std::optional<Residue> root_there = square.size() == 1 ? square_root(square[0]) : std::nullopt;
       if (!root_there) {
         point.at[variable] = point.field.adjoin(square);
@@ -180,8 +181,8 @@ bool SharedCurves::place(Point& point) {
 }
 
 const std::optional<SharedCurves::Fibre>& SharedCurves::fibre_of(const Poly& curve) {
-  for (const auto& [known, result] : fibres_)
-    if (known == curve) return result;
+  for (const auto& [other, result] : fibres_)
+    if (other == curve) return result;
   std::optional<Fibre> found;
   // With one coordinate the curve is a few points: there is one line only.
   const unsigned lines = geometry_.coordinates() == 1 ? 1 : lines_tried;

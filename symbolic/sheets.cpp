@@ -54,7 +54,7 @@ std::vector<BentMode> leave_rigid(const mechanism::Mechanism& mechanism, std::ve
       return std::find(sheet.modes.begin(), sheet.modes.end(), sides) != sheet.modes.end();
     };
     if (std::any_of(sheets.begin(), sheets.end(), is_held)) continue;
-    const auto why = std::find_if(bent.begin(), bent.end(), [&](const BentMode& own) { return own.sides == sides; });
+    const auto why = std::find_if(bent.begin(), bent.end(), [&](const BentMode& mode) { return mode.sides == sides; });
     if (why != bent.end()) lost.push_back(*why);
   }
   return lost;

@@ -67,8 +67,8 @@ class Conditions {
   }
 
   void add(const TaskDemand& demand) {
-    const Demanded own = parts_of(demand, result_.loads + result_.directions);
-    const Parts& parts = own.parts;
+    const Demanded demanded = parts_of(demand, result_.loads + result_.directions);
+    const Parts& parts = demanded.parts;
     TaskCondition condition;
     condition.reactions = {{demand.joint, demand.quantity, 1}};
     condition.least = demand.least;
@@ -82,19 +82,19 @@ class Conditions {
     for (std::size_t i = 0; i < result_.loads && !parts.front().empty(); ++i)
       if (std::all_of(parts[i].begin(), parts[i].end(), [](const FactoredPoly& p) { return p.is_zero(); }))
         condition.unloaded.push_back(static_cast<int>(i));
-    if (condition.unloaded.empty()) fill(condition, own);
+    if (condition.unloaded.empty()) fill(condition, demanded);
     put(std::move(condition), result_.conditions);
   }
 
   /// A reaction that takes up a clearance; of one that nothing loads nothing is asked.
   void add_take_up(TaskDemand demand) {
     demand.least = 1;  // so that D is known
-    const Demanded own = parts_of(demand, reactions_.size());
-    if (own.parts.front().empty()) return;
+    const Demanded demanded = parts_of(demand, reactions_.size());
+    if (demanded.parts.front().empty()) return;
     TaskCondition condition;
     condition.reactions = {{demand.joint, demand.quantity, 1}};
     condition.least = demand.least;
-    fill(condition, own);
+    fill(condition, demanded);
     put(std::move(condition), result_.take_ups);
   }
 
@@ -128,10 +128,10 @@ class Conditions {
     Demanded result;
     std::vector<std::vector<FactoredPoly>> found;  // load by load
     for (std::size_t i = 0; i < many; ++i) {
-      std::vector<FactoredPoly>& own = found.emplace_back();
+      std::vector<FactoredPoly>& functions = found.emplace_back();
       if (demand.quantity == Quantity::f && !guide) {
         PressingForce pressing = pressing_force(geometry_, reactions_[i], joint, determinant_);
-        own = std::move(pressing.parts);
+        functions = std::move(pressing.parts);
         result.squared_axis = std::move(pressing.squared);
       } else {
         const std::vector<Quantity> quantities = demand.quantity == Quantity::f
@@ -139,10 +139,10 @@ class Conditions {
                                                      : std::vector{demand.quantity};
         for (const Quantity quantity : quantities) {
           const FactoredPoly* const part = numerator(reactions_[i], demand.joint, quantity);
-          own.push_back(part == nullptr ? FactoredPoly{} : *part);
+          functions.push_back(part == nullptr ? FactoredPoly{} : *part);
         }
       }
-      for (FactoredPoly& part : own)
+      for (FactoredPoly& part : functions)
         if (vanishes(part)) part = {};
     }
     const bool planar = mechanism_.space == mechanism::Space::planar;
@@ -152,7 +152,8 @@ class Conditions {
     // Components that are zero whatever the pose and the load say nothing.
     result.parts.resize(many);
     for (std::size_t c = 0; c < found.front().size(); ++c) {
-      if (std::all_of(found.begin(), found.end(), [&](const auto& own) { return own[c].is_zero(); })) continue;
+      if (std::all_of(found.begin(), found.end(), [&](const auto& candidate) { return candidate[c].is_zero(); }))
+        continue;
       for (std::size_t i = 0; i < many; ++i) result.parts[i].push_back(std::move(found[i][c]));
     }
     return result;
@@ -166,23 +167,23 @@ class Conditions {
     const std::optional<Rational> length = constant ? rational_root(*constant) : std::nullopt;
     const FactoredPoly by = length ? FactoredPoly{per_axis ? *length : 1 / *length, {}}
                                    : (per_axis ? factored(square, determinant_.factors) : FactoredPoly{1, {}});
-    for (std::vector<FactoredPoly>& own : found)
-      for (FactoredPoly& part : own)
+    for (std::vector<FactoredPoly>& polynomials : found)
+      for (FactoredPoly& part : polynomials)
         if (!part.is_zero()) multiply(part, by);
     if (!length) result.squared_axis = std::move(square);
   }
 
   /// What several joints bear alike is one condition.
   static void put(TaskCondition condition, std::vector<TaskCondition>& list) {
-    const auto known = std::find_if(list.begin(), list.end(), [&](const TaskCondition& c) {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const TaskCondition& c) {
       return condition.unloaded.empty() && c.unloaded.empty() && c.least == condition.least &&
              c.factors == condition.factors && c.parts == condition.parts && c.directions == condition.directions &&
              c.denominator == condition.denominator && c.squared_axis == condition.squared_axis;
     });
-    if (known == list.end())
+    if (found == list.end())
       list.push_back(std::move(condition));
     else
-      known->reactions.push_back(condition.reactions.front());
+      found->reactions.push_back(condition.reactions.front());
   }
 
   /// What the ends of a guide bear, of the last load's reactions. Where the axis has no constant length |u| the ring's
@@ -259,20 +260,20 @@ class Conditions {
 
   /// product / unit.
   int function_of(const FactoredPoly& product, const Rational& unit) {
-    FactoredPoly own = product;
-    own.constant /= unit;
-    const auto same = [&](const Known& known) {
-      return known.product.constant == own.constant &&
-             std::equal(known.product.factors.begin(), known.product.factors.end(), own.factors.begin(),
-                        own.factors.end(), [](const PolyFactor& a, const PolyFactor& b) {
+    FactoredPoly polynomial = product;
+    polynomial.constant /= unit;
+    const auto same = [&](const Known& function) {
+      return function.product.constant == polynomial.constant &&
+             std::equal(function.product.factors.begin(), function.product.factors.end(), polynomial.factors.begin(),
+                        polynomial.factors.end(), [](const PolyFactor& a, const PolyFactor& b) {
                           return a.multiplicity == b.multiplicity && a.poly == b.poly;
                         });
     };
-    const auto known = std::find_if(known_.begin(), known_.end(), same);
-    if (known != known_.end()) return known->function;
+    const auto found = std::find_if(known_.begin(), known_.end(), same);
+    if (found != known_.end()) return found->function;
     const int index = static_cast<int>(result_.functions.size());
-    result_.functions.push_back(lines_.of(own.constant, own.factors));
-    known_.push_back({std::move(own), index});
+    result_.functions.push_back(lines_.of(polynomial.constant, polynomial.factors));
+    known_.push_back({std::move(polynomial), index});
     return index;
   }
 
@@ -297,11 +298,11 @@ class Conditions {
     bool constant = true;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const auto& load = parts[i];
-      std::vector<int>& own = (i < result_.loads ? condition.parts : condition.directions).emplace_back();
+      std::vector<int>& functions = (i < result_.loads ? condition.parts : condition.directions).emplace_back();
       for (FactoredPoly part : load) {
         if (!part.is_zero()) multiply(part, size ? of_determinant : shared, -1);
         constant = constant && part.factors.empty();
-        own.push_back(function_of(part, unit));
+        functions.push_back(function_of(part, unit));
       }
     }
     // Of one component under one load nothing is left but its factors.

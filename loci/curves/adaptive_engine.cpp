@@ -86,9 +86,9 @@ IsWanted replacing(const LocusProblem& problem, const std::vector<SheetShare*>& 
     all.push_back({problem.modes[static_cast<std::size_t>(share->mode)], factor.role, factor.implicit});
   }
   return [all = std::move(all)](const LocusCurve& curve) {
-    return std::any_of(all.begin(), all.end(), [&](const Replaced& own) {
-      return curve.mode == own.mode && curve.kind == kind_of(own.role, curve.kind) &&
-             std::find(own.implicit.begin(), own.implicit.end(), curve.implicit) != own.implicit.end();
+    return std::any_of(all.begin(), all.end(), [&](const Replaced& replaced) {
+      return curve.mode == replaced.mode && curve.kind == kind_of(replaced.role, curve.kind) &&
+             std::find(replaced.implicit.begin(), replaced.implicit.end(), curve.implicit) != replaced.implicit.end();
     });
   };
 }
@@ -143,14 +143,14 @@ std::vector<Group> connected(const LocusProblem& problem, const Group& open) {
   };
   std::vector<Group> groups;
   for (SheetShare* share : open) {
-    Group own = {share};
+    Group exact_group = {share};
     for (Group& group : groups)
       if (has_common(group, share)) {
-        own.insert(own.end(), group.begin(), group.end());
+        exact_group.insert(exact_group.end(), group.begin(), group.end());
         group.clear();
       }
     std::erase_if(groups, [](const Group& group) { return group.empty(); });
-    groups.push_back(std::move(own));
+    groups.push_back(std::move(exact_group));
   }
   return groups;
 }
@@ -174,7 +174,7 @@ std::vector<Group> arrangements_of(const LocusProblem& problem, const Group& ope
   std::vector<Group> arrangements;
   for (Group& group : connected(problem, open)) {
     const auto other = std::find_if(arrangements.begin(), arrangements.end(),
-                                    [&](const Group& own) { return cost(group, own) <= context; });
+                                    [&](const Group& arrangement) { return cost(group, arrangement) <= context; });
     if (other == arrangements.end())
       arrangements.push_back(std::move(group));
     else
@@ -189,9 +189,9 @@ std::optional<LocusProblem> problem_of(const LocusProblem& problem, const Group&
   rest.factors.clear();
   rest.modes.clear();
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
-    const bool own = std::any_of(open.begin(), open.end(),
-                                 [&](const SheetShare* share) { return share->factor == static_cast<int>(f); });
-    if (!own && !is_context(problem.factors[f])) {
+    const bool is_open = std::any_of(open.begin(), open.end(),
+                                     [&](const SheetShare* share) { return share->factor == static_cast<int>(f); });
+    if (!is_open && !is_context(problem.factors[f])) {
       // Its curves are settled, or in another arrangement; its orders along those that are not may still count.
       if (problem.factors[f].role != FactorRole::reaction) continue;
       rest.factors.push_back(problem.factors[f]);
@@ -212,12 +212,12 @@ std::optional<LocusProblem> problem_of(const LocusProblem& problem, const Group&
 /// Points of the boundaries and singularities, and what is said of them, come with every arrangement.
 void take_points_and_notes(LocusMap& exact, LocusMap& map) {
   for (core::IsolatedPoint& point : exact.isolated_points) {
-    const bool known =
-        std::any_of(map.isolated_points.begin(), map.isolated_points.end(), [&](const core::IsolatedPoint& own) {
-          return own.mode == point.mode && own.kind == point.kind && own.vanishing == point.vanishing &&
-                 own.at == point.at;
+    const bool is_present = std::any_of(
+        map.isolated_points.begin(), map.isolated_points.end(), [&](const core::IsolatedPoint& isolated_point) {
+          return isolated_point.mode == point.mode && isolated_point.kind == point.kind &&
+                 isolated_point.vanishing == point.vanishing && isolated_point.at == point.at;
         });
-    if (!known) map.isolated_points.push_back(std::move(point));
+    if (!is_present) map.isolated_points.push_back(std::move(point));
   }
   for (std::string& note : exact.notes)
     if (std::find(map.notes.begin(), map.notes.end(), note) == map.notes.end()) map.notes.push_back(std::move(note));
@@ -230,9 +230,9 @@ void settle_exactly(const LocusProblem& problem, const TraceOptions& options, st
   for (const Group& open : arrangements_of(problem, bearable_open(problem, shares))) {
     if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
       throw core::LimitReached("the time limit was reached");
-    const std::optional<LocusProblem> own = problem_of(problem, open);
-    if (!own) return;
-    LocusMap exact = trace_exactly(*own, options, replacing(problem, open));
+    const std::optional<LocusProblem> locus_problem = problem_of(problem, open);
+    if (!locus_problem) return;
+    LocusMap exact = trace_exactly(*locus_problem, options, replacing(problem, open));
     if (exact.out_of_time) throw core::LimitReached("the time limit was reached");
     for (LocusCurve& curve : exact.curves) map.curves.push_back(std::move(curve));
     for (core::OpenRegion& region : exact.open) map.open.push_back(std::move(region));

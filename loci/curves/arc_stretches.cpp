@@ -53,10 +53,10 @@ std::vector<Point2> stretch_samples(const core::RootTower& tower, const core::Wo
   double largest = 0;
   for (const auto& values : squares) largest = std::max(largest, *std::max_element(values.begin(), values.end()));
   for (const auto& values : squares) {
-    const double own = *std::max_element(values.begin(), values.end());
-    if (own <= zero_all_along * largest) continue;
+    const double value = *std::max_element(values.begin(), values.end());
+    if (value <= zero_all_along * largest) continue;
     for (std::size_t i = 1; i + 1 < n; ++i)
-      if (values[i] <= close_to_zero * own && values[i] <= values[i - 1] && values[i] <= values[i + 1])
+      if (values[i] <= close_to_zero * value && values[i] <= values[i - 1] && values[i] <= values[i + 1])
         cuts.push_back(i);
   }
   std::sort(cuts.begin(), cuts.end());

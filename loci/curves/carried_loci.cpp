@@ -47,7 +47,7 @@ class Carrying {
     for (const core::LocusCurve& curve : last_.curves) map.curves.push_back(carried(curve));
     for (const core::LocusSurface& surface : last_.surfaces) map.surfaces.push_back(carried(surface));
     for (const core::IsolatedPoint& point : last_.isolated_points)
-      if (auto own = carried(point)) map.isolated_points.push_back(std::move(*own));
+      if (auto point_now = carried(point)) map.isolated_points.push_back(std::move(*point_now));
     for (const core::WorkspaceRegion& region : last_.workspace) map.workspace.push_back(carried(region));
     return map;
   }
@@ -55,23 +55,23 @@ class Carrying {
  private:
   /// Of a mode of the last map those of each problem: roots that a problem alone has are positive.
   std::vector<CarriedSheet*> sheets_of(const core::WorkingMode& mode) {
-    auto [known, fresh] = sheets_.try_emplace(mode);
+    auto [found, fresh] = sheets_.try_emplace(mode);
     if (fresh)
       for (const LocusProblem* const problem : problems_) {
-        core::WorkingMode own;
+        core::WorkingMode working_mode;
         for (const core::RootNames& root : core::names_of(problem->tower).roots) {
           const auto& names = last_.tower.roots;
           const auto same = std::find_if(names.begin(), names.end(), [&](const core::RootNames& one) {
             return one.point == root.point && one.name == root.name && one.role == root.role;
           });
           const auto index = static_cast<std::size_t>(same - names.begin());
-          own.push_back(same != names.end() && index < mode.size() ? mode[index] : 1);
+          working_mode.push_back(same != names.end() && index < mode.size() ? mode[index] : 1);
         }
-        if (std::find(problem->modes.begin(), problem->modes.end(), own) != problem->modes.end())
-          known->second.push_back(std::make_unique<CarriedSheet>(*problem, std::move(own)));
+        if (std::find(problem->modes.begin(), problem->modes.end(), working_mode) != problem->modes.end())
+          found->second.push_back(std::make_unique<CarriedSheet>(*problem, std::move(working_mode)));
       }
     std::vector<CarriedSheet*> list;
-    for (const auto& one : known->second) list.push_back(one.get());
+    for (const auto& one : found->second) list.push_back(one.get());
     return list;
   }
 
@@ -119,14 +119,14 @@ class Carrying {
     std::vector<Place> asked;
     for (const core::Arc& arc : last.arcs)
       for (Place& place : some_of(arc.points)) asked.push_back(std::move(place));
-    const std::vector<Target> own = targets(last.mode, {last.kind, last.vanishing, last.factor}, some_of(asked));
-    forget_design(curve, own);
+    const std::vector<Target> renamed = targets(last.mode, {last.kind, last.vanishing, last.factor}, some_of(asked));
+    forget_design(curve, renamed);
     curve.implicit = {};
     curve.closed_form = {};
     curve.variables.clear();
     curve.arcs.clear();
     for (const core::Arc& arc : last.arcs)
-      for (core::Arc& part : carried(arc, last.kind, own)) curve.arcs.push_back(std::move(part));
+      for (core::Arc& part : carried(arc, last.kind, renamed)) curve.arcs.push_back(std::move(part));
     return curve;
   }
 
@@ -240,16 +240,16 @@ class Carrying {
 
   core::LocusSurface carried(const core::LocusSurface& last) {
     core::LocusSurface surface = last;
-    const std::vector<Target> own =
+    const std::vector<Target> renamed =
         targets(last.mode, {last.kind, last.vanishing, last.factor}, some_of(last.vertices));
-    forget_design(surface, own);
+    forget_design(surface, renamed);
     surface.implicit = {};
     surface.variables.clear();
     surface.within_resolution = false;
     surface.open.clear();
     std::vector<bool> kept(last.vertices.size(), false);
     for (std::size_t k = 0; k < last.vertices.size(); ++k) {
-      const auto place = onto(own, Place(last.vertices[k].begin(), last.vertices[k].end()));
+      const auto place = onto(renamed, Place(last.vertices[k].begin(), last.vertices[k].end()));
       if (!place) continue;
       kept[k] = true;
       std::copy_n(place->begin(), 3, surface.vertices[k].begin());
@@ -289,7 +289,7 @@ class Carrying {
     core::WorkspaceRegion region = last;
     for (core::Polyline& ring : region.rings)
       for (Point2& at : ring)
-        if (const auto known = on_boundary_.find(at); known != on_boundary_.end()) at = known->second;
+        if (const auto found = on_boundary_.find(at); found != on_boundary_.end()) at = found->second;
     return region;
   }
 

@@ -41,10 +41,10 @@ bool vanishes_with(const LocusProblem& problem, const LocusFactor& factor, const
   if (all.empty() || factor.vanishing.empty()) return true;
   return std::any_of(all.begin(), all.end(), [&](const Vanishing& v) {
     const std::vector<core::Quantity> parts = core::force_components(problem, v.joint);
-    return std::any_of(factor.vanishing.begin(), factor.vanishing.end(), [&](const Vanishing& own) {
-      return own.joint == v.joint &&
-             (own.quantity == v.quantity ||
-              (v.quantity == core::Quantity::f && std::find(parts.begin(), parts.end(), own.quantity) != parts.end()));
+    return std::any_of(factor.vanishing.begin(), factor.vanishing.end(), [&](const Vanishing& vanishing) {
+      return vanishing.joint == v.joint && (vanishing.quantity == v.quantity ||
+                                            (v.quantity == core::Quantity::f &&
+                                             std::find(parts.begin(), parts.end(), vanishing.quantity) != parts.end()));
     });
   });
 }
@@ -82,15 +82,15 @@ Place CarriedSheet::outside(Place place) const {
 }
 
 sheet::SheetNewton& CarriedSheet::newton_for(const std::vector<int>& factors) {
-  std::unique_ptr<sheet::SheetNewton>& known = newtons_[factors];
-  if (known) return *known;
+  std::unique_ptr<sheet::SheetNewton>& newton = newtons_[factors];
+  if (newton) return *newton;
   std::vector<sheet::SheetFunction> functions;
   for (const int f : factors) {
     const LocusFactor& factor = problem_->factors[static_cast<std::size_t>(f)];
     functions.push_back({factor.sheet, factor.line});
   }
-  known = std::make_unique<sheet::SheetNewton>(problem_->tower, mode_, functions, sizes_);
-  return *known;
+  newton = std::make_unique<sheet::SheetNewton>(problem_->tower, mode_, functions, sizes_);
+  return *newton;
 }
 
 std::optional<Place> CarriedSheet::moved(Place place, const std::vector<int>& factors, std::span<const Held> held) {
@@ -163,11 +163,11 @@ std::vector<int> CarriedSheet::candidates(const LocusName& name) const {
 }
 
 int CarriedSheet::factor_of(const LocusName& name, const std::vector<Place>& places) {
-  const std::vector<int> own = candidates(name);
-  if (own.size() <= 1) return own.empty() ? -1 : own.front();
+  const std::vector<int> factors = candidates(name);
+  if (factors.size() <= 1) return factors.empty() ? -1 : factors.front();
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
-  for (const int f : own) {
+  for (const int f : factors) {
     std::vector<double> distances;
     for (const Place& place : places)
       if (const auto at = inside(place)) distances.push_back(newton_for({f}).distance(*at));

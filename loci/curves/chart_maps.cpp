@@ -76,17 +76,17 @@ class Unrolled {
 
   /// `open`: where vertices fail the last check (arc_check.hpp), and where chords bend more than is allowed since none
   /// was found between their ends.
-  Arc arc(int curve, const Arc& own, Polyline& open) {
+  Arc arc(int curve, const Arc& arc, Polyline& open) {
     const CurveProjection& onto = projections_.of(curve);
-    const auto [known, fresh] = checks_.try_emplace(curve);
-    if (fresh) known->second = checks_of(problem_, map_.curves[static_cast<std::size_t>(curve)]);
-    const OneCurve on{onto, known->second, open};
-    Arc result = own;
-    result.points = {place(own.points.front())};
-    if (!holds(on.checks, result.points.front(), own.ends[0])) open.push_back(result.points.front());
-    for (std::size_t k = 1; k < own.points.size(); ++k) {
-      append_curve(own.points[k - 1], own.points[k], pieces_of(own.points[k - 1], own.points[k]), on, result.points);
-      const ArcEnd end = k + 1 == own.points.size() ? own.ends[1] : ArcEnd::none;
+    const auto [found, fresh] = checks_.try_emplace(curve);
+    if (fresh) found->second = checks_of(problem_, map_.curves[static_cast<std::size_t>(curve)]);
+    const OneCurve on{onto, found->second, open};
+    Arc result = arc;
+    result.points = {place(arc.points.front())};
+    if (!holds(on.checks, result.points.front(), arc.ends[0])) open.push_back(result.points.front());
+    for (std::size_t k = 1; k < arc.points.size(); ++k) {
+      append_curve(arc.points[k - 1], arc.points[k], pieces_of(arc.points[k - 1], arc.points[k]), on, result.points);
+      const ArcEnd end = k + 1 == arc.points.size() ? arc.ends[1] : ArcEnd::none;
       if (!holds(on.checks, result.points.back(), end)) open.push_back(result.points.back());
     }
     return result;
@@ -153,15 +153,15 @@ class Unrolled {
 
   /// Whether a vertex over the angles, as it is handed out, passes the last check.
   bool holds(std::deque<ArcCheck>& checks, const Point2& at, ArcEnd end) const {
-    Point2 own = at, reach = {reach_, reach_};
+    Point2 point = at, reach = {reach_, reach_};
     for (std::size_t i = 0; i < 2; ++i) {
       if (!problem_.charts[i]) continue;
-      own[i] = core::parameter_at(*problem_.charts[i], at[i]);
-      reach[i] *= (1 + own[i] * own[i]) / 2;
+      point[i] = core::parameter_at(*problem_.charts[i], at[i]);
+      reach[i] *= (1 + point[i] * point[i]) / 2;
       reach[i] += std::numeric_limits<double>::epsilon();  // of what the tangent is rounded by
     }
     return checks.empty() ||
-           std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) { return check.holds(own, end, reach); });
+           std::any_of(checks.begin(), checks.end(), [&](ArcCheck& check) { return check.holds(point, end, reach); });
   }
 
   const LocusProblem& problem_;
@@ -352,12 +352,12 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   const double reach = vertex_reach(box[0], box[1]);
   std::vector<std::set<std::size_t>> charts_with;  // by curve of the joined map
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    Unrolled own(*charts[m], maps[m], tolerance, reach);
+    Unrolled unrolled_chart(*charts[m], maps[m], tolerance, reach);
     joined.complete = joined.complete && maps[m].complete;
     joined.out_of_time = joined.out_of_time || maps[m].out_of_time;
     for (core::OpenRegion region : maps[m].open) {
-      const Point2 from = own.place({region.lower[0], region.lower[1]});
-      const Point2 to = own.place({region.upper[0], region.upper[1]});
+      const Point2 from = unrolled_chart.place({region.lower[0], region.lower[1]});
+      const Point2 to = unrolled_chart.place({region.upper[0], region.upper[1]});
       region.lower = {from[0], from[1]};
       region.upper = {to[0], to[1]};
       joined.open.push_back(std::move(region));
@@ -366,49 +366,49 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
       if (std::find(joined.notes.begin(), joined.notes.end(), note) == joined.notes.end()) joined.notes.push_back(note);
     for (std::size_t c = 0; c < maps[m].curves.size(); ++c) {
       const LocusCurve& curve = maps[m].curves[c];
-      auto known = std::find_if(joined.curves.begin(), joined.curves.end(),
+      auto found = std::find_if(joined.curves.begin(), joined.curves.end(),
                                 [&](const LocusCurve& other) { return is_same(other, curve); });
       // Two curves of one factor have polynomials of their own, in every chart other ones: together they are one.
-      if (known == joined.curves.end() || charts.size() == 1) {
-        known = joined.curves.insert(joined.curves.end(), curve);
-        known->arcs.clear();
-        known->variables = charts[m]->tower.coordinates;
-        if (!own.keeps_closed_form(curve)) known->closed_form = {};
+      if (found == joined.curves.end() || charts.size() == 1) {
+        found = joined.curves.insert(joined.curves.end(), curve);
+        found->arcs.clear();
+        found->variables = charts[m]->tower.coordinates;
+        if (!unrolled_chart.keeps_closed_form(curve)) found->closed_form = {};
         charts_with.emplace_back();
       }
-      const auto index = static_cast<std::size_t>(known - joined.curves.begin());
+      const auto index = static_cast<std::size_t>(found - joined.curves.begin());
       charts_with[index].insert(m);
-      if (!(known->implicit == curve.implicit)) charts_with[index].insert(maps.size());  // of no single polynomial
-      known->certified = known->certified && curve.certified;
+      if (!(found->implicit == curve.implicit)) charts_with[index].insert(maps.size());  // of no single polynomial
+      found->certified = found->certified && curve.certified;
       Polyline open;
       for (const Arc& arc : curve.arcs) {
-        Arc unrolled = own.arc(static_cast<int>(c), arc, open);
+        Arc unrolled = unrolled_chart.arc(static_cast<int>(c), arc, open);
         const bool known_already = std::all_of(unrolled.points.begin(), unrolled.points.end(),
                                                [&](const Point2& p) { return on_seam(seams, p); }) &&
-                                   std::any_of(known->arcs.begin(), known->arcs.end(),
+                                   std::any_of(found->arcs.begin(), found->arcs.end(),
                                                [&](const Arc& other) { return is_within(unrolled, other); });
-        if (!known_already) known->arcs.push_back(std::move(unrolled));
+        if (!known_already) found->arcs.push_back(std::move(unrolled));
       }
       if (!open.empty()) {
-        known->certified = false;
+        found->certified = false;
         joined.notes.push_back(note_of_open(curve, open));
       }
     }
     for (core::IsolatedPoint point : maps[m].isolated_points) {
-      const Point2 at = own.place({point.at[0], point.at[1]});
+      const Point2 at = unrolled_chart.place({point.at[0], point.at[1]});
       point.at = {at[0], at[1]};
-      const bool known = std::any_of(
+      const bool is_present = std::any_of(
           joined.isolated_points.begin(), joined.isolated_points.end(), [&](const core::IsolatedPoint& other) {
             return other.kind == point.kind && other.vanishing == point.vanishing && other.mode == point.mode &&
                    distance({other.at[0], other.at[1]}, at) < same_place;
           });
-      if (!known) joined.isolated_points.push_back(std::move(point));
+      if (!is_present) joined.isolated_points.push_back(std::move(point));
     }
     for (const core::WorkspaceRegion& region : maps[m].workspace) {
-      auto known = std::find_if(joined.workspace.begin(), joined.workspace.end(),
+      auto found = std::find_if(joined.workspace.begin(), joined.workspace.end(),
                                 [&](const core::WorkspaceRegion& other) { return other.mode == region.mode; });
-      if (known == joined.workspace.end()) known = joined.workspace.insert(known, {region.mode, {}});
-      for (const Polyline& ring : region.rings) known->rings.push_back(own.ring(ring));
+      if (found == joined.workspace.end()) found = joined.workspace.insert(found, {region.mode, {}});
+      for (const Polyline& ring : region.rings) found->rings.push_back(unrolled_chart.ring(ring));
     }
   }
   for (std::size_t c = 0; c < joined.curves.size(); ++c) {

@@ -35,9 +35,9 @@ std::vector<IsolatedPoint> points_of(const std::vector<const LocusProblem*>& cha
     for (IsolatedPoint point : maps[i].isolated_points) {
       if (point.mode != mode) continue;
       point.at[0] = value(*charts[i], point.at[0]);
-      const bool known = std::any_of(points.begin(), points.begin() + others,
-                                     [&](const IsolatedPoint& other) { return is_same(other, point); });
-      if (!known) points.push_back(std::move(point));
+      const bool is_present = std::any_of(points.begin(), points.begin() + others,
+                                          [&](const IsolatedPoint& other) { return is_same(other, point); });
+      if (!is_present) points.push_back(std::move(point));
     }
   }
   std::stable_sort(points.begin(), points.end(),
@@ -48,17 +48,17 @@ std::vector<IsolatedPoint> points_of(const std::vector<const LocusProblem*>& cha
 /// The reachable intervals of a mode; those that end where charts meet run on.
 std::vector<ReachableInterval> reachable_of(const std::vector<const LocusProblem*>& charts,
                                             const std::vector<LocusMap>& maps, const core::WorkingMode& mode) {
-  std::vector<ReachableInterval> own;
+  std::vector<ReachableInterval> intervals;
   for (std::size_t i = 0; i < maps.size(); ++i)
     for (ReachableInterval interval : maps[i].reachable) {
       if (interval.mode != mode) continue;
       interval.from = value(*charts[i], interval.from);
       interval.to = value(*charts[i], interval.to);
-      own.push_back(std::move(interval));
+      intervals.push_back(std::move(interval));
     }
-  std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+  std::stable_sort(intervals.begin(), intervals.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
   std::vector<ReachableInterval> joined;
-  for (ReachableInterval& interval : own) {
+  for (ReachableInterval& interval : intervals) {
     if (maps.size() > 1 && !joined.empty() && std::abs(joined.back().to - interval.from) < same_angle)
       joined.back().to = interval.to;
     else

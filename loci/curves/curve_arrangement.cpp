@@ -256,9 +256,9 @@ void CurveArrangement::Implementation::add_sides() {
 
 /// The critical lines of a curve, and its isolated points.
 void CurveArrangement::Implementation::add_events(std::size_t curve) {
-  const Curve& own = analysed[curve];
-  for (int i = 0; i < own.number_of_status_lines_with_event(); ++i) {
-    const StatusLine& line = own.status_line_at_event(i);
+  const Curve& curve_data = analysed[curve];
+  for (int i = 0; i < curve_data.number_of_status_lines_with_event(); ++i) {
+    const StatusLine& line = curve_data.status_line_at_event(i);
     const Real x = line.x();
     if (!is_within(x)) continue;
     if (is_vertical(curve)) {
@@ -346,12 +346,12 @@ int CurveArrangement::Implementation::vertex_of(int node) {
   const int root = root_of(node);
   int& vertex = vertex_of_root[static_cast<std::size_t>(root)];
   if (vertex == -2) {
-    Vertex own{nodes[static_cast<std::size_t>(root)], {}};
-    own.rough = position(own.node, rough_bits);
+    Vertex vertex_between{nodes[static_cast<std::size_t>(root)], {}};
+    vertex_between.rough = position(vertex_between.node, rough_bits);
     vertex = -1;
-    if (in_box(own, slack)) {
+    if (in_box(vertex_between, slack)) {
       vertex = static_cast<int>(vertices.size());
-      vertices.push_back(std::move(own));
+      vertices.push_back(std::move(vertex_between));
     }
   }
   return vertex;
@@ -476,7 +476,9 @@ core::Point2 CurveArrangement::at(int vertex) const {
 }
 
 bool CurveArrangement::is_near(int vertex, const core::Point2& point, double distance) const {
-  const auto away = [&](const core::Point2& own) { return std::hypot(own[0] - point[0], own[1] - point[1]); };
+  const auto away = [&](const core::Point2& vertex_point) {
+    return std::hypot(vertex_point[0] - point[0], vertex_point[1] - point[1]);
+  };
   const core::Point2& rough = implementation_->vertices[static_cast<std::size_t>(vertex)].rough;
   return away(rough) < distance + 2 * Implementation::rough_error && away(at(vertex)) < distance;
 }

@@ -223,8 +223,9 @@ std::optional<Point2> CurveProjection::between(const Point2& a, const Point2& b)
 const CurveProjection& CurveProjections::of(int curve) {
   const auto found = known_.find(curve);
   if (found != known_.end()) return found->second;
-  const core::LocusCurve& own = map_->curves[static_cast<std::size_t>(curve)];
-  return known_.emplace(curve, CurveProjection(*problem_, own, factor_of(*problem_, own))).first->second;
+  const core::LocusCurve& locus_curve = map_->curves[static_cast<std::size_t>(curve)];
+  return known_.emplace(curve, CurveProjection(*problem_, locus_curve, factor_of(*problem_, locus_curve)))
+      .first->second;
 }
 
 const core::LocusFactor* factor_of(const core::LocusProblem& problem, const core::LocusCurve& curve) {

@@ -32,7 +32,7 @@ struct TraceOptions {
   core::Certificate* certificate = nullptr;
   /// Of a problem that is traced again with another tolerance and nothing else changed: what the adaptive engine has
   /// found that does not depend on it; may be null.
-  sheet::KnownSearches* known = nullptr;
+  sheet::KnownSearches* searches = nullptr;
 };
 
 struct Found {

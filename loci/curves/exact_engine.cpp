@@ -36,11 +36,11 @@ struct CurveList {
 CurveList distinct_curves(const LocusProblem& problem) {
   CurveList list;
   for (const core::LocusFactor& factor : problem.factors) {
-    auto& own = list.of_factor.emplace_back();
+    auto& indices = list.of_factor.emplace_back();
     for (const core::Polynomial& p : factor.implicit) {
-      const auto known = std::find(list.curves.begin(), list.curves.end(), p);
-      own.push_back(static_cast<int>(known - list.curves.begin()));
-      if (known == list.curves.end()) list.curves.push_back(p);
+      const auto found = std::find(list.curves.begin(), list.curves.end(), p);
+      indices.push_back(static_cast<int>(found - list.curves.begin()));
+      if (found == list.curves.end()) list.curves.push_back(p);
     }
   }
   return list;
@@ -206,8 +206,9 @@ class ExactTrace {
 
   bool owned_by(int curve, FactorRole role) const {
     for (std::size_t f = 0; f < problem_.factors.size(); ++f) {
-      const auto& own = list_.of_factor[f];
-      if (problem_.factors[f].role == role && std::find(own.begin(), own.end(), curve) != own.end()) return true;
+      const auto& indices = list_.of_factor[f];
+      if (problem_.factors[f].role == role && std::find(indices.begin(), indices.end(), curve) != indices.end())
+        return true;
     }
     return false;
   }
@@ -215,10 +216,10 @@ class ExactTrace {
   void trace_mode(const WorkingMode& mode) {
     const std::vector<EdgeInMode> edges = label_edges(problem_, mode, arrangement_, list_.of_factor, signs_, sheets_);
     VertexMarks marks = mark_vertices(edges);
-    const std::size_t known = map_.isolated_points.size();
+    const std::size_t count_before = map_.isolated_points.size();
     add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, cones_, map_);
     // Where the sheet ends in a point that is a direct singularity too, that is the graver of the two.
-    for (std::size_t i = known; i < map_.isolated_points.size(); ++i) {
+    for (std::size_t i = count_before; i < map_.isolated_points.size(); ++i) {
       const core::IsolatedPoint& point = map_.isolated_points[i];
       if (const Point2 at = {point.at[0], point.at[1]}; point.kind == LocusKind::direct_singularity && is_cone(at))
         mark_at(at, marks.direct_singularity);
@@ -258,8 +259,8 @@ class ExactTrace {
       curve.excited = group.label.excited;
       if (is_wanted_ && !is_wanted_(curve)) continue;
       const bool ends_on_singularities = curve.kind < LocusKind::direct_singularity;
-      const VertexMarks own = without_boundary_of(group.curve, marks, edges);
-      for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, own, ends_on_singularities)) {
+      const VertexMarks vertex_marks = without_boundary_of(group.curve, marks, edges);
+      for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, vertex_marks, ends_on_singularities)) {
         Traced traced = polyline(walk, curve.closed_form);
         if (traced.length <= shortest_arc * scale()) continue;
         curve.arcs.push_back({walk.closed, walk.ends, traced.length, std::move(traced.points)});
@@ -273,8 +274,8 @@ class ExactTrace {
   void leave_edge_open(int edge, const WorkingMode& mode) {
     const int index = arrangement_.edges()[static_cast<std::size_t>(edge)].curve;
     for (std::size_t f = 0; f < problem_.factors.size(); ++f) {
-      const auto& own = list_.of_factor[f];
-      if (std::find(own.begin(), own.end(), index) == own.end()) continue;
+      const auto& indices = list_.of_factor[f];
+      if (std::find(indices.begin(), indices.end(), index) == indices.end()) continue;
       const EdgeLabel label = widest_label(problem_, f);
       LocusCurve curve;
       curve.kind = label.kind;
@@ -332,8 +333,9 @@ LocusMap trace_without_limit(const LocusProblem& problem, const TraceOptions& op
 LocusMap trace_exactly(const LocusProblem& problem, const TraceOptions& options, const IsWanted& is_wanted) {
   if (!options.deadline) return trace_without_limit(problem, options, is_wanted);
   // No progress: who shows it may be gone before the engine is.
-  const TraceOptions own = {.engine = options.engine, .deadline = options.deadline};
-  return within(*options.deadline, [problem, own, is_wanted] { return trace_without_limit(problem, own, is_wanted); });
+  const TraceOptions trace_options = {.engine = options.engine, .deadline = options.deadline};
+  return within(*options.deadline,
+                [problem, trace_options, is_wanted] { return trace_without_limit(problem, trace_options, is_wanted); });
 }
 
 Found find_exactly(const LocusProblem& problem, const TraceOptions& options) {

@@ -124,9 +124,10 @@ bool ends_on_singularity(const LocusMap& map, const WorkingMode& mode, const cor
 }
 
 bool names_all(const std::vector<core::Vanishing>& list, const std::vector<core::Vanishing>& wanted) {
-  return std::all_of(wanted.begin(), wanted.end(), [&](const core::Vanishing& own) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const core::Vanishing& v) { return v.joint == own.joint && v.quantity == own.quantity; });
+  return std::all_of(wanted.begin(), wanted.end(), [&](const core::Vanishing& vanishing) {
+    return std::any_of(list.begin(), list.end(), [&](const core::Vanishing& v) {
+      return v.joint == vanishing.joint && v.quantity == vanishing.quantity;
+    });
   });
 }
 
@@ -143,14 +144,16 @@ bool is_proven_at(const LocusMap& map, const WorkingMode& mode, const std::strin
 /// Joins a joint to a point already found, or adds the point.
 void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
   for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
-    IsolatedPoint& known = map.isolated_points[i];
-    if (known.mode != point.mode || known.kind != point.kind || known.certified != point.certified ||
-        std::hypot(known.at[0] - point.at[0], known.at[1] - point.at[1]) > same) {
+    IsolatedPoint& isolated_point = map.isolated_points[i];
+    if (isolated_point.mode != point.mode || isolated_point.kind != point.kind ||
+        isolated_point.certified != point.certified ||
+        std::hypot(isolated_point.at[0] - point.at[0], isolated_point.at[1] - point.at[1]) > same) {
       continue;
     }
     for (const core::Vanishing& v : point.vanishing) {
-      if (std::find(known.vanishing.begin(), known.vanishing.end(), v) == known.vanishing.end()) {
-        known.vanishing.push_back(v);
+      if (std::find(isolated_point.vanishing.begin(), isolated_point.vanishing.end(), v) ==
+          isolated_point.vanishing.end()) {
+        isolated_point.vanishing.push_back(v);
       }
     }
     return;
@@ -208,11 +211,11 @@ class Doubts {
   void add(const std::string& joint, std::size_t places, const std::string& box) {
     const std::string where = "an isolated point is neither proven nor excluded " +
                               (places == 1 ? box : "in " + std::to_string(places) + " places, all " + box);
-    const auto known = std::find_if(all_.begin(), all_.end(), [&](const auto& doubt) { return doubt.first == where; });
-    if (known == all_.end())
+    const auto found = std::find_if(all_.begin(), all_.end(), [&](const auto& doubt) { return doubt.first == where; });
+    if (found == all_.end())
       all_.push_back({where, {joint}});
-    else if (known->second.back() != joint)
-      known->second.push_back(joint);
+    else if (found->second.back() != joint)
+      found->second.push_back(joint);
   }
 
   void tell(std::vector<std::string>& notes) const {
@@ -249,7 +252,7 @@ std::vector<FactorPair> components_of(const LocusProblem& problem, const std::st
 }  // namespace
 
 void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map,
-                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* known) {
+                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* known_searches) {
   if (std::find(problem.quantities.begin(), problem.quantities.end(), Quantity::f) == problem.quantities.end()) return;
   const std::size_t first = map.isolated_points.size();
   const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
@@ -264,9 +267,9 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
   run_in_order(searches.size(), [&](std::size_t i) {
     auto& [pair, found] = *searches[i];
     const auto& [fx, fy] = pair;
-    found = sheet::isolated_zeros(problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower,
-                                  problem.upper,
-                                  {.most_cells = most_cells, .special = cones, .stop = stop, .known = known});
+    found = sheet::isolated_zeros(
+        problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower, problem.upper,
+        {.most_cells = most_cells, .special = cones, .stop = stop, .searches = known_searches});
   });
   Doubts doubts;
   for (const std::string& joint : problem.joints) {
@@ -375,16 +378,16 @@ void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& m
   for (const ArrangementPoint& point : arrangement.isolated_points()) {
     const std::vector<MultiInterval> at = on_sheet(problem.tower, mode, point.enclosure);
     if (at.empty()) continue;
-    const auto star = std::find_if(stars.begin(), stars.end(), [&](const sheet::Star& own) {
-      return point.enclosure.lower[0] <= own.x && own.x <= point.enclosure.upper[0] &&
-             point.enclosure.lower[1] <= own.y && own.y <= point.enclosure.upper[1];
+    const auto star = std::find_if(stars.begin(), stars.end(), [&](const sheet::Star& candidate) {
+      return point.enclosure.lower[0] <= candidate.x && candidate.x <= point.enclosure.upper[0] &&
+             point.enclosure.lower[1] <= candidate.y && candidate.y <= point.enclosure.upper[1];
     });
     std::vector<core::Vanishing> components;
     LocusKind kind = LocusKind::workspace_boundary;
     for (std::size_t f = 0; f < problem.factors.size(); ++f) {
       const core::LocusFactor& factor = problem.factors[f];
-      const auto& own = curves_of_factor[f];
-      if (std::find(own.begin(), own.end(), point.curve) == own.end()) continue;
+      const auto& curves = curves_of_factor[f];
+      if (std::find(curves.begin(), curves.end(), point.curve) == curves.end()) continue;
       if (evaluate(factor.sheet, at).sign() != 0) continue;
       if (star != stars.end() && !reaches(problem, mode, factor, *star)) continue;
       if (factor.role == FactorRole::reaction) {

@@ -22,7 +22,7 @@ inline bool is_undirected_pin(const core::LocusFactor& factor, const std::string
 /// `stop`: asked now and then, may be empty; true: what is found by then is added and the map marked incomplete.
 /// `most_cells`: live ones at a time (sheet::ZeroOptions). `known`: as there.
 void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map,
-                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* known);
+                             const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* searches);
 
 /// The points at which workspace boundaries touch and |A| vanishes though no curve of the map with |A| = 0 arrives in
 /// this mode: both legs are in line with each other there.

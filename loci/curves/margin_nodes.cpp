@@ -14,13 +14,13 @@ MarginNodes::MarginNodes(const core::LocusProblem& problem, const core::WorkingM
     : problem_(problem) {
   for (const LocusFactor& factor : problem.factors) {
     if (!factor.nodes) continue;
-    const auto own = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
+    const auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
       return group.factors.front()->nodes->parts.back().sheet == factor.nodes->parts.back().sheet;
     });
-    if (own == groups_.end())
+    if (found == groups_.end())
       groups_.push_back({{&factor}, {}});
     else
-      own->factors.push_back(&factor);
+      found->factors.push_back(&factor);
   }
   for (Group& group : groups_) {
     std::vector<const core::NodeForm*> forms;
@@ -30,19 +30,19 @@ MarginNodes::MarginNodes(const core::LocusProblem& problem, const core::WorkingM
 }
 
 const MarginNodes::Group* MarginNodes::group_of(const LocusFactor& factor) const {
-  const auto own = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
+  const auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
     return std::find(group.factors.begin(), group.factors.end(), &factor) != group.factors.end();
   });
-  return own == groups_.end() ? nullptr : &*own;
+  return found == groups_.end() ? nullptr : &*found;
 }
 
 std::vector<sheet::Star> MarginNodes::of(const LocusFactor& factor) const { return of(factor, factor); }
 
 std::vector<sheet::Star> MarginNodes::of(const LocusFactor& first, const LocusFactor& second) const {
-  const Group* const own = group_of(first);
+  const Group* const group = group_of(first);
   std::vector<sheet::Star> stars;
-  if (own == nullptr || own != group_of(second)) return stars;
-  for (const sheet::Star& star : own->stars)
+  if (group == nullptr || group != group_of(second)) return stars;
+  for (const sheet::Star& star : group->stars)
     if (sheet::power_at(star, problem_.tower, first.line) >= 2 &&
         sheet::power_at(star, problem_.tower, second.line) >= 2)
       stars.push_back(star);

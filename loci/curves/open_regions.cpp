@@ -98,10 +98,10 @@ EdgeLabel label_of(const core::LocusCurve& curve) {
 void finish_open_regions(LocusMap& map) {
   std::vector<std::vector<OpenRegion>> by_locus;
   for (OpenRegion& region : map.open) {
-    auto own = std::find_if(by_locus.begin(), by_locus.end(),
-                            [&](const auto& list) { return is_of_same(list.front(), region); });
-    if (own == by_locus.end()) own = by_locus.emplace(own);
-    own->push_back(std::move(region));
+    auto list_of_locus = std::find_if(by_locus.begin(), by_locus.end(),
+                                      [&](const auto& list) { return is_of_same(list.front(), region); });
+    if (list_of_locus == by_locus.end()) list_of_locus = by_locus.emplace(list_of_locus);
+    list_of_locus->push_back(std::move(region));
   }
   map.open.clear();
   for (std::vector<OpenRegion>& list : by_locus)

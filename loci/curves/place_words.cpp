@@ -30,11 +30,11 @@ std::string place_words(const std::array<double, 4>& box) {
 }
 
 std::string place_words(const core::LocusProblem& problem, const std::array<double, 4>& box) {
-  std::array<double, 4> own = box;
+  std::array<double, 4> in_user_units = box;
   for (std::size_t c = 0; c < 2; ++c)
     if (c < problem.charts.size() && problem.charts[c])
-      for (const std::size_t i : {2 * c, 2 * c + 1}) own[i] = core::angle_at(*problem.charts[c], box[i]);
-  return place_words(own);
+      for (const std::size_t i : {2 * c, 2 * c + 1}) in_user_units[i] = core::angle_at(*problem.charts[c], box[i]);
+  return place_words(in_user_units);
 }
 
 }  // namespace clearloci::loci

@@ -106,8 +106,8 @@ Number PlaneCurve::Term::as() const {
 
 PlaneCurve::Jet PlaneCurve::jet(const core::Point2& at) const {
   const Jet quick{derivatives<double>(at[0], at[1])};
-  constexpr double known = 1e-10;  // how well the distance from the curve is, relative to the coordinates
-  if (rounding(at) <= known * std::max(std::abs(at[0]), std::abs(at[1])) * quick.slope()) return quick;
+  constexpr double known_within = 1e-10;  // how well the distance from the curve is, relative to the coordinates
+  if (rounding(at) <= known_within * std::max(std::abs(at[0]), std::abs(at[1])) * quick.slope()) return quick;
   const Derivatives<TwoDoubles> fine = derivatives<TwoDoubles>(at[0], at[1]);
   return {{fine.f.high, fine.fx.high, fine.fy.high, fine.fxx.high, fine.fxy.high, fine.fyy.high}};
 }
@@ -208,19 +208,19 @@ PlaneCurve::Sheared PlaneCurve::along_chord(const core::Point2& middle, std::siz
   Sheared result{degree[0] + degree[1], degree[1], {}};
   std::vector<Number> coefficients(static_cast<std::size_t>(result.along + 1) *
                                    static_cast<std::size_t>(result.across + 1));
-  const auto own = [&](int i, int j) -> Number& { return coefficients[result.place(i, j)]; };
-  for (const Term& term : terms_) own(along == 0 ? term.i : term.j, along == 0 ? term.j : term.i) = term.as<Number>();
+  const auto entry = [&](int i, int j) -> Number& { return coefficients[result.place(i, j)]; };
+  for (const Term& term : terms_) entry(along == 0 ? term.i : term.j, along == 0 ? term.j : term.i) = term.as<Number>();
   // Horner's scheme, once a power: a -> middle + a, b -> middle + b, and last b -> rise a + b.
   const Number a(middle[along]), b(middle[1 - along]), s(rise);
   for (int from = 0; from < degree[0]; ++from)
     for (int i = degree[0] - 1; i >= from; --i)
-      for (int j = 0; j <= degree[1]; ++j) own(i, j) = own(i, j) + a * own(i + 1, j);
+      for (int j = 0; j <= degree[1]; ++j) entry(i, j) = entry(i, j) + a * entry(i + 1, j);
   for (int from = 0; from < degree[1]; ++from)
     for (int j = degree[1] - 1; j >= from; --j)
-      for (int i = 0; i <= degree[0]; ++i) own(i, j) = own(i, j) + b * own(i, j + 1);
+      for (int i = 0; i <= degree[0]; ++i) entry(i, j) = entry(i, j) + b * entry(i, j + 1);
   for (int from = 0; from < degree[1]; ++from)
     for (int j = degree[1] - 1; j >= from; --j)
-      for (int i = result.along; i > 0; --i) own(i, j) = own(i, j) + s * own(i - 1, j + 1);
+      for (int i = result.along; i > 0; --i) entry(i, j) = entry(i, j) + s * entry(i - 1, j + 1);
   for (const Number& coefficient : coefficients) result.coefficients.push_back(enclosure_of(coefficient));
   return result;
 }

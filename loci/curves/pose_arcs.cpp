@@ -62,7 +62,7 @@ Pose PoseArcs::pose_at(const Point2& unit) const {
 }
 
 std::optional<PoseArcs::Next> PoseArcs::stepped(const Point2& from, const Point2& at, double step,
-                                                const FieldQuantity& own, const FieldSample& nearby) {
+                                                const FieldQuantity& quantity, const FieldSample& nearby) {
   const double length = way_between(from, at);
   if (!(length > 0)) return std::nullopt;
   const Point2 way = {(at[0] - from[0]) / length, (at[1] - from[1]) / length};
@@ -74,46 +74,46 @@ std::optional<PoseArcs::Next> PoseArcs::stepped(const Point2& from, const Point2
     at_side = true;
   }
   if (!(step > 0)) return std::nullopt;
-  const std::optional<Point2> next = across(moved(at, way, step), {step * way[0], step * way[1]}, own, nearby);
+  const std::optional<Point2> next = across(moved(at, way, step), {step * way[0], step * way[1]}, quantity, nearby);
   if (!next) return std::nullopt;
   std::optional<FieldSample> sample = field_.at(pose_at(*next), nearby);
   if (!sample) return std::nullopt;
   return Next{*next, std::move(*sample), at_side};
 }
 
-std::optional<Point2> PoseArcs::across(const Point2& middle, const Point2& way, const ArcQuantity& own,
+std::optional<Point2> PoseArcs::across(const Point2& middle, const Point2& way, const ArcQuantity& quantity,
                                        const FieldSample& nearby) {
   const Point2 normal = {-way[1], way[0]};
   constexpr double part = 0.5;
   const Pose left = pose_at(moved(middle, normal, part)), right = pose_at(moved(middle, normal, -part));
   const std::optional<FieldSample> at_left = field_.at(left, nearby), at_right = field_.at(right, nearby);
   std::optional<Pose> found;
-  if (own && at_left && at_right)
-    found = zero_between(field_, *own, left, *at_left, right, *at_right);
-  else if (!own && at_left.has_value() != at_right.has_value())
+  if (quantity && at_left && at_right)
+    found = zero_between(field_, *quantity, left, *at_left, right, *at_right);
+  else if (!quantity && at_left.has_value() != at_right.has_value())
     found = (at_left ? end_between(field_, left, *at_left, right) : end_between(field_, right, *at_right, left)).at;
   if (!found) return std::nullopt;
   return unit({(*found)[0], (*found)[1]});
 }
 
-void PoseArcs::refine(const Point2& p, const Point2& q, const ArcQuantity& own, FieldSample& nearby, int depth,
+void PoseArcs::refine(const Point2& p, const Point2& q, const ArcQuantity& quantity, FieldSample& nearby, int depth,
                       core::Polyline& arc) {
   constexpr int deepest = 6;
   const Point2 way = {q[0] - p[0], q[1] - p[1]}, middle = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])};
   if (depth < deepest && way_between(p, q) > tolerance_)
-    if (const auto found = across(middle, way, own, nearby); found && way_between(middle, *found) > tolerance_) {
-      refine(p, *found, own, nearby, depth + 1, arc);
+    if (const auto found = across(middle, way, quantity, nearby); found && way_between(middle, *found) > tolerance_) {
+      refine(p, *found, quantity, nearby, depth + 1, arc);
       arc.push_back(placed(*found));
       if (auto sample = field_.at(pose_at(*found), nearby)) nearby = std::move(*sample);
-      refine(*found, q, own, nearby, depth + 1, arc);
+      refine(*found, q, quantity, nearby, depth + 1, arc);
     }
 }
 
-core::Polyline PoseArcs::refined(const core::Polyline& arc, const ArcQuantity& own, const FieldSample& nearby) {
+core::Polyline PoseArcs::refined(const core::Polyline& arc, const ArcQuantity& quantity, const FieldSample& nearby) {
   core::Polyline fine;
   FieldSample last = nearby;
   for (std::size_t i = 0; i < arc.size(); ++i) {
-    if (i > 0) refine(unit(arc[i - 1]), unit(arc[i]), own, last, 0, fine);
+    if (i > 0) refine(unit(arc[i - 1]), unit(arc[i]), quantity, last, 0, fine);
     fine.push_back(arc[i]);
     if (auto sample = field_.at({arc[i][0], arc[i][1]}, last)) last = std::move(*sample);
   }

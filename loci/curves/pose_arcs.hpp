@@ -23,16 +23,16 @@ class PoseArcs {
   PoseArcs(PoseField& field, Pose lower, Pose upper, double tolerance);
 
   /// With vertices between those of an arc. `nearby`: a sample at its first vertex or beside it.
-  core::Polyline refined(const core::Polyline& arc, const ArcQuantity& own, const FieldSample& nearby);
+  core::Polyline refined(const core::Polyline& arc, const ArcQuantity& quantity, const FieldSample& nearby);
 
   /// Poses beyond the last one of an arc, as far as `goes_on` and the box let it.
   template <class GoesOn>
-  core::Polyline beyond(const core::Point2& before, const core::Point2& last, double step, const FieldQuantity& own,
-                        FieldSample nearby, const GoesOn& goes_on) {
+  core::Polyline beyond(const core::Point2& before, const core::Point2& last, double step,
+                        const FieldQuantity& quantity, FieldSample nearby, const GoesOn& goes_on) {
     core::Polyline found;
     core::Point2 from = unit(before), at = unit(last);
     for (int i = 0; i < most_steps && step > finest; ++i) {
-      const auto next = stepped(from, at, step, own, nearby);
+      const auto next = stepped(from, at, step, quantity, nearby);
       if (!next) {
         step /= 2;
         continue;
@@ -60,12 +60,12 @@ class PoseArcs {
   core::Point2 unit(const core::Point2& pose) const;
   core::Point2 placed(const core::Point2& unit) const;
   Pose pose_at(const core::Point2& unit) const;
-  std::optional<Next> stepped(const core::Point2& from, const core::Point2& at, double step, const FieldQuantity& own,
-                              const FieldSample& nearby);
+  std::optional<Next> stepped(const core::Point2& from, const core::Point2& at, double step,
+                              const FieldQuantity& quantity, const FieldSample& nearby);
   /// A zero on the way across the middle of a chord.
-  std::optional<core::Point2> across(const core::Point2& middle, const core::Point2& way, const ArcQuantity& own,
+  std::optional<core::Point2> across(const core::Point2& middle, const core::Point2& way, const ArcQuantity& quantity,
                                      const FieldSample& nearby);
-  void refine(const core::Point2& p, const core::Point2& q, const ArcQuantity& own, FieldSample& nearby, int depth,
+  void refine(const core::Point2& p, const core::Point2& q, const ArcQuantity& quantity, FieldSample& nearby, int depth,
               core::Polyline& arc);
 
   PoseField& field_;

@@ -31,8 +31,8 @@ template <class Work>
 void PoseContours::by_rows(const Work& work) {
   run_in_order(lattice_.nodes() / lattice_.along(), [&](std::size_t row) {
     if (late()) return;
-    PoseField own = field();
-    for (std::size_t i = 0; i < lattice_.along(); ++i) work(row, own, row * lattice_.along() + i);
+    PoseField pose_field = field();
+    for (std::size_t i = 0; i < lattice_.along(); ++i) work(row, pose_field, row * lattice_.along() + i);
   });
 }
 
@@ -53,7 +53,7 @@ void PoseContours::sample_nodes() {
 /// the other.
 void PoseContours::fill() {
   if (statics_.program.blocks.empty()) return;
-  PoseField own = field();
+  PoseField pose_field = field();
   bool more = true;
   constexpr int layers = 4;
   for (int layer = 0; layer < layers && more; ++layer) {
@@ -63,11 +63,12 @@ void PoseContours::fill() {
         if (!lattice_.has(node, direction)) continue;
         const std::size_t other = lattice_.end(node, direction);
         if (samples_[node].has_value() == samples_[other].has_value()) continue;
-        const std::size_t known = samples_[node] ? node : other, open = samples_[node] ? other : node;
+        const std::size_t sampled = samples_[node] ? node : other, open = samples_[node] ? other : node;
         if (lattice_.outside(open)) continue;
         const Pose at = lattice_.at(open);
-        std::optional<FieldSample> sample = own.at(at, *samples_[known]);
-        if (!sample) sample = own.at(at, end_between(own, lattice_.at(known), *samples_[known], at).sample);
+        std::optional<FieldSample> sample = pose_field.at(at, *samples_[sampled]);
+        if (!sample)
+          sample = pose_field.at(at, end_between(pose_field, lattice_.at(sampled), *samples_[sampled], at).sample);
         if (sample) found.emplace_back(open, std::move(*sample));
       }
     more = !found.empty();
@@ -83,9 +84,9 @@ void PoseContours::find_vertices() {
   });
   for (Found& row : rows)
     for (auto& [contour, vertex] : row) {
-      PoseContour& own = contours_[contour];
-      own.on_edge.emplace(vertex.edge, static_cast<int>(own.vertices.size()));
-      own.vertices.push_back(std::move(vertex));
+      PoseContour& pose_contour = contours_[contour];
+      pose_contour.on_edge.emplace(vertex.edge, static_cast<int>(pose_contour.vertices.size()));
+      pose_contour.vertices.push_back(std::move(vertex));
     }
 }
 
@@ -127,15 +128,16 @@ void PoseContours::join(std::size_t node, const std::vector<unsigned>& simplex, 
     std::size_t first = 0, second = 0;  // corners
     int vertex = 0;
   };
-  PoseContour& own = contours_[contour];
+  PoseContour& pose_contour = contours_[contour];
   std::vector<Crossed> crossed;
   for (std::size_t i = 0; i < simplex.size(); ++i)
     for (std::size_t j = i + 1; j < simplex.size(); ++j)
-      if (const auto at = own.on_edge.find(edge_between(node, simplex[i], simplex[j])); at != own.on_edge.end())
+      if (const auto at = pose_contour.on_edge.find(edge_between(node, simplex[i], simplex[j]));
+          at != pose_contour.on_edge.end())
         crossed.push_back({i, j, at->second});
   if (lattice_.dimension() == 2) {
-    if (crossed.size() == 2) own.segments.push_back({crossed[0].vertex, crossed[1].vertex});
-    if (crossed.size() == 1 && !is_reached(node, simplex)) own.dangling.push_back(crossed[0].vertex);
+    if (crossed.size() == 2) pose_contour.segments.push_back({crossed[0].vertex, crossed[1].vertex});
+    if (crossed.size() == 1 && !is_reached(node, simplex)) pose_contour.dangling.push_back(crossed[0].vertex);
     return;
   }
   if (crossed.size() == 3)
@@ -160,16 +162,18 @@ double PoseContours::height(std::size_t contour, std::size_t node) const {
   if (contour == quantities_.size()) return samples_[node] ? 1 : -1;
   if (!samples_[node]) return 0;
   constexpr std::array<double, 3> ahead = {1, 0.37, 0.73};
-  const FieldQuantity& own = quantities_[contour];
+  const FieldQuantity& quantity = quantities_[contour];
   double sum = 0;
-  for (std::size_t k = 0; k < own.count; ++k) sum += ahead[k] * samples_[node]->values[own.first + k];
+  for (std::size_t k = 0; k < quantity.count; ++k) sum += ahead[k] * samples_[node]->values[quantity.first + k];
   return sum;
 }
 
 void PoseContours::add_triangle(std::size_t node, const std::vector<unsigned>& simplex, std::size_t contour,
                                 std::array<int, 3> corners) {
-  PoseContour& own = contours_[contour];
-  const auto at = [&](std::size_t k) -> const Pose& { return own.vertices[static_cast<std::size_t>(corners[k])].at; };
+  PoseContour& pose_contour = contours_[contour];
+  const auto at = [&](std::size_t k) -> const Pose& {
+    return pose_contour.vertices[static_cast<std::size_t>(corners[k])].at;
+  };
   std::array<double, 3> u{}, v{}, rise{};
   for (std::size_t c = 0; c < 3; ++c) {
     u[c] = at(1)[c] - at(0)[c];
@@ -184,17 +188,17 @@ void PoseContours::add_triangle(std::size_t node, const std::vector<unsigned>& s
   const double ahead = rise[0] * (u[1] * v[2] - u[2] * v[1]) + rise[1] * (u[2] * v[0] - u[0] * v[2]) +
                        rise[2] * (u[0] * v[1] - u[1] * v[0]);
   if (ahead < 0) std::swap(corners[1], corners[2]);
-  own.triangles.push_back(corners);
+  pose_contour.triangles.push_back(corners);
 }
 
 bool PoseContours::is_reached(std::size_t node, const std::vector<unsigned>& corners) const {
   return std::all_of(corners.begin(), corners.end(),
-                     [&](unsigned own) { return samples_[lattice_.end(node, own)].has_value(); });
+                     [&](unsigned corner) { return samples_[lattice_.end(node, corner)].has_value(); });
 }
 
 bool PoseContours::is_reached(std::size_t node) const {
   return std::all_of(lattice_.simplices().begin(), lattice_.simplices().end(),
-                     [&](const std::vector<unsigned>& own) { return is_reached(node, own); });
+                     [&](const std::vector<unsigned>& simplex) { return is_reached(node, simplex); });
 }
 
 bool PoseContours::is_crossed(std::size_t node) const {
@@ -202,8 +206,8 @@ bool PoseContours::is_crossed(std::size_t node) const {
     for (std::size_t i = 0; i < simplex.size(); ++i)
       for (std::size_t j = i + 1; j < simplex.size(); ++j) {
         const std::size_t edge = edge_between(node, simplex[i], simplex[j]);
-        for (const PoseContour& own : contours_)
-          if (own.on_edge.count(edge) != 0) return true;
+        for (const PoseContour& contour : contours_)
+          if (contour.on_edge.count(edge) != 0) return true;
       }
   return false;
 }

@@ -16,13 +16,13 @@ Pose pose_between(const Pose& a, const Pose& b, double part) {
 
 }  // namespace
 
-double FieldSample::product(const FieldQuantity& own, const FieldSample& a, const FieldSample& b) {
+double FieldSample::product(const FieldQuantity& quantity, const FieldSample& a, const FieldSample& b) {
   double sum = 0;
-  for (std::size_t k = own.first; k < own.first + own.count; ++k) sum += a.values[k] * b.values[k];
+  for (std::size_t k = quantity.first; k < quantity.first + quantity.count; ++k) sum += a.values[k] * b.values[k];
   return sum;
 }
 
-double FieldSample::size(const FieldQuantity& own) const { return std::sqrt(product(own, *this, *this)); }
+double FieldSample::size(const FieldQuantity& quantity) const { return std::sqrt(product(quantity, *this, *this)); }
 
 PoseField::PoseField(const core::PoseStatics& statics, double scale)
     : statics_(statics), scale_(scale), point_(statics) {
@@ -45,17 +45,17 @@ std::optional<FieldSample> PoseField::solved(const Pose& pose, core::BlockUnknow
   sample.unknowns = std::move(unknowns);
   sample.orientation = at->orientation;
   sample.least_closure = std::numeric_limits<double>::infinity();
-  for (const double own : at->closures) sample.least_closure = std::min(sample.least_closure, own);
+  for (const double closure : at->closures) sample.least_closure = std::min(sample.least_closure, closure);
   sample.values.push_back(determinant);
   for (std::size_t d = 0; d < leasts_.size(); ++d) {
-    const std::vector<double>& own = at->components[d].front();
+    const std::vector<double>& components = at->components[d].front();
     if (leasts_[d] > 0) {
       double square = -leasts_[d] * leasts_[d];
-      for (const double component : own) square += component * component;
+      for (const double component : components) square += component * component;
       sample.values.push_back(square * determinant * determinant);
       continue;
     }
-    for (const double component : own) sample.values.push_back(component * determinant);
+    for (const double component : components) sample.values.push_back(component * determinant);
   }
   return sample;
 }
@@ -72,11 +72,11 @@ std::optional<FieldSample> PoseField::at(const Pose& pose, const FieldSample& ne
   return statics_.program.blocks.empty() ? std::nullopt : at(pose);
 }
 
-std::optional<Pose> zero_between(PoseField& field, const FieldQuantity& own, const Pose& a, const FieldSample& at_a,
-                                 const Pose& b, const FieldSample& at_b) {
+std::optional<Pose> zero_between(PoseField& field, const FieldQuantity& quantity, const Pose& a,
+                                 const FieldSample& at_a, const Pose& b, const FieldSample& at_b) {
   // The part along a's direction, by false position with halved ends (Illinois).
-  const double square = FieldSample::product(own, at_a, at_a);
-  double low = 0, high = 1, at_low = 1, at_high = FieldSample::product(own, at_a, at_b) / square;
+  const double square = FieldSample::product(quantity, at_a, at_a);
+  double low = 0, high = 1, at_low = 1, at_high = FieldSample::product(quantity, at_a, at_b) / square;
   if (!(at_high < 0)) return std::nullopt;
   constexpr int most = 80;
   constexpr double finest = 1e-15, vanishing = 1e-6;
@@ -88,9 +88,9 @@ std::optional<Pose> zero_between(PoseField& field, const FieldQuantity& own, con
     part = (low * at_high - high * at_low) / (at_high - at_low);
     std::optional<FieldSample> now = field.at(pose_between(a, b, part), nearby);
     if (!now) return std::nullopt;
-    const double value = FieldSample::product(own, at_a, *now) / square;
+    const double value = FieldSample::product(quantity, at_a, *now) / square;
     nearby = std::move(*now);
-    left = nearby.size(own);
+    left = nearby.size(quantity);
     if (value == 0) break;
     if (value > 0) {
       low = part, at_low = value;
@@ -102,7 +102,7 @@ std::optional<Pose> zero_between(PoseField& field, const FieldQuantity& own, con
       side = -1;
     }
   }
-  if (left > vanishing * std::min(at_a.size(own), at_b.size(own))) return std::nullopt;
+  if (left > vanishing * std::min(at_a.size(quantity), at_b.size(quantity))) return std::nullopt;
   return pose_between(a, b, part);
 }
 

@@ -24,8 +24,8 @@ struct FieldSample {
   double least_closure = 0;      ///< of the squares and limits that end the workspace; without any infinite
 
   /// Of a quantity at two poses: its components, multiplied and added.
-  static double product(const FieldQuantity& own, const FieldSample& a, const FieldSample& b);
-  double size(const FieldQuantity& own) const;
+  static double product(const FieldQuantity& quantity, const FieldSample& a, const FieldSample& b);
+  double size(const FieldQuantity& quantity) const;
 };
 
 class PoseField {
@@ -54,8 +54,8 @@ class PoseField {
 
 /// A zero of a quantity on the way between two poses at which it has opposite signs, or directions. Nothing where it
 /// does not vanish there, but turns.
-std::optional<Pose> zero_between(PoseField& field, const FieldQuantity& own, const Pose& a, const FieldSample& at_a,
-                                 const Pose& b, const FieldSample& at_b);
+std::optional<Pose> zero_between(PoseField& field, const FieldQuantity& quantity, const Pose& a,
+                                 const FieldSample& at_a, const Pose& b, const FieldSample& at_b);
 
 /// Where the workspace ends on the way from a pose in it to one that is not.
 struct FieldEnd {

@@ -24,9 +24,9 @@ class PoseGaps {
     std::vector<Block> blocks{{}};
     for (std::size_t c = 0; c < lattice_.dimension(); ++c) {
       std::vector<Block> more;
-      for (const Block& own : blocks)
+      for (const Block& block : blocks)
         for (int part = 0; part < parts; ++part) {
-          more.push_back(own);
+          more.push_back(block);
           more.back().lower[c] = 1 + part * cells / parts;
           more.back().upper[c] = 1 + (part + 1) * cells / parts;
         }
@@ -37,8 +37,8 @@ class PoseGaps {
       PoseCell cell(statics_);
       prove(cell, blocks[b], open[b]);
     });
-    for (std::vector<OpenPoses>& own : open)
-      for (OpenPoses& one : own) join(std::move(one));
+    for (std::vector<OpenPoses>& region : open)
+      for (OpenPoses& one : region) join(std::move(one));
     return std::move(open_);
   }
 
@@ -53,16 +53,16 @@ class PoseGaps {
     crossed_.assign(lattice_.nodes(), false);
     for (std::size_t node = 0; node < lattice_.nodes(); ++node)
       crossed_[node] = lattice_.has_cell(node) && (!contours_.is_reached(node) || contours_.is_crossed(node));
-    for (const PoseZeroPoint& own : points) crossed_[lattice_.node_below({own.at[0], own.at[1]})] = true;
+    for (const PoseZeroPoint& crossed : points) crossed_[lattice_.node_below({crossed.at[0], crossed.at[1]})] = true;
   }
 
   void prove(PoseCell& cell, const Block& block, std::vector<OpenPoses>& open) {
     bool any_crossed = false, all_crossed = true;
     std::array<int, 3> at = block.lower;
     for (bool more = true; more;) {
-      const bool own = crossed_[lattice_.node_at(at)];
-      any_crossed = any_crossed || own;
-      all_crossed = all_crossed && own;
+      const bool crossed = crossed_[lattice_.node_at(at)];
+      any_crossed = any_crossed || crossed;
+      all_crossed = all_crossed && crossed;
       more = false;
       for (std::size_t c = 0; c < lattice_.dimension() && !more; ++c) {
         more = ++at[c] < block.upper[c];
@@ -98,13 +98,13 @@ class PoseGaps {
     const bool on_time = !contours_.late() && proofs_ < most_proofs_;
     if (on_time && is_free(cell, box)) return;
     if (halvings == 0 || !on_time) {
-      OpenPoses own;
-      own.zero = on_time ? PoseZero{cell.doubt(), cell.demand(), false} : PoseZero{};
+      OpenPoses poses;
+      poses.zero = on_time ? PoseZero{cell.doubt(), cell.demand(), false} : PoseZero{};
       for (const auto& [low, high] : box) {
-        own.lower.push_back(low);
-        own.upper.push_back(high);
+        poses.lower.push_back(low);
+        poses.upper.push_back(high);
       }
-      open.push_back(std::move(own));
+      open.push_back(std::move(poses));
       return;
     }
     const auto axis = static_cast<std::size_t>(halvings) % box.size();
@@ -115,14 +115,14 @@ class PoseGaps {
 
   /// Joined with what it touches, of the same.
   void join(OpenPoses one) {
-    for (OpenPoses& own : open_) {
-      bool touches = own.zero == one.zero;
+    for (OpenPoses& region : open_) {
+      bool touches = region.zero == one.zero;
       for (std::size_t c = 0; c < one.lower.size(); ++c)
-        touches = touches && one.lower[c] <= own.upper[c] && one.upper[c] >= own.lower[c];
+        touches = touches && one.lower[c] <= region.upper[c] && one.upper[c] >= region.lower[c];
       if (!touches) continue;
       for (std::size_t c = 0; c < one.lower.size(); ++c) {
-        own.lower[c] = std::min(own.lower[c], one.lower[c]);
-        own.upper[c] = std::max(own.upper[c], one.upper[c]);
+        region.lower[c] = std::min(region.lower[c], one.lower[c]);
+        region.upper[c] = std::max(region.upper[c], one.upper[c]);
       }
       return;
     }

@@ -41,7 +41,7 @@ int PoseLattice::index(std::size_t node, std::size_t axis) const {
 
 bool PoseLattice::outside(std::size_t node) const {
   for (std::size_t axis = 0; axis < dimension(); ++axis)
-    if (const int own = index(node, axis); own == 0 || own == cells_ + 2) return true;
+    if (const int position = index(node, axis); position == 0 || position == cells_ + 2) return true;
   return false;
 }
 

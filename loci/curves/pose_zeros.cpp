@@ -51,26 +51,26 @@ class Tracer {
 
   std::size_t cell_of(const Point2& at) const { return lattice_.node_below({at[0], at[1]}); }
   static Point2 point(const Pose& pose) { return {pose[0], pose[1]}; }
-  static Polyline places(const PoseContour& own, const std::vector<int>& chain) {
+  static Polyline places(const PoseContour& contour, const std::vector<int>& chain) {
     Polyline arc;
-    for (const int v : chain) arc.push_back(point(own.vertices[static_cast<std::size_t>(v)].at));
+    for (const int v : chain) arc.push_back(point(contour.vertices[static_cast<std::size_t>(v)].at));
     return arc;
   }
 
   void add_arcs() {
     PoseArcs arcs(field_, lower_, upper_, effort_.tolerance);
     for (std::size_t q = 0; q < quantities_.size(); ++q) {
-      const PoseContour& own = contours_.of(q);
+      const PoseContour& contour = contours_.of(q);
       PoseLocus locus{.zero = zero_of(q), .arcs = {}, .vertices = {}, .triangles = {}};
-      for (const std::vector<int>& chain : chains_of(own.segments, own.vertices.size())) {
+      for (const std::vector<int>& chain : chains_of(contour.segments, contour.vertices.size())) {
         if (contours_.late()) break;
         const auto sample_at = [&](int v) -> const FieldSample& {
-          return contours_.sample(own.vertices[static_cast<std::size_t>(v)].node);
+          return contours_.sample(contour.vertices[static_cast<std::size_t>(v)].node);
         };
-        Polyline arc = places(own, chain);
+        Polyline arc = places(contour, chain);
         for (const bool backwards : {false, true}) {
           const int end = backwards ? chain.front() : chain.back();
-          if (std::find(own.dangling.begin(), own.dangling.end(), end) == own.dangling.end()) continue;
+          if (std::find(contour.dangling.begin(), contour.dangling.end(), end) == contour.dangling.end()) continue;
           if (backwards) std::reverse(arc.begin(), arc.end());
           go_on(arcs, arc, quantities_[q], sample_at(end));
           if (backwards) std::reverse(arc.begin(), arc.end());
@@ -82,10 +82,10 @@ class Tracer {
     add_outline(arcs);
   }
 
-  void go_on(PoseArcs& arcs, Polyline& arc, const FieldQuantity& own, const FieldSample& nearby) {
+  void go_on(PoseArcs& arcs, Polyline& arc, const FieldQuantity& quantity, const FieldSample& nearby) {
     const std::size_t start = cell_of(arc.back());
     const Polyline more =
-        arcs.beyond(arc[arc.size() - 2], arc.back(), 0.5 / lattice_.cells(), own, nearby, [&](const Point2& at) {
+        arcs.beyond(arc[arc.size() - 2], arc.back(), 0.5 / lattice_.cells(), quantity, nearby, [&](const Point2& at) {
           const std::size_t cell = cell_of(at);
           return cell == start || !contours_.is_reached(cell);
         });
@@ -100,12 +100,12 @@ class Tracer {
 
   /// Rings, and those of their stretches that are not the box's sides.
   void add_outline(PoseArcs& arcs) {
-    const PoseContour& own = contours_.outline();
+    const PoseContour& contour = contours_.outline();
     std::array<PoseLocus, 2> ends;  // at limits, and at dead centres
-    for (const std::vector<int>& chain : chains_of(own.segments, own.vertices.size())) {
+    for (const std::vector<int>& chain : chains_of(contour.segments, contour.vertices.size())) {
       if (chain.front() != chain.back()) continue;
       const auto vertex = [&](std::size_t i) -> const PoseContour::Vertex& {
-        return own.vertices[static_cast<std::size_t>(chain[i])];
+        return contour.vertices[static_cast<std::size_t>(chain[i])];
       };
       Polyline ring;
       std::vector<std::size_t> stretch;
@@ -218,24 +218,24 @@ class Tracer {
 
   void add_surfaces() {
     for (std::size_t c = 0; c <= quantities_.size(); ++c) {
-      const PoseContour& own = contours_.of(c);
+      const PoseContour& contour = contours_.of(c);
       const bool end = c == quantities_.size();
       PoseLocus locus{.zero = end ? PoseZero{Doubt::workspace, -1, false} : zero_of(c),
                       .arcs = {},
                       .vertices = {},
                       .triangles = {}};
-      std::vector<int> place(own.vertices.size(), -1);
+      std::vector<int> place(contour.vertices.size(), -1);
       std::size_t dead = 0;
-      for (const std::array<int, 3>& corners : own.triangles) {
-        if (end && on_one_side(own, corners)) continue;
+      for (const std::array<int, 3>& corners : contour.triangles) {
+        if (end && on_one_side(contour, corners)) continue;
         std::array<int, 3> triangle{};
         for (std::size_t k = 0; k < 3; ++k) {
           const auto v = static_cast<std::size_t>(corners[k]);
           if (place[v] < 0) {
             place[v] = static_cast<int>(locus.vertices.size());
-            const Pose& at = own.vertices[v].at;
+            const Pose& at = contour.vertices[v].at;
             locus.vertices.push_back({at[0], at[1], at[2]});
-            dead += own.vertices[v].dead_centre ? 1U : 0U;
+            dead += contour.vertices[v].dead_centre ? 1U : 0U;
           }
           triangle[k] = place[v];
         }
@@ -246,11 +246,11 @@ class Tracer {
     }
   }
 
-  bool on_one_side(const PoseContour& own, const std::array<int, 3>& corners) const {
+  bool on_one_side(const PoseContour& contour, const std::array<int, 3>& corners) const {
     for (std::size_t c = 0; c < 3; ++c)
       for (const double side : {lower_[c], upper_[c]})
         if (std::all_of(corners.begin(), corners.end(),
-                        [&](int v) { return own.vertices[static_cast<std::size_t>(v)].at[c] == side; }))
+                        [&](int v) { return contour.vertices[static_cast<std::size_t>(v)].at[c] == side; }))
           return true;
     return false;
   }

@@ -88,11 +88,11 @@ std::optional<EnclosedPoint> point_of(const LocusProblem& problem, const core::P
 }
 
 /// Whether a factor vanishes all along every arc of a trace of another.
-bool vanishes_along_all(const LocusProblem& problem, const core::WorkingMode& mode, const LocusFactor& own,
+bool vanishes_along_all(const LocusProblem& problem, const core::WorkingMode& mode, const LocusFactor& factor,
                         const std::vector<std::shared_ptr<CurveAlgebra>>& algebra, const sheet::SheetTrace& trace,
                         const core::Polynomial& sheet) {
   return std::all_of(trace.arcs.begin(), trace.arcs.end(), [&](const TracedArc& traced) {
-    const core::Polynomial& curve = own.implicit[static_cast<std::size_t>(traced.colour)];
+    const core::Polynomial& curve = factor.implicit[static_cast<std::size_t>(traced.colour)];
     const std::optional<EnclosedPoint> point = point_of(problem, curve, traced.inner);
     if (!point) return false;
     ArcOrders arc(problem.tower, mode, algebra[static_cast<std::size_t>(traced.colour)], *point);
@@ -276,7 +276,7 @@ class Gathering {
   }
 
   void note(const SheetShare& share) {
-    const LocusFactor& own = factor(share);
+    const LocusFactor& locus_factor = factor(share);
     if (share.traced.stopped) map_.out_of_time = true;
     if (!share.traced.certified) {
       const EdgeLabel label = widest_label(problem_, static_cast<std::size_t>(share.factor));
@@ -284,8 +284,8 @@ class Gathering {
         leave_open(label, mode(share), {region.x0, region.x1, region.y0, region.y1}, map_);
     }
     const EdgeLabel label = label_of(problem_, {share.factor});
-    if (own.role == FactorRole::reaction && label.vanishing.empty()) return;
-    if (own.role == FactorRole::workspace_boundary) return;
+    if (locus_factor.role == FactorRole::reaction && label.vanishing.empty()) return;
+    if (locus_factor.role == FactorRole::workspace_boundary) return;
     for (const Point2& at : share.traced.isolated_points) {
       if (at_base(at, mode(share))) continue;
       map_.isolated_points.push_back({label.kind, label.vanishing, {at[0], at[1]}, mode(share), false});
@@ -318,34 +318,35 @@ class Gathering {
   /// What vanishes along an arc; nothing where the arc is among those of a factor before, or is none of a margin.
   std::optional<EdgeLabel> label_along(const SheetShare& share, const TracedArc& traced,
                                        const core::Polynomial& implicit) const {
-    const LocusFactor& own = factor(share);
+    const LocusFactor& locus_factor = factor(share);
     const auto plain = [&](const std::vector<int>& together, bool proven) {
       EdgeLabel label = label_of(problem_, together);
       label.proven = proven;
       return label;
     };
-    if (own.implicit.empty() || own.role == FactorRole::workspace_boundary) return plain({share.factor}, true);
+    if (locus_factor.implicit.empty() || locus_factor.role == FactorRole::workspace_boundary)
+      return plain({share.factor}, true);
     std::vector<const SheetShare*> others;
     for (const SheetShare* other : shares_) {
       const auto& list = factor(*other).implicit;
-      if (other != &share && own.role == FactorRole::reaction && factor(*other).role == FactorRole::reaction &&
+      if (other != &share && locus_factor.role == FactorRole::reaction && factor(*other).role == FactorRole::reaction &&
           std::find(list.begin(), list.end(), implicit) != list.end())
         others.push_back(other);
     }
-    const bool compare = own.role == FactorRole::direct_singularity ? own.may_be_idle
-                         : own.role == FactorRole::margin           ? !own.cleared.empty()
-                                                                    : own.role != FactorRole::preload;
+    const bool compare = locus_factor.role == FactorRole::direct_singularity ? locus_factor.may_be_idle
+                         : locus_factor.role == FactorRole::margin           ? !locus_factor.cleared.empty()
+                                                                             : locus_factor.role != FactorRole::preload;
     if ((others.empty() && !needs_orders(problem_, implicit)) || !compare) return plain({share.factor}, true);
 
     std::optional<bool> margin = true;
     const ReactionOrders orders = orders_along(share, traced, implicit, [&](ArcOrders& arc) {
-      if (own.role == FactorRole::margin) margin = is_margin(own, arc);
+      if (locus_factor.role == FactorRole::margin) margin = is_margin(locus_factor, arc);
     });
-    if (own.role == FactorRole::margin) {
+    if (locus_factor.role == FactorRole::margin) {
       if (margin && !*margin) return std::nullopt;
       return plain({share.factor}, orders.decided && margin);
     }
-    if (own.role == FactorRole::direct_singularity) {
+    if (locus_factor.role == FactorRole::direct_singularity) {
       EdgeLabel label = plain({share.factor}, true);
       label.excited = !orders.decided || orders.excited;
       return label;
@@ -375,12 +376,13 @@ class Gathering {
 
   void take(const SheetShare& share, const TracedArc& traced) {
     if (!traced.arc.closed && traced.arc.length <= shortest_arc * box_size()) return;
-    const LocusFactor& own = factor(share);
-    const core::Polynomial implicit =
-        own.implicit.empty() ? core::Polynomial{2, {}} : own.implicit[static_cast<std::size_t>(traced.colour)];
+    const LocusFactor& locus_factor = factor(share);
+    const core::Polynomial implicit = locus_factor.implicit.empty()
+                                          ? core::Polynomial{2, {}}
+                                          : locus_factor.implicit[static_cast<std::size_t>(traced.colour)];
     std::optional<EdgeLabel> label = label_along(share, traced, implicit);
     if (!label) return;
-    if (own.role == FactorRole::reaction && label->vanishing.empty()) {
+    if (locus_factor.role == FactorRole::reaction && label->vanishing.empty()) {
       // Another reaction may vanish there too, and be one that is asked for.
       if (!label->proven)
         leave_open(widest_label(problem_, static_cast<std::size_t>(share.factor)), mode(share),
@@ -419,10 +421,10 @@ class Gathering {
 
 std::shared_ptr<const CurveAlgebras> curve_algebras(const LocusProblem& problem, const TraceOptions& options) {
   const auto make = [&] { return std::make_shared<const CurveAlgebras>(problem.tower); };
-  if (options.known == nullptr) return make();
+  if (options.searches == nullptr) return make();
   using Key = sheet::KnownSearches::Key;
-  return options.known->get<CurveAlgebras>(sheet::KnownSearches::key(Key::Kind::algebra, problem.tower, {}, {}, {}),
-                                           make);
+  return options.searches->get<CurveAlgebras>(sheet::KnownSearches::key(Key::Kind::algebra, problem.tower, {}, {}, {}),
+                                              make);
 }
 
 std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const TraceOptions& options,
@@ -430,7 +432,7 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   sheet::SheetTraceOptions sheet_options;
   sheet_options.tolerance = problem.tolerance;
   sheet_options.certificate = options.certificate != nullptr;
-  sheet_options.known = options.known;
+  sheet_options.searches = options.searches;
   if (options.sketch) {
     sheet_options.sketch = true;
     sheet_options.most_cells = patch_cells_of_a_sketch;
@@ -448,8 +450,9 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   const std::vector<sheet::NestedMeeting> nested = sheet::nested_meetings(problem.tower);
   std::vector<MarginNodes> nodes;
   for (std::size_t m = 0; m < problem.modes.size(); ++m)
-    nodes.emplace_back(problem, problem.modes[m],
-                       sheet::ZeroOptions{.special = special[m], .stop = sheet_options.stop, .known = options.known});
+    nodes.emplace_back(
+        problem, problem.modes[m],
+        sheet::ZeroOptions{.special = special[m], .stop = sheet_options.stop, .searches = options.searches});
 
   std::vector<SheetShare> shares;
   for (std::size_t m = 0; m < problem.modes.size(); ++m)
@@ -471,15 +474,15 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
   run_in_order(shares.size(), [&](std::size_t i) {
     SheetShare& share = shares[order[i]];
     const auto mode = static_cast<std::size_t>(share.mode);
-    sheet::SheetTraceOptions own = sheet_options;
-    own.special = special[mode];
+    sheet::SheetTraceOptions trace_options = sheet_options;
+    trace_options.special = special[mode];
     const auto factor = static_cast<std::size_t>(share.factor);
     if (factor < settled_after.size() && settled_after[factor] > 0) {
-      own.whole_or_nothing = true;
-      own.most_cells = settled_after[factor];
+      trace_options.whole_or_nothing = true;
+      trace_options.most_cells = settled_after[factor];
     }
     share.traced = trace_share(problem, problem.factors[factor], problem.modes[mode], algebras, nested, nodes[mode],
-                               std::move(own));
+                               std::move(trace_options));
     const std::lock_guard lock(mutex);
     if (options.progress)
       options.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares.size()), "arcs");
@@ -490,10 +493,10 @@ std::vector<SheetShare> trace_on_sheets(const LocusProblem& problem, const Trace
 void add_sheet_loci(const LocusProblem& problem, const std::vector<SheetShare>& shares, const CurveAlgebras& algebras,
                     LocusMap& map) {
   for (std::size_t m = 0; m < problem.modes.size(); ++m) {
-    std::vector<const SheetShare*> own;
+    std::vector<const SheetShare*> sheet_shares;
     for (const SheetShare& share : shares)
-      if (share.mode == static_cast<int>(m) && !share.settled) own.push_back(&share);
-    Gathering(problem, own, algebras, map).run();
+      if (share.mode == static_cast<int>(m) && !share.settled) sheet_shares.push_back(&share);
+    Gathering(problem, sheet_shares, algebras, map).run();
   }
 }
 

@@ -108,10 +108,10 @@ void append_sheets(LocusMap& joined, LocusMap map) {
                      [&](const core::IsolatedPoint& other) { return is_same(other, point, near); }))
       joined.isolated_points.push_back(std::move(point));
   for (core::WorkspaceRegion& region : map.workspace) {
-    auto known = std::find_if(joined.workspace.begin(), joined.workspace.end(),
+    auto found = std::find_if(joined.workspace.begin(), joined.workspace.end(),
                               [&](const core::WorkspaceRegion& other) { return other.mode == region.mode; });
-    if (known == joined.workspace.end()) known = joined.workspace.insert(known, {region.mode, {}});
-    known->rings.insert(known->rings.end(), region.rings.begin(), region.rings.end());
+    if (found == joined.workspace.end()) found = joined.workspace.insert(found, {region.mode, {}});
+    found->rings.insert(found->rings.end(), region.rings.begin(), region.rings.end());
   }
   for (core::ReachableInterval& interval : map.reachable) joined.reachable.push_back(std::move(interval));
 }
@@ -132,22 +132,22 @@ LocusMap join_sheets(const std::vector<const LocusProblem*>& problems, std::vect
     for (LocusCurve& curve : curves) {
       curve.mode.resize(kept, 1);
       const bool twice = may_be_on_fold(curve, *problems[m]);
-      auto known = std::find_if(joined.curves.begin(), joined.curves.end(),
+      auto found = std::find_if(joined.curves.begin(), joined.curves.end(),
                                 [&](const LocusCurve& other) { return is_same(other, curve); });
-      if (known == joined.curves.end() && twice && m > 0)
-        known = std::find_if(joined.curves.begin(), joined.curves.end(),
+      if (found == joined.curves.end() && twice && m > 0)
+        found = std::find_if(joined.curves.begin(), joined.curves.end(),
                              [&](const LocusCurve& other) { return is_same_on_fold(other, curve); });
-      if (known == joined.curves.end()) {
+      if (found == joined.curves.end()) {
         joined.curves.push_back(std::move(curve));
         continue;
       }
-      known->certified = known->certified && curve.certified;
-      const auto before = static_cast<std::ptrdiff_t>(known->arcs.size());
+      found->certified = found->certified && curve.certified;
+      const auto before = static_cast<std::ptrdiff_t>(found->arcs.size());
       for (core::Arc& arc : curve.arcs) {
-        if (twice && std::any_of(known->arcs.begin(), known->arcs.begin() + before,
+        if (twice && std::any_of(found->arcs.begin(), found->arcs.begin() + before,
                                  [&](const core::Arc& other) { return is_on(arc, other, 4 * joined.tolerance); }))
           continue;
-        known->arcs.push_back(std::move(arc));
+        found->arcs.push_back(std::move(arc));
       }
     }
   }
@@ -161,19 +161,19 @@ LocusMap join_sheets(const std::vector<const LocusProblem*>& problems, std::vect
 }
 
 std::string name_in(const LocusMap& joined, const LocusCurve& curve) {
-  auto known = std::find_if(joined.curves.begin(), joined.curves.end(),
+  auto found = std::find_if(joined.curves.begin(), joined.curves.end(),
                             [&](const LocusCurve& other) { return is_same(other, curve); });
-  if (known == joined.curves.end())
-    known = std::find_if(joined.curves.begin(), joined.curves.end(),
+  if (found == joined.curves.end())
+    found = std::find_if(joined.curves.begin(), joined.curves.end(),
                          [&](const LocusCurve& other) { return is_same_on_fold(other, curve); });
-  return known == joined.curves.end() ? curve.id : known->id;
+  return found == joined.curves.end() ? curve.id : found->id;
 }
 
 int place_in(const LocusMap& joined, const core::IsolatedPoint& point) {
   const double near = 1e-12 * box_size(joined);
-  const auto known = std::find_if(joined.isolated_points.begin(), joined.isolated_points.end(),
+  const auto found = std::find_if(joined.isolated_points.begin(), joined.isolated_points.end(),
                                   [&](const core::IsolatedPoint& other) { return is_same(other, point, near); });
-  return known == joined.isolated_points.end() ? -1 : static_cast<int>(known - joined.isolated_points.begin());
+  return found == joined.isolated_points.end() ? -1 : static_cast<int>(found - joined.isolated_points.begin());
 }
 
 bool is_on_sheet(const core::RootTower& tower, const core::WorkingMode& mode, const core::Point2& at) {

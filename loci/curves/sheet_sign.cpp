@@ -108,8 +108,8 @@ std::optional<int> SheetSigns::node_sign(int index, const core::WorkingMode& mod
 std::optional<int> SheetSigns::leaf_sign(int index, int edge, int attempt) {
   Leaf& leaf = leaves_[static_cast<std::size_t>(index)];
   if (leaf.polynomial.is_zero()) return 0;
-  signed char& known = leaf.known[static_cast<std::size_t>(edge)];
-  if (attempt == 0 && known != unknown) return known;
+  signed char& edge_sign = leaf.known[static_cast<std::size_t>(edge)];
+  if (attempt == 0 && edge_sign != unknown) return edge_sign;
   const int curve = arrangement_.edges()[static_cast<std::size_t>(edge)].curve;
   if (const auto factor = leaf.vanishes_on.find(curve); factor != leaf.vanishes_on.end() && factor->second) return 0;
   const Sample& at = sample(edge, attempt);
@@ -117,13 +117,13 @@ std::optional<int> SheetSigns::leaf_sign(int index, int edge, int attempt) {
   if (sign == 0) {
     auto [factor, fresh] = leaf.vanishes_on.try_emplace(curve, false);
     if (fresh) factor->second = arrangement_.divides(curve, leaf.polynomial);
-    if (factor->second) return known = 0;
+    if (factor->second) return edge_sign = 0;
     std::vector<MultiInterval> coefficients;
     for (const core::Term& term : leaf.polynomial.terms) coefficients.emplace_back(term.coefficient);
     sign = evaluate(leaf.polynomial, coefficients, at.fine[0], at.fine[1]).sign();
     if (sign == 0) return std::nullopt;
   }
-  if (attempt == 0) known = static_cast<signed char>(sign);
+  if (attempt == 0) edge_sign = static_cast<signed char>(sign);
   return sign;
 }
 

@@ -42,7 +42,7 @@ struct SheetTraceOptions {
   bool certificate = false;    ///< fill in SheetTrace::claims
   /// Where what does not depend on the tolerance is looked up and kept; may be null. Required: of one `colour`,
   /// `closed_form`, `along_side` and `special` all that is traced of one function.
-  KnownSearches* known = nullptr;
+  KnownSearches* searches = nullptr;
 };
 
 /// A rectangle of the plane.

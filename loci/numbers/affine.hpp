@@ -41,7 +41,7 @@ struct AffineForm {
   }
   double quadratic() const {
     double sum = 0;
-    for (const double own : b) sum += std::abs(own);
+    for (const double noise : b) sum += std::abs(noise);
     return sum;
   }
   /// Largest difference from c.
@@ -56,14 +56,14 @@ struct AffineForm {
 
   /// Without products: e_i^2 = 1/2 + [-1/2, 1/2].
   AffineForm flattened() const {
-    AffineForm own = *this;
+    AffineForm form = *this;
     for (std::size_t i = 0; i < products; ++i) {
-      own.b[i] = 0;
-      own.c += i < curved ? 0.5 * b[i] : 0;
-      own.r += i < curved ? 0.5 * std::abs(b[i]) : std::abs(b[i]);
+      form.b[i] = 0;
+      form.c += i < curved ? 0.5 * b[i] : 0;
+      form.r += i < curved ? 0.5 * std::abs(b[i]) : std::abs(b[i]);
     }
-    own.r += slack(std::abs(c) + quadratic() + own.r);
-    return own;
+    form.r += slack(std::abs(c) + quadratic() + form.r);
+    return form;
   }
 
   /// Sums of some roundings, one part in 2^50 of what was summed.
@@ -92,9 +92,9 @@ using FlatAffine = AffineForm<false>;
 /// A number known to half a unit in the last place or exactly.
 template <class Form = Affine>
 Form nearest(const core::Rational& value) {
-  Form own(core::to_double(value));
-  if (core::Rational(own.c) != value) own.r = std::abs(own.c) * 0x1p-52 + 0x1p-1000;
-  return own;
+  Form nearest(core::to_double(value));
+  if (core::Rational(nearest.c) != value) nearest.r = std::abs(nearest.c) * 0x1p-52 + 0x1p-1000;
+  return nearest;
 }
 
 template <bool k>
@@ -275,9 +275,9 @@ class SumOf {
     ++terms_;
   }
   Form result() const {
-    Form own = sum_;
-    own.r += (terms_ + 4) * Form::slack(size_ + own.r);
-    return own;
+    Form sum = sum_;
+    sum.r += (terms_ + 4) * Form::slack(size_ + sum.r);
+    return sum;
   }
 
  private:

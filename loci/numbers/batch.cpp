@@ -6,8 +6,8 @@
 namespace clearloci::loci::sheet::batch {
 
 void run_by_lanes(const Instruction* begin, const Instruction* end, const Batch* values, Batch* results) {
-  for (const Instruction* own = begin; own != end; ++own, ++results)
-    *results = result_of(own->operation, values[own->first], values[own->second]);
+  for (const Instruction* instruction = begin; instruction != end; ++instruction, ++results)
+    *results = result_of(instruction->operation, values[instruction->first], values[instruction->second]);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -23,10 +23,10 @@ inline Wide& wide(Batch& a) { return reinterpret_cast<Wide&>(a); }
 __attribute__((always_inline)) inline void run_wide(const Instruction* begin, const Instruction* end,
                                                     const Batch* values, Batch* results) {
   using Operation = SheetCode::Operation;
-  for (const Instruction* own = begin; own != end; ++own, ++results) {
-    const Batch& a = values[own->first];
-    const Batch& b = values[own->second];
-    switch (own->operation) {
+  for (const Instruction* instruction = begin; instruction != end; ++instruction, ++results) {
+    const Batch& a = values[instruction->first];
+    const Batch& b = values[instruction->second];
+    switch (instruction->operation) {
       case Operation::add:
         wide(*results) = wide(a) + wide(b);
         break;
@@ -43,7 +43,7 @@ __attribute__((always_inline)) inline void run_wide(const Instruction* begin, co
         wide(*results) = 1 / wide(a);
         break;
       default:
-        *results = result_of(own->operation, a, b);
+        *results = result_of(instruction->operation, a, b);
     }
   }
 }

@@ -25,9 +25,9 @@ struct Centred {
     return {value, value, std::vector<core::Interval>(coordinates, core::Interval(0.0))};
   }
   static Centred rough(const core::Interval& over, std::size_t coordinates) {
-    Centred own = constant(over, coordinates);
-    own.smooth = false;
-    return own;
+    Centred centred = constant(over, coordinates);
+    centred.smooth = false;
+    return centred;
   }
 
   Centred& tighten(const Offsets& offsets) {

@@ -35,10 +35,10 @@ void run_alone(Operation operation, const IntervalBatch& a, const IntervalBatch&
 
 void run_by_lanes(const Instruction* begin, const Instruction* end, const IntervalBatch* values, IntervalBatch* results,
                   std::size_t count) {
-  for (const Instruction* own = begin; own != end; ++own, ++results) {
-    const IntervalBatch& a = values[own->first];
-    const IntervalBatch& b = values[own->second];
-    switch (own->operation) {
+  for (const Instruction* instruction = begin; instruction != end; ++instruction, ++results) {
+    const IntervalBatch& a = values[instruction->first];
+    const IntervalBatch& b = values[instruction->second];
+    switch (instruction->operation) {
       case Operation::add:
         lane_by_lane(*results, count, [&](std::size_t l) { return a.lanes[l] + b.lanes[l]; });
         break;
@@ -52,7 +52,7 @@ void run_by_lanes(const Instruction* begin, const Instruction* end, const Interv
         lane_by_lane(*results, count, [&](std::size_t l) { return squared(a.lanes[l]); });
         break;
       default:
-        run_alone(own->operation, a, b, *results, count);
+        run_alone(instruction->operation, a, b, *results, count);
     }
   }
 }
@@ -67,8 +67,8 @@ void run_alone(Operation operation, const JetBatch& a, const JetBatch& b, JetBat
 
 void run_by_lanes(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
                   std::size_t count) {
-  for (const Instruction* own = begin; own != end; ++own, ++results)
-    run_alone(own->operation, values[own->first], values[own->second], *results, count);
+  for (const Instruction* instruction = begin; instruction != end; ++instruction, ++results)
+    run_alone(instruction->operation, values[instruction->first], values[instruction->second], *results, count);
 }
 
 #if defined(CLEARLOCI_AVX2)

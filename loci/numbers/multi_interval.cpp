@@ -206,10 +206,11 @@ MultiInterval angle_slope(const MultiInterval& y, const MultiInterval& x) {
 MultiInterval evaluate(const core::Polynomial& p, const std::vector<MultiInterval>& at) {
   std::vector<std::vector<MultiInterval>> powers(at.size());  // of every variable, from the first power on
   const auto power = [&](std::size_t variable, int exponent) -> const MultiInterval& {
-    std::vector<MultiInterval>& known = powers[variable];
-    while (known.size() < static_cast<std::size_t>(exponent))
-      known.push_back(known.empty() ? at[variable] : known.back() * at[variable]);
-    return known[static_cast<std::size_t>(exponent) - 1];
+    std::vector<MultiInterval>& powers_of_variable = powers[variable];
+    while (powers_of_variable.size() < static_cast<std::size_t>(exponent))
+      powers_of_variable.push_back(powers_of_variable.empty() ? at[variable]
+                                                              : powers_of_variable.back() * at[variable]);
+    return powers_of_variable[static_cast<std::size_t>(exponent) - 1];
   };
   MultiInterval sum(0.0);
   for (const core::Term& term : p.terms) {

@@ -130,8 +130,8 @@ class Builder {
   }
 
   int derivative(int node, int v) {
-    std::vector<int>& known = derivatives_[v];
-    if (node < static_cast<int>(known.size()) && known[node] != unknown) return known[node];
+    std::vector<int>& derivatives = derivatives_[v];
+    if (node < static_cast<int>(derivatives.size()) && derivatives[node] != unknown) return derivatives[node];
     const Node n = nodes_[node];
     int result = zero_;
     switch (n.kind) {
@@ -181,8 +181,8 @@ class Builder {
       int sum = zero_;
       bool plus = true;
       for (std::size_t left = columns; left != 0; left &= left - 1, plus = !plus) {
-        const std::size_t own = left & (~left + 1);
-        const int term = multiply(row[static_cast<std::size_t>(std::countr_zero(left))], minors[columns ^ own]);
+        const std::size_t lowest = left & (~left + 1);
+        const int term = multiply(row[static_cast<std::size_t>(std::countr_zero(left))], minors[columns ^ lowest]);
         sum = plus ? add(sum, term) : subtract(sum, term);
       }
       minors[columns] = sum;
@@ -367,8 +367,8 @@ SheetCode compile(const std::vector<int>& shape) {
       jacobian.emplace_back();
       for (int v = 0; v < variables; ++v)
         jacobian.back().push_back(builder.subtract(builder.zero(), builder.derivative(square_nodes[j], v)));
-      const int own = coordinates + j;  // the square does not hold the root itself
-      jacobian.back()[own] = builder.multiply(builder.constant(Numbers::two), own);
+      const int variable = coordinates + j;  // the square does not hold the root itself
+      jacobian.back()[variable] = builder.multiply(builder.constant(Numbers::two), variable);
     }
     value_nodes.push_back(builder.determinant(jacobian));
   }

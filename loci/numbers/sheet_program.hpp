@@ -151,13 +151,13 @@ template <class T>
 SheetProgram::Registers<T>::Registers(const SheetProgram& program) : program_(&program) {
   values_.resize(program.variables() + program.constants_.size() + program.code_->instructions.size());
   for (std::size_t i = 0; i < program.constants_.size(); ++i) {
-    T& own = values_[program.variables() + i];
+    T& value = values_[program.variables() + i];
     if constexpr (std::is_constructible_v<T, Interval>)
-      own = program.enclosed_constants_[i];
+      value = program.enclosed_constants_[i];
     else if constexpr (std::is_same_v<T, double>)
-      own = program.nearest_constants_[i];
+      value = program.nearest_constants_[i];
     else
-      own = enclosed_as(program.constants_[i].value, program.constants_[i].radius, static_cast<T*>(nullptr));
+      value = enclosed_as(program.constants_[i].value, program.constants_[i].radius, static_cast<T*>(nullptr));
   }
 }
 

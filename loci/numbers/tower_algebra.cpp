@@ -76,9 +76,9 @@ double norm_degree(const Polynomial& p, const core::RootTower& tower) {
   const auto weighted = [&weights](const Polynomial& element) {
     double degree = 0;
     for (const core::Term& term : element.terms) {
-      double own = 0;
-      for (std::size_t i = 0; i < weights.size(); ++i) own += weights[i] * term.exponents[i];
-      degree = std::max(degree, own);
+      double weight = 0;
+      for (std::size_t i = 0; i < weights.size(); ++i) weight += weights[i] * term.exponents[i];
+      degree = std::max(degree, weight);
     }
     return degree;
   };

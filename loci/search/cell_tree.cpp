@@ -51,10 +51,10 @@ class Budget {
   /// Before cell `next` is examined, of `all` that there are.
   void reach(std::size_t next, std::size_t all) {
     if (next < end_of_generation_) return;
-    const std::size_t own = all - next;
-    in_sight_ = may_extend_ && static_cast<double>(own) <= growth_in_sight * static_cast<double>(last_but_one_);
+    const std::size_t generation = all - next;
+    in_sight_ = may_extend_ && static_cast<double>(generation) <= growth_in_sight * static_cast<double>(last_but_one_);
     last_but_one_ = last_;
-    last_ = own;
+    last_ = generation;
     end_of_generation_ = all;
   }
   bool allows(std::size_t all) {
@@ -313,8 +313,8 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
       cut_short_ = cut_short_ || (divisible && !may_split);
       if (may_split) {
         split = true;
-        const int own = judgement.cut_axis, other = 1 - own;
-        node.axis = widths[own] > smallest_ && most_slender * widths[own] > widths[other] ? own : other;
+        const int cut_axis = judgement.cut_axis, other = 1 - cut_axis;
+        node.axis = widths[cut_axis] > smallest_ && most_slender * widths[cut_axis] > widths[other] ? cut_axis : other;
         const Interval& range = node.axis == 0 ? node.cell.x : node.cell.y;
         const double offset = most_offset * scatter(static_cast<unsigned>(i), options.attempt);
         node.cut = range.lower() + range.width() * (0.5 + offset);

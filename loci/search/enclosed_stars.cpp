@@ -54,8 +54,8 @@ class Nodes {
   Nodes(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<const core::NodeForm*>& forms,
         const core::NodeForm& form, std::size_t first)
       : tower_(tower), forms_(forms), part_(part_of(tower, mode, forms)) {
-    const auto add = [&](const core::NodeForm::Part& own) {
-      functions_.push_back({narrowed(own.sheet, part_), narrowed(own.line, part_)});
+    const auto add = [&](const core::NodeForm::Part& part) {
+      functions_.push_back({narrowed(part.sheet, part_), narrowed(part.line, part_)});
     };
     add(form.parts[first]);
     add(form.parts.back());
@@ -78,7 +78,7 @@ class Nodes {
       star->singular = true;
       star->room = room_around(program, zero, box);
       for (const core::NodeForm* form : forms_)
-        for (const core::NodeForm::Part& own : form->parts) star->apex->vanishing.push_back(own.line);
+        for (const core::NodeForm::Part& part : form->parts) star->apex->vanishing.push_back(part.line);
       stars.push_back(std::move(*star));
     }
   }
@@ -88,7 +88,7 @@ class Nodes {
                           const std::vector<const core::NodeForm*>& forms) {
     std::vector<core::Polynomial> all;
     for (const core::NodeForm* form : forms)
-      for (const core::NodeForm::Part& own : form->parts) all.push_back(own.sheet);
+      for (const core::NodeForm::Part& part : form->parts) all.push_back(part.sheet);
     return subtower(tower, mode, all);
   }
 
@@ -114,9 +114,10 @@ class Nodes {
     const auto is_clear = [&](double reach) {
       for (int k = 0; k < directions; ++k) {
         const double angle = 2 * std::numbers::pi * k / directions;
-        const std::vector<double> own = squares_at(zero.x + reach * std::cos(angle), zero.y + reach * std::sin(angle));
-        for (std::size_t j = 0; j < own.size(); ++j)
-          if (!(own[j] > least_square * middle[j])) return false;
+        const std::vector<double> squares =
+            squares_at(zero.x + reach * std::cos(angle), zero.y + reach * std::sin(angle));
+        for (std::size_t j = 0; j < squares.size(); ++j)
+          if (!(squares[j] > least_square * middle[j])) return false;
       }
       return true;
     };

@@ -30,8 +30,8 @@ SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, c
   for (std::size_t j = 0; j + 2 < enclosure.size(); ++j) {
     double scale = 1;
     if (chart.side != Chart::Side::plane) {
-      const std::vector<int>& own = stars[chart.star].roots;
-      scale = std::pow(enclosure[0].middle(), std::count(own.begin(), own.end(), static_cast<int>(j)));
+      const std::vector<int>& roots = stars[chart.star].roots;
+      scale = std::pow(enclosure[0].middle(), std::count(roots.begin(), roots.end(), static_cast<int>(j)));
     }
     zero.roots.push_back(scale * enclosure[2 + j].middle());
     if (enclosure[2 + j].sign() == 0) zero.inside_workspace = false;
@@ -96,12 +96,12 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
 ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& first,
                        const SheetFunction& second, const std::vector<core::Rational>& lower,
                        const std::vector<core::Rational>& upper, const ZeroOptions& options) {
-  if (options.known == nullptr) return found_zeros(tower, mode, first, second, lower, upper, options);
+  if (options.searches == nullptr) return found_zeros(tower, mode, first, second, lower, upper, options);
   KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper);
   key.numbers.push_back(options.most_cells);
   key.polynomials.push_back(first.polynomial);
   key.polynomials.push_back(second.polynomial);
-  return *options.known->get<ZeroSet>(key, [&] {
+  return *options.searches->get<ZeroSet>(key, [&] {
     return std::make_shared<const ZeroSet>(found_zeros(tower, mode, first, second, lower, upper, options));
   });
 }

@@ -25,8 +25,8 @@ struct ZeroOptions {
   int most_cells = 4096;   ///< live cells of one size: more of them mean that N1 and N2 share a curve
   /// Stars besides the cones at rational points and the touches of the tower.
   std::vector<Star> special = {};
-  std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
-  KnownSearches* known = nullptr;   ///< where the set is looked up and kept; may be null
+  std::function<bool()> stop = {};    ///< asked now and then; true: leave the rest undecided
+  KnownSearches* searches = nullptr;  ///< where the set is looked up and kept; may be null
 };
 
 /// Live cells of one size of a search that is for a picture alone (TraceOptions::sketch).

@@ -18,7 +18,8 @@ KnownSearches::Key KnownSearches::key(Key::Kind kind, const core::RootTower& tow
 
 std::shared_ptr<const void> KnownSearches::known(const Key& key) const {
   const std::lock_guard lock(mutex_);
-  const auto found = std::find_if(all_.begin(), all_.end(), [&](const auto& own) { return own.first == key; });
+  const auto found =
+      std::find_if(all_.begin(), all_.end(), [&](const auto& candidate) { return candidate.first == key; });
   return found == all_.end() ? nullptr : found->second;
 }
 

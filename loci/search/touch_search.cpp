@@ -52,10 +52,11 @@ std::optional<Touch> TouchSearch::around(const std::vector<Interval>& cell, cons
     const double half = factor * widest;
     std::vector<Interval> box;
     for (std::size_t d = 0; d < n; ++d) {
-      double own = half;
+      double reach = half;
       if (d != along)
-        own = std::max({factor * extent[d], room_for_slope * half * tangent[d] / tangent[along], room_for_bend * half});
-      box.emplace_back((*at)[d] - own, (*at)[d] + own);
+        reach =
+            std::max({factor * extent[d], room_for_slope * half * tangent[d] / tangent[along], room_for_bend * half});
+      box.emplace_back((*at)[d] - reach, (*at)[d] + reach);
     }
     if (auto touch = settle(*at, box, static_cast<int>(along), lifted)) return touch;
   }
@@ -97,15 +98,15 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
   Interval bend(0.0);
   const double half = box[static_cast<std::size_t>(along)].upper() - at[static_cast<std::size_t>(along)];
   for (int d = 0; d < cell.dimension(); ++d) {
-    const Interval own = d == along ? main : cell.tangent(0, d);
-    bend = bend + cell.slope(2, d) * own;
+    const Interval interval = d == along ? main : cell.tangent(0, d);
+    bend = bend + cell.slope(2, d) * interval;
     if (d == along) continue;
     // The extremum is somewhere in the image: from there the curve has this much room, and so far to go.
     const Interval& place = image[static_cast<std::size_t>(d)];
     const Interval& range = box[static_cast<std::size_t>(d)];
     const double room = std::min(place.lower() - range.lower(), range.upper() - place.upper());
     const double way = half + image[static_cast<std::size_t>(along)].width();
-    if (!(own.magnitude() * way < 0.999 * room * main.mignitude())) return std::nullopt;
+    if (!(interval.magnitude() * way < 0.999 * room * main.mignitude())) return std::nullopt;
   }
   if (bend.sign() == 0) return std::nullopt;
   Interval roots(1.0);

@@ -99,9 +99,9 @@ void ZeroSearch::give_up(std::vector<Box>& live) {
   for (const Box& box : live) ++states_[box.search].live;
   // Along a curve each halving leaves at least four in three; where fewer are left the end is near.
   const auto has_too_many = [&](const Box& box) {
-    const State& own = states_[box.search];
-    const std::size_t most = limits_.most_cells + own.seeds;
-    return own.live > most && (own.live > most_patience * most || 3 * own.live > 4 * own.before);
+    const State& state = states_[box.search];
+    const std::size_t most = limits_.most_cells + state.seeds;
+    return state.live > most && (state.live > most_patience * most || 3 * state.live > 4 * state.before);
   };
   for (const Box& box : live)
     if (has_too_many(box)) {
@@ -127,9 +127,10 @@ void ZeroSearch::enclose(const Group& group, Extent extent, bool with_slopes, co
   if (group.size() < few_candidates) {
     for (const std::size_t index : group) {
       Candidate& candidate = candidates_[index];
-      const Box& own = *candidate.own;
-      const bool entered = extent == Extent::cell ? cell_.enter(std::array{own.cell.x, own.cell.y}, own.roots)
-                                                  : cell_.enter_local(candidate.box, candidate.lifted);
+      const Box& searched = *candidate.searched;
+      const bool entered = extent == Extent::cell
+                               ? cell_.enter(std::array{searched.cell.x, searched.cell.y}, searched.roots)
+                               : cell_.enter_local(candidate.box, candidate.lifted);
       if (entered && with_slopes) cell_.differentiate();
       show(candidate, cell_, entered);
     }
@@ -142,9 +143,9 @@ void ZeroSearch::enclose(const Group& group, Extent extent, bool with_slopes, co
     std::array<std::array<Interval, 2>, size> ranges;
     for (std::size_t lane = 0; lane < count; ++lane) {
       const Candidate& candidate = candidates_[group[first + lane]];
-      ranges[lane] = {candidate.own->cell.x, candidate.own->cell.y};
+      ranges[lane] = {candidate.searched->cell.x, candidate.searched->cell.y};
       if (extent == Extent::cell)
-        places[lane] = {ranges[lane], &candidate.own->roots};
+        places[lane] = {ranges[lane], &candidate.searched->roots};
       else
         places[lane] = {{}, nullptr, &candidate.box, &candidate.lifted};
     }
@@ -164,13 +165,13 @@ bool ZeroSearch::excludes_zero(const Function& enclosure) const {
 void ZeroSearch::exclude_by_values(Candidate& candidate, const SheetCell& cell, bool inside) {
   candidate.excluded = !inside || excludes_zero([&](int f) { return cell.value(f); });
   if (candidate.excluded) return;
-  const PlaneCell& place = candidate.own->cell;
+  const PlaneCell& place = candidate.searched->cell;
   candidate.all.reserve(2 + static_cast<std::size_t>(program_->roots()));
   candidate.all.assign({place.x, place.y});
   for (int j = 0; j < program_->roots(); ++j) candidate.all.push_back(cell.root(j));
   candidate.lifted = cell.lifted();
   candidate.axis = place.x.width() > place.y.width() ? 0 : 1;
-  candidate.roots = candidate.own->roots;
+  candidate.roots = candidate.searched->roots;
   for (const int j : candidate.lifted) {
     candidate.roots.resize(static_cast<std::size_t>(program_->roots()), everything);
     candidate.roots[static_cast<std::size_t>(j)] = cell.root(j);
@@ -180,7 +181,7 @@ void ZeroSearch::exclude_by_values(Candidate& candidate, const SheetCell& cell, 
 /// Of a lifted cell.
 void ZeroSearch::exclude_by_slopes(Candidate& candidate, const SheetCell& cell) {
   candidate.excluded = excludes_zero([&](int f) { return cell.centred(f); });
-  if (!candidate.excluded) candidate.axis = axis_to_cut(cell, candidate.own->cell);
+  if (!candidate.excluded) candidate.axis = axis_to_cut(cell, candidate.searched->cell);
 }
 
 void ZeroSearch::put_box_around(Candidate& candidate) const {
@@ -200,7 +201,7 @@ void ZeroSearch::count_in_box(Candidate& candidate, SheetCell& cell, bool has_bo
   candidate.has_box = has_box;
   candidate.count = ZeroCount::unknown;
   if (!has_box) return;
-  if (width(candidate.own->cell) < near_smallest * limits_.smallest &&
+  if (width(candidate.searched->cell) < near_smallest * limits_.smallest &&
       std::any_of(system_.functions.begin(), system_.functions.end(),
                   [&](int f) { return cell.rounding_dominates(f); }))
     cell.sharpen_middle();
@@ -217,7 +218,7 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
   chosen.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     open[i] = i;
-    candidates_[i].own = first + i;
+    candidates_[i].searched = first + i;
   }
   const auto those = [&](const auto& condition) -> const Group& {
     chosen.clear();
@@ -226,71 +227,74 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
     return chosen;
   };
   const auto drop_excluded = [&] { std::erase_if(open, [&](std::size_t i) { return candidates_[i].excluded; }); };
-  enclose(open, Extent::cell, false,
-          [&](Candidate& own, const SheetCell& cell, bool inside) { exclude_by_values(own, cell, inside); });
+  enclose(open, Extent::cell, false, [&](Candidate& candidate, const SheetCell& cell, bool inside) {
+    exclude_by_values(candidate, cell, inside);
+  });
   for (const std::size_t i : open) candidates_[i].excluded = candidates_[i].excluded || known(candidates_[i]);
   drop_excluded();
-  enclose(those([](const Candidate& own) { return !own.lifted.empty(); }), Extent::cell, true,
-          [&](Candidate& own, const SheetCell& cell, bool) { exclude_by_slopes(own, cell); });
+  enclose(those([](const Candidate& candidate) { return !candidate.lifted.empty(); }), Extent::cell, true,
+          [&](Candidate& candidate, const SheetCell& cell, bool) { exclude_by_slopes(candidate, cell); });
   drop_excluded();
   for (const std::size_t i : open) put_box_around(candidates_[i]);
   enclose(open, Extent::box, true,
-          [&](Candidate& own, SheetCell& cell, bool has_box) { count_in_box(own, cell, has_box); });
+          [&](Candidate& candidate, SheetCell& cell, bool has_box) { count_in_box(candidate, cell, has_box); });
   drop_excluded();
   // Dearer than all before, and small cells seldom need it.
-  exclude_smoothly(those([](const Candidate& own) { return own.count == ZeroCount::unknown; }));
+  exclude_smoothly(those([](const Candidate& candidate) { return candidate.count == ZeroCount::unknown; }));
   drop_excluded();
   for (int trial = 0; trial < most_widenings; ++trial) {
-    const Group& wider =
-        those([](Candidate& own) { return own.has_box && own.count == ZeroCount::unknown && widen(own); });
-    enclose(wider, Extent::box, true, [&](Candidate& own, const SheetCell& cell, bool has_box) {
-      const ZeroCount found = has_box ? krawczyk(cell, system_, own.image) : ZeroCount::unknown;
-      own.count = found == ZeroCount::none ? ZeroCount::unknown : found;
+    const Group& wider = those([](Candidate& candidate) {
+      return candidate.has_box && candidate.count == ZeroCount::unknown && widen(candidate);
+    });
+    enclose(wider, Extent::box, true, [&](Candidate& candidate, const SheetCell& cell, bool has_box) {
+      const ZeroCount found = has_box ? krawczyk(cell, system_, candidate.image) : ZeroCount::unknown;
+      candidate.count = found == ZeroCount::none ? ZeroCount::unknown : found;
     });
   }
-  narrow_all(those([&](const Candidate& own) { return own.count == ZeroCount::unique && !known(own); }));
+  narrow_all(
+      those([&](const Candidate& candidate) { return candidate.count == ZeroCount::unique && !known(candidate); }));
   for (const std::size_t i : open) settle(candidates_[i], next);
 }
 
 void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
-  const Box& own = *candidate.own;
-  const PlaneCell& cell = own.cell;
+  const Box& searched = *candidate.searched;
+  const PlaneCell& cell = searched.cell;
   if (known(candidate)) return;  // since those before it were settled
   if (candidate.count == ZeroCount::unique && accept(candidate)) return;
-  if (settle_touch(own, candidate.roots, candidate.lifted) && known(candidate)) return;
+  if (settle_touch(searched, candidate.roots, candidate.lifted) && known(candidate)) return;
   if (width(cell) < limits_.smallest)
-    states_[own.search].undecided.push_back(cell);
+    states_[searched.search].undecided.push_back(cell);
   else
-    split({cell, std::move(candidate.roots), own.search}, candidate.axis, next);
+    split({cell, std::move(candidate.roots), searched.search}, candidate.axis, next);
 }
 
-bool ZeroSearch::settle_touch(const Box& own, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
-  const PlaneCell& cell = own.cell;
-  State& state = states_[own.search];
+bool ZeroSearch::settle_touch(const Box& box, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
+  const PlaneCell& cell = box.cell;
+  State& state = states_[box.search];
   if (limits_.touches == nullptr || width(cell) > worth_a_touch * limits_.smallest) return false;
   if (state.touch_trials++ >= most_touch_trials) return false;
   std::vector<Interval> local = {cell.x, cell.y};
   for (const int j : lifted) local.push_back(roots[static_cast<std::size_t>(j)]);
   std::optional<Touch> touch = limits_.touches->around(local, lifted);
   if (!touch) return false;
-  const bool known = std::any_of(state.settled.begin(), state.settled.end(), [&](const CertifiedZero& other) {
+  const bool is_settled = std::any_of(state.settled.begin(), state.settled.end(), [&](const CertifiedZero& other) {
     return !touch->enclosure.empty() && owns(other, touch->enclosure);
   });
-  if (known) touch->enclosure.clear();
+  if (is_settled) touch->enclosure.clear();
   state.settled.push_back({lifted, std::move(touch->box), std::move(touch->enclosure)});
   return true;
 }
 
 void ZeroSearch::exclude_smoothly(const Group& group) {
   if (!is_smooth_worthwhile_ || group.empty()) return;
-  const auto exclude = [&](Candidate& own, SmoothCell::Standing place, const auto& excludes) {
-    own.excluded = place == SmoothCell::Standing::outside ||
-                   std::any_of(system_.functions.begin(), system_.functions.end(), excludes);
+  const auto exclude = [&](Candidate& candidate, SmoothCell::Standing place, const auto& excludes) {
+    candidate.excluded = place == SmoothCell::Standing::outside ||
+                         std::any_of(system_.functions.begin(), system_.functions.end(), excludes);
   };
   if (group.size() < few_candidates) {
     if (!smooth_) smooth_.emplace(*program_, mode());
     for (const std::size_t i : group) {
-      const PlaneCell& cell = candidates_[i].own->cell;
+      const PlaneCell& cell = candidates_[i].searched->cell;
       exclude(candidates_[i], smooth_->enter(cell.x, cell.y), [this](int f) { return smooth_->excludes(f); });
     }
     return;
@@ -301,7 +305,7 @@ void ZeroSearch::exclude_smoothly(const Group& group) {
   for (std::size_t first = 0; first < group.size(); first += size) {
     const std::size_t count = std::min(size, group.size() - first);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      const PlaneCell& cell = candidates_[group[first + lane]].own->cell;
+      const PlaneCell& cell = candidates_[group[first + lane]].searched->cell;
       ranges[lane] = {cell.x, cell.y};
     }
     smooth_side_by_side_->enter(ranges, count);
@@ -352,7 +356,7 @@ bool ZeroSearch::owns(const CertifiedZero& zero, const std::vector<Interval>& al
 
 /// All of its cell lies in the box of a zero that is known already.
 bool ZeroSearch::known(const Candidate& candidate) const {
-  const State& state = states_[candidate.own->search];
+  const State& state = states_[candidate.searched->search];
   const auto owns_all = [&](const CertifiedZero& zero) { return owns(zero, candidate.all); };
   return std::any_of(state.zeros.begin(), state.zeros.end(), owns_all) ||
          std::any_of(state.settled.begin(), state.settled.end(), owns_all);
@@ -374,15 +378,15 @@ void ZeroSearch::split(const Box& box, int axis, std::vector<Box>& next) {
 void ZeroSearch::narrow_all(const Group& group) {
   if (group.size() < few_candidates) {
     for (const std::size_t i : group) {
-      Candidate& own = candidates_[i];
-      narrow(cell_, system_, own.box, own.lifted, limits_.accuracy, own.image);
+      Candidate& candidate = candidates_[i];
+      narrow(cell_, system_, candidate.box, candidate.lifted, limits_.accuracy, candidate.image);
     }
     return;
   }
   std::vector<Narrowing> active;
   for (const std::size_t i : group) {
-    Candidate& own = candidates_[i];
-    active.emplace_back(system_, own.box, own.lifted, limits_.accuracy, own.image);
+    Candidate& candidate = candidates_[i];
+    active.emplace_back(system_, candidate.box, candidate.lifted, limits_.accuracy, candidate.image);
   }
   constexpr std::size_t size = SheetCells::size;
   if (!side_by_side_) side_by_side_.emplace(*program_, mode());
@@ -391,15 +395,15 @@ void ZeroSearch::narrow_all(const Group& group) {
       const std::size_t count = std::min(size, active.size() - first);
       std::array<SheetCells::Target, size> places;
       for (std::size_t lane = 0; lane < count; ++lane) {
-        const Narrowing& own = active[first + lane];
-        places[lane] = {{}, nullptr, &own.place(), &own.lifted()};
+        const Narrowing& narrowing = active[first + lane];
+        places[lane] = {{}, nullptr, &narrowing.place(), &narrowing.lifted()};
       }
       side_by_side_->enter(places, count);
       side_by_side_->differentiate();
       for (std::size_t lane = 0; lane < count; ++lane)
         active[first + lane].take((*side_by_side_)[lane], side_by_side_->inside(lane));
     }
-    std::erase_if(active, [](const Narrowing& own) { return own.is_done(); });
+    std::erase_if(active, [](const Narrowing& narrowing) { return narrowing.is_done(); });
   }
 }
 
@@ -408,8 +412,8 @@ void ZeroSearch::narrow_all(const Group& group) {
 bool ZeroSearch::accept(const Candidate& candidate) {
   const std::vector<int>& lifted = candidate.lifted;
   const std::vector<Interval>& enclosure = candidate.image;
-  const PlaneCell& cell = candidate.own->cell;
-  State& state = states_[candidate.own->search];
+  const PlaneCell& cell = candidate.searched->cell;
+  State& state = states_[candidate.searched->search];
   if (disjoint(enclosure[0], cell.x) || disjoint(enclosure[1], cell.y)) return true;
   for (std::size_t l = 0; l < lifted.size(); ++l)
     if (enclosure[2 + l].sign() == -mode()[lifted[l]]) return true;

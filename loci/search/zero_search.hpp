@@ -75,7 +75,7 @@ class ZeroSearch {
 
   /// A box under examination.
   struct Candidate {
-    const Box* own = nullptr;
+    const Box* searched = nullptr;
     bool excluded = false;
     std::vector<Interval> all;  ///< enclosures of all variables
     std::vector<int> lifted;
@@ -104,7 +104,7 @@ class ZeroSearch {
   template <class Function>
   bool excludes_zero(const Function& enclosure) const;
   /// The cell is next to a place where the curves touch or nearly do, in a box that is settled from now on.
-  bool settle_touch(const Box& own, const std::vector<Interval>& roots, const std::vector<int>& lifted);
+  bool settle_touch(const Box& box, const std::vector<Interval>& roots, const std::vector<int>& lifted);
   /// By second-order enclosures.
   void exclude_smoothly(const Group& group);
   int axis_to_cut(const SheetCell& cell, const PlaneCell& place) const;

@@ -21,10 +21,10 @@ class Search {
       : block_(program.blocks.back()), at_(at), program_(program) {
     program_.steps.resize(static_cast<std::size_t>(block_.end));
     for (const auto& [low, high] : before) {
-      Form own(0.5 * (low + high));
-      own.r = std::nextafter(std::max(high - own.c, own.c - low), HUGE_VAL);
-      before_.push_back(own);
-      middle_.push_back(own.c);
+      Form form(0.5 * (low + high));
+      form.r = std::nextafter(std::max(high - form.c, form.c - low), HUGE_VAL);
+      before_.push_back(form);
+      middle_.push_back(form.c);
     }
     forms_.emplace(program_);
     values_.emplace(program_);
@@ -39,9 +39,9 @@ class Search {
     if (!result.complete) search_from_places(whole, most, result.found);
     if (most && result.found.size() == *most) result.complete = true;
     std::sort(result.found.begin(), result.found.end());
-    for (core::BlockUnknowns& own : result.found) {
-      result.enclosed.push_back(enclosure(own));
-      own.insert(own.begin(), middle_.begin(), middle_.end());
+    for (core::BlockUnknowns& unknowns : result.found) {
+      result.enclosed.push_back(enclosure(unknowns));
+      unknowns.insert(unknowns.begin(), middle_.begin(), middle_.end());
     }
     return result;
   }
@@ -99,7 +99,7 @@ class Search {
     core::BlockUnknowns place = found[random() % found.size()];
     constexpr int finest = 8;
     const double reach = std::ldexp(size_, -1 - static_cast<int>(random() % finest));
-    for (double& own : place) own += std::uniform_real_distribution<double>(-reach, reach)(random);
+    for (double& component : place) component += std::uniform_real_distribution<double>(-reach, reach)(random);
     return place;
   }
 
@@ -110,11 +110,11 @@ class Search {
     for (int i = 0; i < most_steps; ++i) {
       if (!values_->put(at_, behind_others(unknowns))) return false;
       std::vector<double> jacobian, step;
-      for (const int own : block_.jacobian) jacobian.push_back((*values_)[own]);
-      for (const int own : block_.equations) step.push_back((*values_)[own]);
+      for (const int slope_step : block_.jacobian) jacobian.push_back((*values_)[slope_step]);
+      for (const int equation : block_.equations) step.push_back((*values_)[equation]);
       if (!core::solve_dense(jacobian, step)) return false;
       double longest = 0;
-      for (const double own : step) longest = std::max(longest, std::abs(own));
+      for (const double component : step) longest = std::max(longest, std::abs(component));
       const double share = std::min(1.0, 0.25 * size_ / longest);
       for (std::size_t k = 0; k < n; ++k) unknowns[k] -= share * step[k];
       constexpr double near = 1e-9;  // of the box
@@ -127,7 +127,7 @@ class Search {
   void prove(const core::BlockUnknowns& place, std::vector<core::BlockUnknowns>& found) {
     for (double part = 1e-3; part > 1e-10; part /= 4) {
       Box box;
-      for (const double own : place) box.push_back({own - part * size_, own + part * size_});
+      for (const double component : place) box.push_back({component - part * size_, component + part * size_});
       std::vector<core::BlockUnknowns> here;
       if (!is_done(box, here) || here.empty()) continue;
       return add(std::move(here.front()), found);
@@ -141,15 +141,15 @@ class Search {
     return widest;
   }
 
-  core::BlockUnknowns behind_others(const core::BlockUnknowns& own) const {
+  core::BlockUnknowns behind_others(const core::BlockUnknowns& unknowns) const {
     core::BlockUnknowns all = middle_;
-    all.insert(all.end(), own.begin(), own.end());
+    all.insert(all.end(), unknowns.begin(), unknowns.end());
     return all;
   }
 
-  typename PoseForms<Form>::Outcome put(const std::vector<Form>& own) {
+  typename PoseForms<Form>::Outcome put(const std::vector<Form>& forms) {
     std::vector<Form> all = before_;
-    all.insert(all.end(), own.begin(), own.end());
+    all.insert(all.end(), forms.begin(), forms.end());
     return forms_->put(at_, all);
   }
 
@@ -157,7 +157,7 @@ class Search {
   Box enclosure(const core::BlockUnknowns& solution) {
     for (double part = 1e-13; part < 1e-4; part *= 10) {
       Box box;
-      for (const double own : solution) box.push_back({own - part * size_, own + part * size_});
+      for (const double component : solution) box.push_back({component - part * size_, component + part * size_});
       std::vector<core::BlockUnknowns> here;
       if (is_done(box, here) && !here.empty()) return box;
     }
@@ -182,8 +182,8 @@ class Search {
       if (!(*forms_)[equation].contains_zero()) return true;
     std::vector<Form> jacobian;
     std::vector<double> middle, inverse(n * n);
-    for (const int own : block_.jacobian) {
-      jacobian.push_back((*forms_)[own]);
+    for (const int slope_step : block_.jacobian) {
+      jacobian.push_back((*forms_)[slope_step]);
       middle.push_back(jacobian.back().c);
     }
     if (!loci::invert(middle, inverse, n)) return false;
@@ -218,11 +218,11 @@ class Search {
     if (!values_->close(at_, all)) return;
     solution.assign(all.begin() + static_cast<std::ptrdiff_t>(middle_.size()), all.end());
     constexpr double same = 1e-9;
-    for (const core::BlockUnknowns& own : found) {
+    for (const core::BlockUnknowns& unknowns : found) {
       double apart = 0, size = 0;
-      for (std::size_t k = 0; k < own.size(); ++k) {
-        apart = std::max(apart, std::abs(own[k] - solution[k]));
-        size = std::max(size, std::abs(own[k]));
+      for (std::size_t k = 0; k < unknowns.size(); ++k) {
+        apart = std::max(apart, std::abs(unknowns[k] - solution[k]));
+        size = std::max(size, std::abs(unknowns[k]));
       }
       if (apart <= same * size) return;
     }
@@ -244,7 +244,7 @@ class Search {
 AllSolutions all_solutions(const core::PoseProgram& program, const Pose& at, const UnknownsBox& before,
                            const UnknownsBox& box, std::optional<std::size_t> most) {
   std::size_t unknowns = 0;
-  for (const core::PoseProgram::Block& own : program.blocks) unknowns += own.unknowns.size();
+  for (const core::PoseProgram::Block& block : program.blocks) unknowns += block.unknowns.size();
   core::ensure(!program.blocks.empty() && box.size() == program.blocks.back().unknowns.size() &&
                    before.size() + box.size() == unknowns,
                "a range for every unknown");

@@ -61,13 +61,13 @@ class AroundApex {
     const std::vector<int> numbers = numbering_.of(line);
     std::vector<Expansion> steps;
     for (std::size_t i = 0; i < line.steps.size(); ++i) {
-      std::optional<Expansion> own = step(line.steps[i], steps);
-      if (!own) return std::nullopt;
+      std::optional<Expansion> expansion = step(line.steps[i], steps);
+      if (!expansion) return std::nullopt;
       if (vanishing_.contains(numbers[i])) {
-        if (!own->slope) return std::nullopt;
-        own = Expansion{1, *own->slope, false, std::nullopt, std::nullopt};
+        if (!expansion->slope) return std::nullopt;
+        expansion = Expansion{1, *expansion->slope, false, std::nullopt, std::nullopt};
       }
-      steps.push_back(*own);
+      steps.push_back(*expansion);
     }
     return steps.back();
   }
@@ -114,16 +114,17 @@ class AroundApex {
   }
 
   Expansion root_expansion(int root) {
-    const int own = builder_.variable(3 + root);
-    if (const int power = star_.power_of_root(root); power > 0) return {power, own, false, std::nullopt, std::nullopt};
+    const int variable = builder_.variable(3 + root);
+    if (const int power = star_.power_of_root(root); power > 0)
+      return {power, variable, false, std::nullopt, std::nullopt};
     const Apex::Value& value = star_.apex->roots[static_cast<std::size_t>(root)];
-    Expansion result{0, own, false, std::nullopt, std::nullopt};
+    Expansion result{0, variable, false, std::nullopt, std::nullopt};
     if (!value.known) return result;
     result.at_apex = enclosed_as(value.middle, value.radius, static_cast<DoubleDouble*>(nullptr));
     // (s - s0) / u = ((Q - Q0) / u) / (s + s0)
     const std::optional<Expansion> square = of(form_of(tower_.roots[static_cast<std::size_t>(root)]));
     if (square && square->power == 0 && square->slope) {
-      const int both = builder_.add(own, builder_.constant(value.middle, value.radius));
+      const int both = builder_.add(variable, builder_.constant(value.middle, value.radius));
       result.slope = builder_.multiply(*square->slope, builder_.inverse(both));
     }
     return result;

@@ -139,8 +139,8 @@ std::optional<BoundaryMeeting> meeting_of(const BoundaryCurve& a, const Boundary
 std::vector<BoundaryMeeting> boundary_meetings(const core::RootTower& tower) {
   std::vector<BoundaryCurve> curves;
   for (int root = 0; root < static_cast<int>(tower.roots.size()); ++root)
-    for (const auto& own : {circles_of(tower, root), lines_of(tower, root)})
-      curves.insert(curves.end(), own.begin(), own.end());
+    for (const auto& limit : {circles_of(tower, root), lines_of(tower, root)})
+      curves.insert(curves.end(), limit.begin(), limit.end());
   std::vector<BoundaryMeeting> meetings;
   for (std::size_t i = 0; i < curves.size(); ++i)
     for (std::size_t k = i + 1; k < curves.size(); ++k) {

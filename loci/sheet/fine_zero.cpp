@@ -97,10 +97,10 @@ std::optional<FineZero> fine_zero(const SheetProgram& program, const core::Worki
     bool in_box = true;
     std::array<Rational, 2> next;
     for (std::size_t c = 0; c < 2; ++c) {
-      const MultiInterval own = MultiInterval(slopes->inverse[2 * c]) * values.value(0) +
-                                MultiInterval(slopes->inverse[2 * c + 1]) * values.value(1);
-      longest = std::max(longest, magnitude(own));
-      next[c] = (MultiInterval(at[c]) - own).lower_end();
+      const MultiInterval interval = MultiInterval(slopes->inverse[2 * c]) * values.value(0) +
+                                     MultiInterval(slopes->inverse[2 * c + 1]) * values.value(1);
+      longest = std::max(longest, magnitude(interval));
+      next[c] = (MultiInterval(at[c]) - interval).lower_end();
       in_box = in_box && Rational(box[c]->lower()) <= next[c] && next[c] <= Rational(box[c]->upper());
     }
     const Rational radius = longest / (1 - Rational(slopes->defect));

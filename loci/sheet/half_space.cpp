@@ -16,12 +16,12 @@ double half(const std::array<double, 2>& range) { return 0.5 * (range[1] - range
 
 HalfSpace HalfSpace::within(const std::array<double, Affine::noises>& way, double beyond) {
   double most = 0;
-  for (const double own : way) most = std::max(most, std::abs(own));
+  for (const double slope : way) most = std::max(most, std::abs(slope));
   HalfSpace part{way, beyond};
-  for (double& own : part.way) {
-    if (!(std::abs(own) < least_entry * most)) continue;
-    part.beyond += std::abs(own);
-    own = 0;
+  for (double& slope : part.way) {
+    if (!(std::abs(slope) < least_entry * most)) continue;
+    part.beyond += std::abs(slope);
+    slope = 0;
   }
   return part;
 }
@@ -30,11 +30,11 @@ HalfSpace HalfSpace::within(const std::array<double, Affine::noises>& way, doubl
 double share_of(const HalfSpace& part) {
   std::vector<double> a;
   double sum = 0, product = 1;
-  for (const double own : part.way)
-    if (own != 0) {
-      a.push_back(std::abs(own));
-      sum += std::abs(own);
-      product *= std::abs(own) * static_cast<double>(a.size());
+  for (const double slope : part.way)
+    if (slope != 0) {
+      a.push_back(std::abs(slope));
+      sum += std::abs(slope);
+      product *= std::abs(slope) * static_cast<double>(a.size());
     }
   const double s = 0.5 * (part.beyond + sum);
   if (s <= 0) return 1;
@@ -54,23 +54,23 @@ double share_of(const HalfSpace& part) {
 
 PoseBox box_around(const HalfSpace& part, const PoseBox& cell) {
   double sum = 0;
-  for (const double own : part.way) sum += std::abs(own);
+  for (const double slope : part.way) sum += std::abs(slope);
   PoseBox box = cell;
   for (std::size_t p = 0; p < cell.size(); ++p) {
-    const double own = part.way[p];
-    if (own == 0) continue;
+    const double slope = part.way[p];
+    if (slope == 0) continue;
     // The others help as much as they can.
-    const double least = std::max(-1.0, (part.beyond - (sum - std::abs(own))) / std::abs(own));
+    const double least = std::max(-1.0, (part.beyond - (sum - std::abs(slope))) / std::abs(slope));
     if (least <= -1) continue;
-    const double end = middle(cell[p]) + (own > 0 ? least : -least) * half(cell[p]);
-    box[p][own > 0 ? 0 : 1] = std::clamp(end, cell[p][0], cell[p][1]);
+    const double end = middle(cell[p]) + (slope > 0 ? least : -least) * half(cell[p]);
+    box[p][slope > 0 ? 0 : 1] = std::clamp(end, cell[p][0], cell[p][1]);
   }
   return box;
 }
 
 Pose inner_pose(const HalfSpace& part, const PoseBox& cell) {
   double sum = 0;
-  for (const double own : part.way) sum += std::abs(own);
+  for (const double slope : part.way) sum += std::abs(slope);
   // Half way from the part's end to the corner of the cell that lies farthest in it.
   const double out = sum > 0 ? std::max(0.0, 0.5 * (1 + part.beyond / sum)) : 0.0;
   Pose pose;
@@ -113,8 +113,8 @@ Polygon corners_of(const PoseBox& face) {
 Polygon clipped(const Polygon& polygon, const HalfSpace& part, const PoseBox& cell, double least, bool inside) {
   Polygon result;
   const auto above = [&](const std::array<double, 3>& at) {
-    const double own = height(part, cell, at) - least;
-    return inside ? own : -own;
+    const double excess = height(part, cell, at) - least;
+    return inside ? excess : -excess;
   };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const auto &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
@@ -159,8 +159,8 @@ Polygon cut_of(const HalfSpace& part, const PoseBox& cell) {
     }
   if (points.size() < 3) return {};
   std::array<double, 3> centre{}, normal{};
-  for (const auto& own : points)
-    for (std::size_t c = 0; c < 3; ++c) centre[c] += own[c] / static_cast<double>(points.size());
+  for (const auto& point : points)
+    for (std::size_t c = 0; c < 3; ++c) centre[c] += point[c] / static_cast<double>(points.size());
   for (std::size_t c = 0; c < 3; ++c) normal[c] = -part.way[c] / half(cell[c]);
   const std::size_t steep = static_cast<std::size_t>(
       std::max_element(normal.begin(), normal.end(), [](double x, double y) { return std::abs(x) < std::abs(y); }) -

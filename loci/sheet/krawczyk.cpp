@@ -51,8 +51,8 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
   image.reserve(static_cast<std::size_t>(cell.dimension()));
   for (int c = 0; c < cell.dimension(); ++c) image.push_back(cell.local(c));
   for (int i = 0; i < n; ++i) {
-    const int own = coordinate(i);
-    Interval sum = cell.middle(own);
+    const int unknown_index = coordinate(i);
+    Interval sum = cell.middle(unknown_index);
     for (int row = 0; row < n; ++row) {
       const Interval& value = row < given ? cell.middle_value(system.functions[row]) : cell.middle_bond(row - given);
       sum = sum - Interval(inverse(i, row)) * value;
@@ -63,9 +63,9 @@ ZeroCount krawczyk(const SheetCell& cell, const System& system, std::vector<Inte
       const int c = coordinate(column);
       sum = sum + defect * (cell.local(c) - Interval(cell.middle(c)));
     }
-    none = none || disjoint(sum, cell.local(own));
-    contracted = contracted && inside(sum, cell.local(own));
-    image[own] = sum;
+    none = none || disjoint(sum, cell.local(unknown_index));
+    contracted = contracted && inside(sum, cell.local(unknown_index));
+    image[unknown_index] = sum;
   }
   return none ? ZeroCount::none : contracted ? ZeroCount::unique : ZeroCount::unknown;
 }
@@ -127,8 +127,8 @@ void Narrowing::take_step() {
 void Narrowing::choose_trial() {
   bool inside_box = true;
   for (std::size_t c = 0; c < point_.size(); ++c) {
-    const double own = std::max(radius_, 0x1p-51 * point_[c].magnitude());
-    trial_[c] = is_thin(c) ? (*box_)[c] : Interval(point_[c].lower() - own, point_[c].upper() + own);
+    const double radius = std::max(radius_, 0x1p-51 * point_[c].magnitude());
+    trial_[c] = is_thin(c) ? (*box_)[c] : Interval(point_[c].lower() - radius, point_[c].upper() + radius);
     inside_box = inside_box && (is_thin(c) || inside(trial_[c], (*box_)[c]));
   }
   if (!inside_box) end_radii(false);

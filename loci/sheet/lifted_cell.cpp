@@ -131,16 +131,16 @@ bool excludes_zero_with(const LiftedCell& cell, std::size_t row, const std::vect
   // Slopes of the others made square to one another, each with what it is of them.
   std::vector<std::vector<double>> square, made_of;
   for (std::size_t k = 0; k < others.size(); ++k) {
-    std::vector<double> own = slopes_of(others[k]), parts(others.size(), 0);
+    std::vector<double> slopes = slopes_of(others[k]), parts(others.size(), 0);
     parts[k] = 1;
     for (std::size_t i = 0; i < square.size(); ++i) {
       const double size = product(square[i], square[i]);
       if (size == 0) continue;
-      const double times = product(own, square[i]) / size;
-      for (std::size_t d = 0; d < n; ++d) own[d] -= times * square[i][d];
+      const double times = product(slopes, square[i]) / size;
+      for (std::size_t d = 0; d < n; ++d) slopes[d] -= times * square[i][d];
       for (std::size_t j = 0; j < parts.size(); ++j) parts[j] -= times * made_of[i][j];
     }
-    square.push_back(std::move(own));
+    square.push_back(std::move(slopes));
     made_of.push_back(std::move(parts));
   }
   std::vector<double> multiples(others.size(), 0);
@@ -212,9 +212,9 @@ std::optional<std::vector<double>> newton(LiftedCell& cell, const Square& system
   if (inverse.empty()) return std::nullopt;
   std::vector<double> moved;
   for (std::size_t i = 0; i < n; ++i) {
-    double own = at[system.free[i]].middle();
-    for (std::size_t k = 0; k < n; ++k) own -= inverse[i * n + k] * cell.value(system.rows[k]).middle();
-    moved.push_back(own);
+    double coordinate = at[system.free[i]].middle();
+    for (std::size_t k = 0; k < n; ++k) coordinate -= inverse[i * n + k] * cell.value(system.rows[k]).middle();
+    moved.push_back(coordinate);
   }
   return moved;
 }

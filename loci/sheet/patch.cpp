@@ -154,14 +154,14 @@ core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
       place.back() = (step.first == 1) == along_x() ? deep : wide;
       continue;
     }
-    core::StraightLine::Step own = step;
+    core::StraightLine::Step moved = step;
     if (step.operation == Operation::variable) {
-      own.first = step.first == 0 ? 0 : step.first - 1;
+      moved.first = step.first == 0 ? 0 : step.first - 1;
     } else if (step.operation != Operation::constant) {
-      own.first = place[step.first];
-      own.second = step.operation == Operation::inverse ? 0 : place[step.second];
+      moved.first = place[step.first];
+      moved.second = step.operation == Operation::inverse ? 0 : place[step.second];
     }
-    line.steps.push_back(std::move(own));
+    line.steps.push_back(std::move(moved));
   }
   if (place.back() < offset) line.steps.push_back(line.steps[place.back()]);  // the result is X' or Y' itself
   return line;
@@ -184,35 +184,35 @@ Charting::Charting(const core::RootTower& tower, std::vector<SheetFunction> func
     : tower_(tower), functions_(std::move(functions)), stars_(stars) {}
 
 const Charting::AtStar& Charting::at_star(int index) {
-  for (const AtStar& known : known_)
-    if (known.star == index) return known;
-  AtStar own;
-  own.star = index;
+  for (const AtStar& at_star : known_)
+    if (at_star.star == index) return at_star;
+  AtStar at_star;
+  at_star.star = index;
   const Star& star = stars_[index];
   if (star.apex) {
     for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
       const core::Root& root = tower_.roots[j];
-      own.squares.push_back(root.is_angle() ? polar_angle(star, tower_, root)
-                                            : polar_line(star, tower_, SheetFunction{root.square, root.line},
-                                                         2 * star.power_of_root(static_cast<int>(j))));
+      at_star.squares.push_back(root.is_angle() ? polar_angle(star, tower_, root)
+                                                : polar_line(star, tower_, SheetFunction{root.square, root.line},
+                                                             2 * star.power_of_root(static_cast<int>(j))));
     }
-    for (const SheetFunction& f : functions_) own.functions.push_back(polar_line(star, tower_, f));
-    known_.push_back(own);
+    for (const SheetFunction& f : functions_) at_star.functions.push_back(polar_line(star, tower_, f));
+    known_.push_back(at_star);
     return known_.back();
   }
   for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
     if (tower_.roots[j].is_angle()) {
-      own.squares.push_back(polar_angle(star, tower_.roots[j]));
+      at_star.squares.push_back(polar_angle(star, tower_.roots[j]));
       continue;
     }
-    own.squares.push_back(
+    at_star.squares.push_back(
         polar_line(star, around(star, tower_.roots[j].square), 2 * star.power_of_root(static_cast<int>(j))));
   }
   for (const SheetFunction& f : functions_) {
     const Polynomial moved = around(star, f.polynomial);
-    own.functions.push_back(polar_line(star, moved, moved.is_zero() ? 0 : order_at(star, moved)));
+    at_star.functions.push_back(polar_line(star, moved, moved.is_zero() ? 0 : order_at(star, moved)));
   }
-  known_.push_back(std::move(own));
+  known_.push_back(std::move(at_star));
   return known_.back();
 }
 

@@ -46,7 +46,7 @@ std::vector<double> nearest_to_origin(const std::vector<double>& a, const std::v
 
 double length_of(const std::vector<double>& v) {
   double square = 0;
-  for (const double own : v) square += own * own;
+  for (const double component : v) square += component * component;
   return std::sqrt(square);
 }
 
@@ -64,8 +64,8 @@ PoseCellOf<Form>::PoseCellOf(const core::PoseStatics& statics)
       columns_[static_cast<std::size_t>(term.unknown)].push_back({static_cast<int>(row), term.step});
   for (const core::PoseDemand& demand : statics.demands)
     leasts_.push_back(std::nextafter(core::to_double(demand.demand.least), demand.demand.least > 0 ? 1e300 : 0.0));
-  for (const core::PoseProgram::Step& own : statics.program.steps)
-    if (own.operation == core::PoseProgram::Operation::square_root && own.varies) closures_.push_back(own.first);
+  for (const core::PoseProgram::Step& step : statics.program.steps)
+    if (step.operation == core::PoseProgram::Operation::square_root && step.varies) closures_.push_back(step.first);
   closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
   inverse_.resize(n_ * n_);
   error_.resize(n_ * n_);
@@ -118,11 +118,12 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
     if (!(std::abs(middle.c - starts[k]) + core::BlockSheet::accuracy * size < radius))
       return in_doubt(Doubt::workspace, middle);
   }
-  for (const int own : statics_->positive) {
-    if (step(own).upper() < 0) return State::outside;
-    if (step(own).lower() > 0) continue;
-    if (boundaries == nullptr || !is_finite(step(own))) return in_doubt(Doubt::workspace, step(own));
-    boundaries->push_back(step(own));
+  for (const int positive_step : statics_->positive) {
+    if (step(positive_step).upper() < 0) return State::outside;
+    if (step(positive_step).lower() > 0) continue;
+    if (boundaries == nullptr || !is_finite(step(positive_step)))
+      return in_doubt(Doubt::workspace, step(positive_step));
+    boundaries->push_back(step(positive_step));
   }
   return State::proven;
 }
@@ -146,8 +147,8 @@ bool PoseCellOf<Form>::is_regular() {
       Sum sum;
       if (i == j) sum.add(1, Form(1.0));
       for (const Entry& entry : columns_[j])
-        if (const double own = inverse_at(i, static_cast<std::size_t>(entry.row)); own != 0)
-          add_step(sum, -own, entry.step);
+        if (const double factor = inverse_at(i, static_cast<std::size_t>(entry.row)); factor != 0)
+          add_step(sum, -factor, entry.step);
       const Form e = sum.result();
       error_[i * n_ + j] = e.magnitude();
       for (std::size_t p = 0; p < Form::noises; ++p) moves[p] += std::abs(e.a[p]);
@@ -237,9 +238,9 @@ Form PoseCellOf<Form>::sum_of(const core::LinearRow& row, std::size_t load) cons
     sum.add(1, factor * moved_[load][j]);
     beyond += factor.magnitude() * rest_[load][j];
   }
-  Form own = sum.result();
-  own.r = (own.r + rounded_up(beyond, row.terms.size())) * (1 + 0x1p-40) + Form::slack(std::abs(own.c));
-  return own;
+  Form form = sum.result();
+  form.r = (form.r + rounded_up(beyond, row.terms.size())) * (1 + 0x1p-40) + Form::slack(std::abs(form.c));
+  return form;
 }
 
 template <class Form>
@@ -265,8 +266,8 @@ bool PoseCellOf<Form>::keeps(int index) {
   std::vector<Form> left;
   for (std::size_t j = 0; j < n_; ++j) {
     for (const Entry& entry : columns_[j])
-      if (const double own = multipliers[static_cast<std::size_t>(entry.row)]; own != 0)
-        add_step(sums[j], -own, entry.step);
+      if (const double multiplier = multipliers[static_cast<std::size_t>(entry.row)]; multiplier != 0)
+        add_step(sums[j], -multiplier, entry.step);
     left.push_back(sums[j].result());
   }
   double& kept = least_[static_cast<std::size_t>(index)];
@@ -288,9 +289,9 @@ bool PoseCellOf<Form>::keeps(int index) {
     // n is a unit vector to some roundings.
     const double low = Form::down(value.lower() - rounded_up(beyond, n_)) * (1 - 0x1p-48);
     kept = std::min(kept, low);
-    Open& own = kept_[static_cast<std::size_t>(index)];
-    own = {value, least, index, n.size() != 1 ? 0 : n[0] > 0 ? 1 : -1};
-    own.form.r = (own.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Form::slack(std::abs(value.c));
+    Open& open = kept_[static_cast<std::size_t>(index)];
+    open = {value, least, index, n.size() != 1 ? 0 : n[0] > 0 ? 1 : -1};
+    open.form.r = (open.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Form::slack(std::abs(value.c));
     if (low > least) {
       const double usual = std::abs(value.c) + 0x1p-1000;
       for (std::size_t p = 0; enough && p < Form::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
@@ -330,9 +331,9 @@ CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox
   // The demand that failed last fails again, mostly.
   const auto count = static_cast<int>(statics_->demands.size());
   for (int k = 0; k < count; ++k)
-    if (const int own = (first_ + k) % count; !keeps(own)) {
-      first_ = own;
-      return is_beyond_bound(own) ? State::outside : State::in_doubt;
+    if (const int index = (first_ + k) % count; !keeps(index)) {
+      first_ = index;
+      return is_beyond_bound(index) ? State::outside : State::in_doubt;
     }
   return State::proven;
 }

@@ -100,7 +100,7 @@ class PoseCellOf : public CellAnswers {
   void solve(std::size_t load);
   bool keeps(int demand);
   bool is_beyond_bound(int demand) const;
-  void drop_parts_beyond_bounds(Known& known) const;
+  void drop_parts_beyond_bounds(Known& sides_known) const;
   /// Most entries of A are numbers, which move with no coordinate.
   void add_step(Sum& sum, double factor, int index) const {
     if (forms_.varies(index))
@@ -117,10 +117,10 @@ class PoseCellOf : public CellAnswers {
     int demand = -1;
     int sign = 0;  ///< of a demand of one component where the form is positive; 0: of others
   };
-  void sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
-  void know_near_singularity(Known& known);
-  void know_at_demand(Known& known);
-  void know_at_boundary(Known& known);
+  void sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& sides_known) const;
+  void know_near_singularity(Known& sides_known);
+  void know_at_demand(Known& sides_known);
+  void know_at_boundary(Known& sides_known);
   double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
 
   const core::PoseStatics* statics_;
@@ -151,15 +151,15 @@ using PoseCell = PoseCellOf<Affine>;
 template <>
 CellAnswers::Known PoseCell::known();
 template <>
-void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const;
+void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& sides_known) const;
 template <>
-void PoseCell::drop_parts_beyond_bounds(Known& known) const;
+void PoseCell::drop_parts_beyond_bounds(Known& sides_known) const;
 template <>
-void PoseCell::know_at_demand(Known& known);
+void PoseCell::know_at_demand(Known& sides_known);
 template <>
-void PoseCell::know_near_singularity(Known& known);
+void PoseCell::know_near_singularity(Known& sides_known);
 template <>
-void PoseCell::know_at_boundary(Known& known);
+void PoseCell::know_at_boundary(Known& sides_known);
 extern template class PoseCellOf<Affine>;
 extern template class PoseCellOf<FlatAffine>;
 

@@ -14,9 +14,9 @@ using Operation = core::PoseProgram::Operation;
 /// pi to half a unit in the last place.
 template <class Form>
 Form enclosed_pi() {
-  Form own(3.14159265358979312);
-  own.r = 0x1p-52;
-  return own;
+  Form form(3.14159265358979312);
+  form.r = 0x1p-52;
+  return form;
 }
 
 template <class Form>
@@ -28,9 +28,9 @@ bool is_finite(const Form& x) {
 template <class Form>
 Form any_root_up_to(const Form& x) {
   const double half = 0.5 * std::sqrt(std::max(0.0, x.upper())) * (1 + 0x1p-50);
-  Form own(half);
-  own.r = half * (1 + 0x1p-50) + Form::slack(half);
-  return own;
+  Form form(half);
+  form.r = half * (1 + 0x1p-50) + Form::slack(half);
+  return form;
 }
 
 }  // namespace
@@ -39,10 +39,10 @@ template <class Form>
 PoseForms<Form>::PoseForms(const core::PoseProgram& program)
     : program_(&program), registers_(program.steps.size()), varies_(program.steps.size()) {
   for (std::size_t i = 0; i < registers_.size(); ++i) {
-    const core::PoseProgram::Step& own = program.steps[i];
-    if (own.operation == Operation::constant) registers_[i] = nearest<Form>(own.value);
-    if (own.operation == Operation::pi) registers_[i] = enclosed_pi<Form>();
-    varies_[i] = own.varies ? 1 : 0;
+    const core::PoseProgram::Step& step = program.steps[i];
+    if (step.operation == Operation::constant) registers_[i] = nearest<Form>(step.value);
+    if (step.operation == Operation::pi) registers_[i] = enclosed_pi<Form>();
+    varies_[i] = step.varies ? 1 : 0;
   }
 }
 
@@ -54,10 +54,11 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run(const PoseChart& chart, c
   unique_.clear();
   for (const core::PoseProgram::Block& block : program_->blocks) {
     // Of a root that may be zero no block closes with a proof.
-    if (const Outcome own = run_steps(done, block.begin, chart, box, nullptr); own != Outcome::complete) return own;
-    if (const Outcome own = close(block, chart, box, starts.subspan(first, block.unknowns.size()));
-        own != Outcome::complete)
-      return own;
+    if (const Outcome outcome = run_steps(done, block.begin, chart, box, nullptr); outcome != Outcome::complete)
+      return outcome;
+    if (const Outcome outcome = close(block, chart, box, starts.subspan(first, block.unknowns.size()));
+        outcome != Outcome::complete)
+      return outcome;
     done = block.begin;
     first += block.unknowns.size();
   }
@@ -66,9 +67,9 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run(const PoseChart& chart, c
 
 template <class Form>
 typename PoseForms<Form>::Outcome PoseForms<Form>::put(const Pose& at, std::span<const Form> unknowns) {
-  auto own = unknowns.begin();
+  auto unknown = unknowns.begin();
   for (const core::PoseProgram::Block& block : program_->blocks)
-    for (const int step : block.unknowns) (*this)[step] = *own++;
+    for (const int step : block.unknowns) (*this)[step] = *unknown++;
   return run_steps(0, program_->blocks.back().end, {at, {}}, {}, nullptr);
 }
 
@@ -80,10 +81,10 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run_steps(int from, int to, c
     return Outcome::in_doubt;
   };
   for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
-    const core::PoseProgram::Step& own = program_->steps[i];
-    const Form& x = registers_[static_cast<std::size_t>(own.first)];
-    const Form& y = registers_[static_cast<std::size_t>(own.second)];
-    switch (own.operation) {
+    const core::PoseProgram::Step& step = program_->steps[i];
+    const Form& x = registers_[static_cast<std::size_t>(step.first)];
+    const Form& y = registers_[static_cast<std::size_t>(step.second)];
+    switch (step.operation) {
       case Operation::constant:
       case Operation::pi:
       case Operation::unknown:
@@ -93,7 +94,7 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::run_steps(int from, int to, c
           registers_[i] = *coordinate_;
           break;
         }
-        const auto q = static_cast<std::size_t>(own.first);
+        const auto q = static_cast<std::size_t>(step.first);
         SumOf<Form> sum;
         sum.add(1, Form(chart.base[q]));
         for (std::size_t p = 0; p < box.size(); ++p) {
@@ -206,13 +207,13 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
   std::vector<Form> moved(n);
   std::vector<double> inverse(n * n), radius(n, 0.0), rest(n);
   std::vector<double> centres;
-  for (const Form& own : middle) centres.push_back(own.c);
+  for (const Form& form : middle) centres.push_back(form.c);
   const double size = core::size_of(*program_, centres);
   for (int step = 0; step <= iterations; ++step) {
     if (put(middle, radius) != Outcome::complete) return Outcome::in_doubt;
     if (step == 0) {
       std::vector<double> at_middle;
-      for (const int own : jacobian) at_middle.push_back((*this)[own].c);
+      for (const int slope_step : jacobian) at_middle.push_back((*this)[slope_step].c);
       if (!loci::invert(at_middle, inverse, n)) {
         doubt_ = Form();
         doubt_.a.fill(1);
@@ -226,8 +227,8 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
     }
     // Where Newton's iteration does not settle no box is mapped into itself.
     if (step > 0)
-      for (const Form& own : moved)
-        if (!(own.magnitude() < 0.25 * size)) return Outcome::in_doubt;
+      for (const Form& form : moved)
+        if (!(form.magnitude() < 0.25 * size)) return Outcome::in_doubt;
     if (step == iterations) break;
     for (std::size_t i = 0; i < n; ++i) {
       middle[i] = middle[i] - moved[i];
@@ -241,9 +242,9 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
     result.clear();
     for (std::size_t i = 0; i < n; ++i) {
       unique.push_back({middle[i], radius[i]});
-      Form own = middle[i] - moved[i];
-      own.r = own.r * (1 + 0x1p-50) + rest[i] * (1 + 0x1p-50);
-      result.push_back(own);
+      Form form = middle[i] - moved[i];
+      form.r = form.r * (1 + 0x1p-50) + rest[i] * (1 + 0x1p-50);
+      result.push_back(form);
     }
     return Outcome::complete;
   }
@@ -253,9 +254,9 @@ typename PoseForms<Form>::Outcome PoseForms<Form>::krawczyk(const std::vector<in
 namespace {
 
 template <class Form>
-Form widened(Form own, double radius) {
-  if (radius > 0) own.r += radius + Form::slack(std::abs(own.c));
-  return own;
+Form widened(Form form, double radius) {
+  if (radius > 0) form.r += radius + Form::slack(std::abs(form.c));
+  return form;
 }
 
 }  // namespace
@@ -264,7 +265,7 @@ template <class Form>
 typename PoseForms<Form>::Outcome PoseForms<Form>::close(const core::PoseProgram::Block& block, const PoseChart& chart,
                                                          const PoseBox& box, std::span<const double> start) {
   std::vector<Form> middle, result;
-  for (const double own : start) middle.emplace_back(own);
+  for (const double component : start) middle.emplace_back(component);
   const auto put = [&](const std::vector<Form>& unknowns, const std::vector<double>& radius) {
     for (std::size_t k = 0; k < unknowns.size(); ++k) (*this)[block.unknowns[k]] = widened(unknowns[k], radius[k]);
     return run_steps(block.begin, block.end, chart, box, nullptr);
@@ -279,7 +280,7 @@ bool PoseForms<Form>::turn(double q, std::span<const double> start, std::size_t 
   const core::PoseProgram::Block& block = program_->blocks.front();
   const std::size_t n = start.size();
   std::vector<Form> middle, result;
-  for (const double own : start) middle.emplace_back(own);
+  for (const double component : start) middle.emplace_back(component);
   middle[k] = Form(q);
   Form parameter(start[k]);
   parameter.a[0] = half;
@@ -310,7 +311,7 @@ int PoseForms<Form>::orientation() const {
   const core::PoseProgram::Block& block = program_->blocks.front();
   const std::size_t n = block.unknowns.size();
   std::vector<double> middle, inverse(n * n);
-  for (const int own : block.jacobian) middle.push_back((*this)[own].c);
+  for (const int slope_step : block.jacobian) middle.push_back((*this)[slope_step].c);
   int sign = 0;
   if (!loci::invert(middle, inverse, n, 0, &sign)) return 0;
   for (std::size_t i = 0; i < n; ++i) {

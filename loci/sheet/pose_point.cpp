@@ -13,13 +13,13 @@ PosePoint::PosePoint(const core::PoseStatics& statics)
       matrix_(n_ * n_),
       solution_(statics.loads, std::vector<double>(n_)) {
   using Operation = core::PoseProgram::Operation;
-  for (const core::PoseProgram::Step& own : statics.program.steps)
-    if (own.operation == Operation::square_root && own.varies) closures_.push_back(own.first);
+  for (const core::PoseProgram::Step& step : statics.program.steps)
+    if (step.operation == Operation::square_root && step.varies) closures_.push_back(step.first);
   closures_.insert(closures_.end(), statics.positive.begin(), statics.positive.end());
 }
 
 bool PosePoint::within_limits() const {
-  return std::all_of(statics_->positive.begin(), statics_->positive.end(), [&](int own) { return step(own) > 0; });
+  return std::all_of(statics_->positive.begin(), statics_->positive.end(), [&](int limit) { return step(limit) > 0; });
 }
 
 /// Gauss with partial pivoting, of A and of all loads together.
@@ -45,20 +45,20 @@ bool PosePoint::solve(At& result) {
       std::swap_ranges(matrix_.begin() + static_cast<std::ptrdiff_t>(pivot * n_),
                        matrix_.begin() + static_cast<std::ptrdiff_t>((pivot + 1) * n_),
                        matrix_.begin() + static_cast<std::ptrdiff_t>(k * n_));
-      for (std::vector<double>& own : solution_) std::swap(own[pivot], own[k]);
+      for (std::vector<double>& column : solution_) std::swap(column[pivot], column[k]);
     }
     for (std::size_t i = k + 1; i < n_; ++i) {
       const double factor = matrix_[i * n_ + k] / value;
       if (factor == 0) continue;
       for (std::size_t j = k + 1; j < n_; ++j) matrix_[i * n_ + j] -= factor * matrix_[k * n_ + j];
-      for (std::vector<double>& own : solution_) own[i] -= factor * own[k];
+      for (std::vector<double>& column : solution_) column[i] -= factor * column[k];
     }
   }
-  for (std::vector<double>& own : solution_)
+  for (std::vector<double>& column : solution_)
     for (std::size_t i = n_; i-- > 0;) {
-      for (std::size_t j = i + 1; j < n_; ++j) own[i] -= matrix_[i * n_ + j] * own[j];
-      own[i] /= matrix_[i * n_ + i];
-      if (!std::isfinite(own[i])) return false;
+      for (std::size_t j = i + 1; j < n_; ++j) column[i] -= matrix_[i * n_ + j] * column[j];
+      column[i] /= matrix_[i * n_ + i];
+      if (!std::isfinite(column[i])) return false;
     }
   return true;
 }
@@ -80,7 +80,7 @@ std::optional<PosePoint::At> PosePoint::solved() {
   At result;
   result.orientation = values_.orientation();
   if (!within_limits() || !solve(result)) return std::nullopt;
-  for (const int own : closures_) result.closures.push_back(step(own));
+  for (const int closure : closures_) result.closures.push_back(step(closure));
   for (const core::PoseDemand& demand : statics_->demands) {
     auto& by_load = result.components.emplace_back(statics_->loads);
     for (std::size_t load = 0; load < statics_->loads; ++load)

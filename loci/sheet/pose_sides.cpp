@@ -12,9 +12,9 @@ namespace {
 using Matrix = std::vector<std::vector<double>>;
 
 Matrix identity(std::size_t n) {
-  Matrix own(n, std::vector<double>(n, 0.0));
-  for (std::size_t i = 0; i < n; ++i) own[i][i] = 1;
-  return own;
+  Matrix identity(n, std::vector<double>(n, 0.0));
+  for (std::size_t i = 0; i < n; ++i) identity[i][i] = 1;
+  return identity;
 }
 
 /// X A Y = diag(1, ..., 1, s) to rounding, and the sign of |X| |Y|.
@@ -27,7 +27,7 @@ struct Reduced {
 std::optional<Reduced> reduced(Matrix a) {
   constexpr double least_pivot = 1e-10;  // of the largest: beyond, rounding would be all
   const std::size_t n = a.size();
-  Reduced own{identity(n), identity(n), 1};
+  Reduced reduced{identity(n), identity(n), 1};
   double first = 0;
   for (std::size_t k = 0; k + 1 < n; ++k) {
     std::size_t row = k, column = k;
@@ -42,37 +42,37 @@ std::optional<Reduced> reduced(Matrix a) {
     if (!std::isfinite(pivot) || !(std::abs(pivot) > least_pivot * first)) return std::nullopt;
     if (row != k) {
       std::swap(a[row], a[k]);
-      std::swap(own.left[row], own.left[k]);
-      own.sign = -own.sign;
+      std::swap(reduced.left[row], reduced.left[k]);
+      reduced.sign = -reduced.sign;
     }
     if (column != k) {
       for (std::size_t i = 0; i < n; ++i) {
         std::swap(a[i][column], a[i][k]);
-        std::swap(own.right[i][column], own.right[i][k]);
+        std::swap(reduced.right[i][column], reduced.right[i][k]);
       }
-      own.sign = -own.sign;
+      reduced.sign = -reduced.sign;
     }
-    if (pivot < 0) own.sign = -own.sign;
+    if (pivot < 0) reduced.sign = -reduced.sign;
     for (std::size_t j = 0; j < n; ++j) {
       a[k][j] /= pivot;
-      own.left[k][j] /= pivot;
+      reduced.left[k][j] /= pivot;
     }
     for (std::size_t i = 0; i < n; ++i) {
       const double factor = a[i][k];
       if (i == k || factor == 0) continue;
       for (std::size_t j = 0; j < n; ++j) {
         a[i][j] -= factor * a[k][j];
-        own.left[i][j] -= factor * own.left[k][j];
+        reduced.left[i][j] -= factor * reduced.left[k][j];
       }
     }
     for (std::size_t j = k + 1; j < n; ++j) {
       const double factor = a[k][j];
       if (factor == 0) continue;
       a[k][j] = 0;
-      for (std::size_t i = 0; i < n; ++i) own.right[i][j] -= factor * own.right[i][k];
+      for (std::size_t i = 0; i < n; ++i) reduced.right[i][j] -= factor * reduced.right[i][k];
     }
   }
-  return own;
+  return reduced;
 }
 
 double largest(const std::vector<Affine>& all, std::size_t count) {
@@ -100,8 +100,8 @@ HalfSpace where_positive(const std::vector<Affine>& forms) {
     way[p] = first.a[p] / length;
     square += way[p] * way[p];
   }
-  for (const Affine& own : forms) {
-    const Affine form = own.flattened();
+  for (const Affine& affine : forms) {
+    const Affine form = affine.flattened();
     double along = 0, off = 0;
     for (std::size_t p = 0; p < way.size(); ++p) along += form.a[p] * way[p];
     along /= square;
@@ -121,7 +121,7 @@ int sign_of(const Affine& x) { return x.contains_zero() ? 0 : x.c > 0 ? 1 : -1; 
 /// and likewise on the other side. Forms that vanish on one surface have nearly one direction; of others little is
 /// left. `turned`: what the sign of a demand is multiplied by where |A|'s form is positive (0: it is not open).
 template <>
-void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& known) const {
+void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& sides_known) const {
   if (open.empty()) return;
   const Affine first = open.front().form.flattened();
   const double length = first.linear();
@@ -134,24 +134,24 @@ void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& t
   }
   std::array<double, 2> beyond = {-1, -1};
   std::vector<int> alike;
-  for (const Open& own : open) {
+  for (const Open& open_side : open) {
     double along = 0, off = 0;
-    const Affine form = own.form.flattened();
+    const Affine form = open_side.form.flattened();
     for (std::size_t p = 0; p < way.size(); ++p) along += form.a[p] * way[p];
     along /= square;
     if (along == 0) return;
     for (std::size_t p = 0; p < way.size(); ++p) off += std::abs(form.a[p] - along * way[p]);
     alike.push_back(along > 0 ? 1 : -1);
-    const double beside = own.least + form.r + off, centre = alike.back() * form.c, rise = std::abs(along);
+    const double beside = open_side.least + form.r + off, centre = alike.back() * form.c, rise = std::abs(along);
     beyond[0] = std::max(beyond[0], (beside - centre) / rise);
     beyond[1] = std::max(beyond[1], (beside + centre) / rise);
   }
   for (std::size_t side = 0; side < 2; ++side) {
-    std::array<double, Affine::noises> own = way;
+    std::array<double, Affine::noises> affines = way;
     if (side == 1)
-      for (double& value : own) value = -value;
-    known.parts[side] = HalfSpace::within(own, beyond[side] + roundings);
-    Signs& signs = known.of_parts[side] = known.signs;
+      for (double& value : affines) value = -value;
+    sides_known.parts[side] = HalfSpace::within(affines, beyond[side] + roundings);
+    Signs& signs = sides_known.of_parts[side] = sides_known.signs;
     const int here = side == 0 ? 1 : -1;
     int determinant = 1;
     for (std::size_t i = 0; i < open.size(); ++i)
@@ -169,35 +169,35 @@ void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& t
 
 template <>
 PoseCell::Known PoseCell::known() {
-  Known known;
+  Known sides_known;
   const std::size_t demands = statics_->demands.size();
-  known.signs.assign(demands + 1, 0);
-  if (doubt_ == Doubt::workspace) know_at_boundary(known);
-  if (doubt_ == Doubt::singularity) know_near_singularity(known);
-  if (doubt_ == Doubt::demand) know_at_demand(known);
-  drop_parts_beyond_bounds(known);
-  return known;
+  sides_known.signs.assign(demands + 1, 0);
+  if (doubt_ == Doubt::workspace) know_at_boundary(sides_known);
+  if (doubt_ == Doubt::singularity) know_near_singularity(sides_known);
+  if (doubt_ == Doubt::demand) know_at_demand(sides_known);
+  drop_parts_beyond_bounds(sides_known);
+  return sides_known;
 }
 
 template <>
-void PoseCell::know_at_demand(Known& known) {
+void PoseCell::know_at_demand(Known& sides_known) {
   const std::size_t demands = statics_->demands.size();
-  const int own = demand_;
+  const int demand = demand_;
   const std::array<double, Affine::noises> spreads = spreads_;
-  known.signs.back() = determinant_;
+  sides_known.signs.back() = determinant_;
   std::vector<Open> open;
   for (std::size_t d = 0; d < demands; ++d) {
     if (keeps(static_cast<int>(d))) {
-      known.signs[d] = kept_[d].sign;
+      sides_known.signs[d] = kept_[d].sign;
       continue;
     }
-    known.open.emplace_back(Doubt::demand, static_cast<int>(d));
+    sides_known.open.emplace_back(Doubt::demand, static_cast<int>(d));
     open.push_back(kept_[d]);
   }
-  demand_ = own;
+  demand_ = demand;
   doubt_ = Doubt::demand;
   spreads_ = spreads;
-  sides_of(open, {}, known);
+  sides_of(open, {}, sides_known);
   // Where A is not far from singular its inverse is known badly, and s g well.
   constexpr double well_known = 0.1;
   if (contraction_ < well_known) return;
@@ -205,54 +205,54 @@ void PoseCell::know_at_demand(Known& known) {
   other.signs.assign(demands + 1, 0);
   know_near_singularity(other);
   const auto share = [](const Known& one) { return one.free ? 1.0 : share_of(one.parts[0]) + share_of(one.parts[1]); };
-  if (share(other) > share(known)) known = other;
+  if (share(other) > share(sides_known)) sides_known = other;
 }
 
 /// Where an effort is beyond its bound there is no state: such a part is none.
 template <>
-void PoseCell::drop_parts_beyond_bounds(Known& known) const {
+void PoseCell::drop_parts_beyond_bounds(Known& sides_known) const {
   const auto is_beyond = [&](const Signs& signs) {
     for (std::size_t d = 0; d < statics_->demands.size() && d < signs.size(); ++d)
       if (statics_->demands[d].demand.bound && signs[d] < 0) return true;
     return false;
   };
-  if (is_beyond(known.of_parts[0])) {
-    std::swap(known.parts[0], known.parts[1]);
-    std::swap(known.of_parts[0], known.of_parts[1]);
-    if (is_beyond(known.of_parts[0])) known.parts[0] = {};
+  if (is_beyond(sides_known.of_parts[0])) {
+    std::swap(sides_known.parts[0], sides_known.parts[1]);
+    std::swap(sides_known.of_parts[0], sides_known.of_parts[1]);
+    if (is_beyond(sides_known.of_parts[0])) sides_known.parts[0] = {};
   }
-  if (is_beyond(known.of_parts[1]) && !known.parts[1].empty()) known.beyond = true;
+  if (is_beyond(sides_known.of_parts[1]) && !sides_known.parts[1].empty()) sides_known.beyond = true;
 }
 
 /// The first part is within reach and free of all that may vanish, the second out of reach.
 template <>
-void PoseCell::know_at_boundary(Known& known) {
-  known.open.emplace_back(Doubt::workspace, -1);
+void PoseCell::know_at_boundary(Known& sides_known) {
+  sides_known.open.emplace_back(Doubt::workspace, -1);
   const std::array<double, Affine::noises> spreads = spreads_;
   std::vector<Affine> closures;
   const State state = run(*chart_, *box_, &closures);
-  known.outside = state == State::outside;
+  sides_known.outside = state == State::outside;
   if (state == State::proven && invert() && is_regular()) {
-    known.signs.back() = determinant_;
+    sides_known.signs.back() = determinant_;
     solve(0);
     bool all = true;
     for (std::size_t d = 0; d < statics_->demands.size(); ++d) {
       const bool kept = keeps(static_cast<int>(d));
-      if (kept) known.signs[d] = kept_[d].sign;
+      if (kept) sides_known.signs[d] = kept_[d].sign;
       all = all && kept;
     }
     if (all && !closures.empty()) {
-      known.parts[0] = where_positive(closures);
-      known.of_parts[0] = known.signs;
+      sides_known.parts[0] = where_positive(closures);
+      sides_known.of_parts[0] = sides_known.signs;
     }
   }
   double most = 0;
-  for (const Affine& own : closures) {
-    const HalfSpace part = where_positive({Affine(0.0) - own});
+  for (const Affine& closure : closures) {
+    const HalfSpace part = where_positive({Affine(0.0) - closure});
     if (part.empty() || share_of(part) <= most) continue;
     most = share_of(part);
-    known.parts[1] = part;
-    known.beyond = true;
+    sides_known.parts[1] = part;
+    sides_known.beyond = true;
   }
   doubt_ = Doubt::workspace;
   demand_ = -1;
@@ -260,9 +260,9 @@ void PoseCell::know_at_boundary(Known& known) {
 }
 
 template <>
-void PoseCell::know_near_singularity(Known& known) {
+void PoseCell::know_near_singularity(Known& sides_known) {
   constexpr std::size_t most = 40;  // unknowns: beyond, a cell costs more than its halves
-  known.open.emplace_back(Doubt::singularity, -1);
+  sides_known.open.emplace_back(Doubt::singularity, -1);
   if (n_ == 0 || n_ > most) return;
   Matrix middle(n_, std::vector<double>(n_, 0.0));
   for (std::size_t column = 0; column < n_; ++column)
@@ -280,7 +280,8 @@ void PoseCell::know_near_singularity(Known& known) {
     for (std::size_t l = 0; l < n_; ++l) {
       AffineSum sum;
       for (const Entry& entry : columns_[l])
-        if (const double own = X[i][static_cast<std::size_t>(entry.row)]; own != 0) sum.add(own, step(entry.step));
+        if (const double factor = X[i][static_cast<std::size_t>(entry.row)]; factor != 0)
+          sum.add(factor, step(entry.step));
       row[l] = sum.result();
     }
     double off = 0;
@@ -320,16 +321,16 @@ void PoseCell::know_near_singularity(Known& known) {
   std::vector<Open> open;
   if (side == 0) open.push_back({s, 0, -1, change->sign});
   std::vector<int> turned(statics_->demands.size(), 0);
-  if (side != 0) known.open.clear();
+  if (side != 0) sides_known.open.clear();
   for (std::size_t d = 0; d < statics_->demands.size(); ++d) {
     const core::PoseDemand& demand = statics_->demands[d];
     std::vector<Affine> components;
-    for (const core::LinearRow& own : demand.components) {
-      Affine sum = s * step(own.free.front());
+    for (const core::LinearRow& linear_row : demand.components) {
+      Affine sum = s * step(linear_row.free.front());
       double off = 0;
       for (std::size_t j = 0; j < n_; ++j) {
         AffineSum of_j;
-        for (const core::LinearRow::Term& term : own.terms)
+        for (const core::LinearRow::Term& term : linear_row.terms)
           if (const double value = Y[static_cast<std::size_t>(term.unknown)][j]; value != 0)
             of_j.add(value, step(term.step));
         const Affine c = of_j.result();
@@ -339,7 +340,7 @@ void PoseCell::know_near_singularity(Known& known) {
       components.push_back(widened(sum, off * rest_of_u));
     }
     double size = 0;
-    for (const Affine& own : components) size = std::hypot(size, own.c);
+    for (const Affine& component : components) size = std::hypot(size, component.c);
     AffineSum sum;
     for (std::size_t k = 0; k < components.size(); ++k)
       sum.add(size > 0 ? components[k].c / size : k == 0 ? 1.0 : 0.0, components[k]);
@@ -347,22 +348,22 @@ void PoseCell::know_near_singularity(Known& known) {
     const double least = leasts_[d] * s.magnitude() * (1 + 0x1p-45);
     const bool single = components.size() == 1;
     const int sign = !single ? 0 : components.front().c < 0 ? -1 : 1;
-    Open own{sum.result(), least, static_cast<int>(d), sign};
-    if (own.form.lower() > least) {
+    Open singular{sum.result(), least, static_cast<int>(d), sign};
+    if (singular.form.lower() > least) {
       turned[d] = sign;
-      if (side != 0) known.signs[d] = sign * side;
+      if (side != 0) sides_known.signs[d] = sign * side;
       continue;
     }
-    known.open.emplace_back(Doubt::demand, static_cast<int>(d));
-    if (side < 0) own.sign = -own.sign;
-    open.push_back(own);
+    sides_known.open.emplace_back(Doubt::demand, static_cast<int>(d));
+    if (side < 0) singular.sign = -singular.sign;
+    open.push_back(singular);
   }
   if (side != 0) {
-    known.signs.back() = side * change->sign;
-    known.free = open.empty();
+    sides_known.signs.back() = side * change->sign;
+    sides_known.free = open.empty();
     turned.clear();
   }
-  sides_of(open, turned, known);
+  sides_of(open, turned, sides_known);
 }
 
 }  // namespace clearloci::loci::pose

@@ -280,10 +280,10 @@ Interval SheetCell::centred(int function) const {
 
 bool SheetCell::is_beyond_a_rim() const {
   for (std::size_t l = 0; l < lifted_.size(); ++l) {
-    const std::size_t own = static_cast<std::size_t>(coordinates_) + l;
-    Interval square = squared(Interval(middle_[own])) - middle_bonds_[l];
+    const std::size_t variable = static_cast<std::size_t>(coordinates_) + l;
+    Interval square = squared(Interval(middle_[variable])) - middle_bonds_[l];
     for (std::size_t c = 0; c < local_.size(); ++c)
-      if (c != own && !is_zero(bond_slopes_[l][c]))
+      if (c != variable && !is_zero(bond_slopes_[l][c]))
         square = square - bond_slopes_[l][c] * (local_[c] - Interval(middle_[c]));
     if (square.upper() < 0) return true;
   }
@@ -316,10 +316,10 @@ SheetCells::SheetCells(const SheetProgram& program, const core::WorkingMode& mod
 template <class Of>
 void SheetCells::set_coordinates(SheetProgram::Registers<IntervalBatch>& registers, const Of& of) {
   for (int c = 0; c < coordinates_; ++c) {
-    IntervalBatch own;
+    IntervalBatch batch;
     for (std::size_t lane = 0; lane < size; ++lane)
-      if (inside_[lane]) own.lanes[lane] = of(cells_[lane], c);
-    registers.set(c, own);
+      if (inside_[lane]) batch.lanes[lane] = of(cells_[lane], c);
+    registers.set(c, batch);
   }
 }
 

@@ -34,9 +34,9 @@ SheetNewton::SheetNewton(const core::RootTower& tower, core::WorkingMode mode,
   const int n = program_.coordinates();
   for (int j = 0; j < program_.roots(); ++j) {
     const core::Root& root = tower.roots[static_cast<std::size_t>(j)];
-    std::vector<bool>& own = on_.emplace_back(used_.size(), false);
+    std::vector<bool>& depends = on_.emplace_back(used_.size(), false);
     for (int k = 0; k < j; ++k)
-      own[static_cast<std::size_t>(k)] =
+      depends[static_cast<std::size_t>(k)] =
           core::depends_on(root.square, n + k) || (!root.line.empty() && core::depends_on(root.line, n + k));
     for (int f = 0; f < program_.functions(); ++f)
       used_[static_cast<std::size_t>(j)] = used_[static_cast<std::size_t>(j)] || program_.depends(f, n + j);
@@ -71,9 +71,9 @@ void SheetNewton::measure_roots() {
   registers_.run_values();
   registers_.run_gradients();
   for (int j = 0; j < program_.roots(); ++j) {
-    const auto own = static_cast<std::size_t>(program_.coordinates()) + static_cast<std::size_t>(j);
-    const double size = std::max(std::abs(point_[own]), std::sqrt(square_slope(j)));
-    sizes_[own] = size > 0 && std::isfinite(size) ? size : 1;
+    const auto variable = static_cast<std::size_t>(program_.coordinates()) + static_cast<std::size_t>(j);
+    const double size = std::max(std::abs(point_[variable]), std::sqrt(square_slope(j)));
+    sizes_[variable] = size > 0 && std::isfinite(size) ? size : 1;
   }
 }
 
@@ -181,8 +181,8 @@ bool SheetNewton::is_on_sheet(std::span<const double> place) {
   const int n = program_.coordinates();
   for (int j = 0; j < program_.roots(); ++j) {
     if (!needed_[static_cast<std::size_t>(j)]) continue;
-    const auto own = static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
-    if (!(mode_[static_cast<std::size_t>(j)] * point_[own] >= -clear_of_rim * sizes_[own])) return false;
+    const auto variable = static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
+    if (!(mode_[static_cast<std::size_t>(j)] * point_[variable] >= -clear_of_rim * sizes_[variable])) return false;
   }
   lift(place);
   registers_.run_values();

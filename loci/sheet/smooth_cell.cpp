@@ -30,17 +30,17 @@ SmoothCell::SmoothCell(const SheetProgram& program, core::WorkingMode mode)
 SmoothCell::Standing SmoothCell::enter(const Interval& x, const Interval& y) {
   registers_.set(0, Jet(x, 0));
   registers_.set(1, Jet(y, 1));
-  bool known = true;
+  bool decided = true;
   for (int j = 0; j < program_->roots(); ++j) {
     registers_.run_square(j);
     const Jet& square = registers_.square(j);
     if (square.bounded && square.value.upper() < 0) return Standing::outside;
     const Jet root = root_of(square);
-    known = known && is_known(root);
+    decided = decided && is_known(root);
     registers_.set(2 + j, mode_[static_cast<std::size_t>(j)] > 0 ? root : -root);
   }
   registers_.run_values();
-  return known && is_known(registers_.value(0)) ? Standing::inside : Standing::unknown;
+  return decided && is_known(registers_.value(0)) ? Standing::inside : Standing::unknown;
 }
 
 bool SmoothCell::excludes(int function) const { return excludes_zero(registers_.value(function)); }
@@ -57,10 +57,10 @@ SmoothCells::SmoothCells(const SheetProgram& program, core::WorkingMode mode)
 void SmoothCells::enter(const std::array<std::array<Interval, 2>, size>& ranges, std::size_t count) {
   registers_.use_lanes(count);
   for (const int c : {0, 1}) {
-    JetBatch own;
+    JetBatch batch;
     for (std::size_t lane = 0; lane < count; ++lane)
-      own.set_lane(lane, Jet(ranges[lane][static_cast<std::size_t>(c)], c));
-    registers_.set(c, own);
+      batch.set_lane(lane, Jet(ranges[lane][static_cast<std::size_t>(c)], c));
+    registers_.set(c, batch);
   }
   places_.fill(Standing::inside);
   for (int j = 0; j < program_->roots(); ++j) {
@@ -93,11 +93,6 @@ bool SmoothCells::is_far_from_rims(std::size_t lane) const {
 
 bool is_smooth_worthwhile(const SheetProgram& program) {
   return program.is_nested() && program.instructions() <= most_steps;
-}
-
-std::optional<SmoothCell> worthwhile_smooth_cell(const SheetProgram& program, const core::WorkingMode& mode) {
-  if (!is_smooth_worthwhile(program)) return std::nullopt;
-  return SmoothCell(program, mode);
 }
 
 }  // namespace clearloci::loci::sheet

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 
 #include "loci/numbers/numbers.hpp"
 
@@ -66,9 +65,7 @@ class SmoothCells {
   std::array<Standing, size> places_{};
 };
 
+/// Not where plain enclosures do: no root is nested, or the program is too long for the price.
 bool is_smooth_worthwhile(const SheetProgram& program);
-
-/// None where plain enclosures do: no root is nested, or the program is too long for the price.
-std::optional<SmoothCell> worthwhile_smooth_cell(const SheetProgram& program, const core::WorkingMode& mode);
 
 }  // namespace clearloci::loci::sheet

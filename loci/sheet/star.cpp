@@ -239,10 +239,10 @@ std::vector<Star> with_what_vanishes(std::vector<Star> stars) {
 std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
   for (Star& star : stars) {
     if (star.apex) {
-      Apex own{star.apex->radius, {}};
-      for (const core::StraightLine& line : star.apex->vanishing) own.vanishing.push_back(narrowed(line, part));
-      for (const int root : part.kept) own.roots.push_back(star.apex->roots[static_cast<std::size_t>(root)]);
-      star.apex = std::move(own);
+      Apex apex{star.apex->radius, {}};
+      for (const core::StraightLine& line : star.apex->vanishing) apex.vanishing.push_back(narrowed(line, part));
+      for (const int root : part.kept) apex.roots.push_back(star.apex->roots[static_cast<std::size_t>(root)]);
+      star.apex = std::move(apex);
     }
     std::vector<int> roots;
     for (const int root : star.roots) {
@@ -319,9 +319,9 @@ bool vanishes_with(const Star& star, const core::RootTower& tower, const Polynom
 core::StraightLine polar_line(const Star& star, const Polynomial& around_star, int order) {
   Polynomial polar{around_star.variables + 1, {}};
   for (const core::Term& term : around_star.terms) {
-    core::Term own = term;
-    own.exponents.insert(own.exponents.begin(), order_of(star, term) - order);
-    polar.terms.push_back(std::move(own));
+    core::Term moved = term;
+    moved.exponents.insert(moved.exponents.begin(), order_of(star, term) - order);
+    polar.terms.push_back(std::move(moved));
   }
   core::StraightLineBuilder builder;
   std::vector<int> variables;

@@ -93,17 +93,17 @@ std::vector<Cells::Seen> Cells::seen_at(const std::vector<LatticePlace>& places)
   std::vector<Point> points;
   for (const LatticePlace& place : places) {
     std::uint64_t key = 0;
-    for (const std::int32_t own : place) key = key * side + static_cast<std::uint64_t>(own);
-    const auto [known, fresh] = seen_.try_emplace(key);
-    seen.push_back(&known->second);
+    for (const std::int32_t coordinate : place) key = key * side + static_cast<std::uint64_t>(coordinate);
+    const auto [found, fresh] = seen_.try_emplace(key);
+    seen.push_back(&found->second);
     if (!fresh) continue;
-    unknown.push_back(&known->second);
+    unknown.push_back(&found->second);
     points.push_back(unit_of(place));
   }
   const std::vector<Field::Sight> sights = field_->look_at(points);
   for (std::size_t k = 0; k < sights.size(); ++k) *unknown[k] = {sights[k].value < 0, sights[k].slopes};
   std::vector<Seen> result;
-  for (const Seen* own : seen) result.push_back(*own);
+  for (const Seen* entry : seen) result.push_back(*entry);
   return result;
 }
 

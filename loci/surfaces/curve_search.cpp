@@ -2,48 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <memory>
 #include <utility>
 
 #include "core/angle_chart.hpp"
 #include "core/errors.hpp"
+#include "loci/surfaces/space_search.hpp"
 
 namespace clearloci::loci::space {
 namespace {
-
-/// Cells are cut beside their middles, of each coordinate in another ratio, so that designs in round numbers have no
-/// curve along a cut or through an edge of cells.
-constexpr std::array<double, 3> cut_at = {0.4931, 0.5077, 0.4883};
-/// Two enclosures of one zero, as a part of the box: far above their width and below the distance of two.
-constexpr double one_zero = 1e-9;
-/// Of what is known of a box, beyond its sides: zeros beside them are then as good as others.
-constexpr double margin = 0.1;
-/// Instructions times cells that a search may take: some ten seconds.
-constexpr double most_work = 8e7;
-/// Pieces of a face looked at before the cell is cut instead.
-constexpr int most_pieces = 400;
-constexpr int asked_every = 64;
-
-struct OpenCell {
-  SpaceCell cell;
-  int depth = 0;
-  std::shared_ptr<const LiftedLook> look = {};  ///< once it was looked at
-  bool empty = false;                           ///< then: there is no zero in it
-  bool singular = false;                        ///< and: |A| may vanish in it
-};
-
-Interval widened(const Interval& range) {
-  const double by = margin * range.width();
-  return {range.lower() - by, range.upper() + by};
-}
-
-/// Whether a narrow enclosure lies in a range: nothing where its ends do not tell.
-std::optional<bool> lies_in(const Interval& at, const Interval& range) {
-  if (disjoint(at, range)) return false;
-  if (range.lower() <= at.lower() && at.upper() <= range.upper()) return true;
-  return std::nullopt;
-}
 
 /// At every point looked at one of the rows is zero, to rounding and to first order.
 bool one_vanishes_along(LiftedCell& lifted, std::size_t first_row, std::size_t end_row, const SpaceCell& box,
@@ -68,239 +34,9 @@ bool one_vanishes_along(LiftedCell& lifted, std::size_t first_row, std::size_t e
   return true;
 }
 
-/// What touches a cell in which |A| may vanish, over a few others, is open for that reason; a curve that stays open
-/// farther on is for another. `settled`: such cells that are known but for |A|.
-void spread_singularity(std::vector<UndecidedCell>& cells, const std::vector<SpaceCell>& settled) {
-  constexpr int most_between = 4;
-  const auto touch = [](const SpaceCell& a, const SpaceCell& b) {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (disjoint(a[i], b[i])) return false;
-    return true;
-  };
-  std::vector<std::pair<std::size_t, int>> reached;  // and over how many others
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    UndecidedCell& own = cells[c];
-    own.near_singularity =
-        own.near_singularity ||
-        std::any_of(settled.begin(), settled.end(), [&](const SpaceCell& other) { return touch(own.cell, other); });
-    if (own.near_singularity) reached.emplace_back(c, 0);
-  }
-  for (std::size_t next = 0; next < reached.size(); ++next)
-    for (std::size_t c = 0; c < cells.size() && reached[next].second < most_between; ++c)
-      if (!cells[c].near_singularity && touch(cells[reached[next].first].cell, cells[c].cell)) {
-        cells[c].near_singularity = true;
-        reached.emplace_back(c, reached[next].second + 1);
-      }
-}
-
-SpaceCell box_of(const core::LocusProblem& problem) {
-  SpaceCell box;
-  for (std::size_t i = 0; i < 3; ++i)
-    box[i] = Interval(core::to_double(problem.lower[i]), core::to_double(problem.upper[i]));
-  return box;
-}
-
-/// What the searches for curves and for points have in common.
-class Search {
+class PointSearch : public SpaceSearch {
  public:
-  Search(const core::LocusProblem& problem, const core::WorkingMode& mode, const Equations& equations,
-         const SearchLimits& limits)
-      : problem_(problem), limits_(limits), lifted_(problem, mode, functions_of(equations)) {
-    for (std::size_t i = 0; i < equations.system.size(); ++i) system_.push_back(i);
-    first_determinant_ = equations.system.size() + equations.also.size();
-    box_ = box_of(problem);
-    limits_.most_cells = std::min(limits_.most_cells, std::lround(most_work / (1 + lifted_.instructions())));
-  }
-
- protected:
-  static std::vector<sheet::SheetFunction> functions_of(const Equations& equations) {
-    std::vector<sheet::SheetFunction> all = equations.system;
-    all.insert(all.end(), equations.also.begin(), equations.also.end());
-    all.insert(all.end(), equations.determinant.begin(), equations.determinant.end());
-    return all;
-  }
-
-  /// Looks at the first cells of a queue, side by side.
-  void look_at(std::deque<OpenCell>& queue) {
-    std::vector<SpaceCell> cells;
-    for (std::size_t i = 0; i < std::min(queue.size(), sheet::IntervalBatch::size); ++i) cells.push_back(queue[i].cell);
-    const auto excludes = [&](const std::vector<Interval>& values) {
-      for (std::size_t row = 0; row < values.size(); ++row)
-        if (!is_determinant(row) && values[row].sign() != 0) return true;
-      return false;
-    };
-    std::vector<LiftedLook> looks =
-        lifted_.look_at(cells, [&](const std::vector<Interval>& values) { return !excludes(values); });
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (++cells_ % asked_every == 0 && limits_.stop && limits_.stop())
-        throw core::LimitReached("the time limit was reached");
-      OpenCell& own = queue[i];
-      own.empty = looks[i].slopes.empty();
-      if (!own.empty) judge(looks[i], own);
-      own.look = std::make_shared<const LiftedLook>(std::move(looks[i]));
-    }
-  }
-
-  /// Whether there is no zero in a cell, and whether |A| may vanish in it.
-  void judge(const LiftedLook& look, OpenCell& own) {
-    lifted_.take(look);
-    own.empty = true;
-    bool any = false;
-    for (std::size_t row = 0; row < lifted_.rows(); ++row) {
-      const bool excluded = look.values[row].sign() != 0 || excludes_zero(lifted_, row, look.box);
-      if (is_determinant(row))
-        any = any || !excluded;
-      else if (excluded)
-        return;
-    }
-    const std::vector<std::size_t> all = equations();
-    for (const std::size_t row : all) {
-      std::vector<std::size_t> others = all;
-      std::erase(others, row);
-      if (excludes_zero_with(lifted_, row, others, look.box)) return;
-    }
-    own.empty = false;
-    own.singular = any && !excludes_singularity(look, all);
-  }
-
-  /// No factor of |A| vanishes where the equations do.
-  bool excludes_singularity(const LiftedLook& look, const std::vector<std::size_t>& all) {
-    for (std::size_t row = first_determinant_; row < static_cast<std::size_t>(lifted_.functions()); ++row)
-      if (look.values[row].sign() == 0 && !excludes_zero_with(lifted_, row, all, look.box)) return false;
-    return true;
-  }
-
-  /// Cuts the box until `settle` says of every cell that is left, with its box and whether |A| may vanish in it, that
-  /// it is known. Cells in which |A| may vanish come last: they may be many.
-  template <class Result, class Settle>
-  void search(Result& result, const Settle& settle) {
-    std::deque<OpenCell> regular = {{box_, 0}}, singular;
-    long looked_at[2] = {0, 0};
-    while (!regular.empty() || !singular.empty()) {
-      const bool late = regular.empty();
-      std::deque<OpenCell>& from = late ? singular : regular;
-      if (!from.front().look) look_at(from);
-      OpenCell own = std::move(from.front());
-      from.pop_front();
-      if (own.empty) continue;
-      if (own.singular && !late && own.depth >= limits_.least_depth) {
-        singular.push_back(std::move(own));
-        continue;
-      }
-      lifted_.take(*own.look);
-      if (settle(own, own.look->box, own.singular)) continue;
-      const bool spent = ++looked_at[late ? 1 : 0] > (late ? limits_.most_cells / 2 : limits_.most_cells);
-      if (own.depth >= limits_.most_depth || spent) {
-        result.undecided.push_back({own.cell, own.singular});
-        result.gave_up = result.gave_up || (spent && !late);
-        continue;
-      }
-      cut(own, late && own.singular ? singular : regular);
-    }
-    if (!result.gave_up) spread_singularity(result.undecided, settled_singular_);
-  }
-
-  bool is_determinant(std::size_t row) const {
-    return row >= first_determinant_ && row < static_cast<std::size_t>(lifted_.functions());
-  }
-
-  /// The system's rows and those of the lifted roots.
-  std::vector<std::size_t> equations() const {
-    std::vector<std::size_t> rows = system_;
-    for (auto row = static_cast<std::size_t>(lifted_.functions()); row < lifted_.rows(); ++row) rows.push_back(row);
-    return rows;
-  }
-
-  void cut(const OpenCell& open, std::deque<OpenCell>& to) const {
-    std::array<double, 3> at{};
-    for (std::size_t i = 0; i < 3; ++i) at[i] = open.cell[i].lower() + cut_at[i] * open.cell[i].width();
-    for (int child = 0; child < 8; ++child) {
-      OpenCell own{open.cell, open.depth + 1};
-      for (std::size_t i = 0; i < 3; ++i)
-        own.cell[i] =
-            (child >> i & 1) == 0 ? Interval(open.cell[i].lower(), at[i]) : Interval(at[i], open.cell[i].upper());
-      to.push_back(own);
-    }
-  }
-
-  /// Zeros of a square system over a part of the cell lifted last; empty where that stays open. `range`: what they have
-  /// to lie in.
-  std::optional<std::vector<LiftedBox>> zeros(const Square& system, const LiftedBox& range) {
-    std::vector<LiftedBox> found, open = {range};
-    for (int pieces = 0; !open.empty(); ++pieces) {
-      if (pieces > most_pieces) return std::nullopt;
-      LiftedBox box = std::move(open.back());
-      open.pop_back();
-      if (has_none(system, box)) continue;
-      LiftedBox wide = box, image;
-      for (const std::size_t d : system.free) wide[d] = widened(box[d]);
-      Zeros count = krawczyk(lifted_, system, wide, image);
-      if (count == Zeros::none) continue;
-      if (count == Zeros::unique) {
-        const LiftedBox zero = narrowed(lifted_, system, image);
-        const std::optional<bool> is_in = lies_within(zero, range, system.free);
-        if (!is_in) return std::nullopt;
-        if (*is_in && std::none_of(found.begin(), found.end(), [&](const auto& own) { return same(own, zero); }))
-          found.push_back(zero);
-        continue;
-      }
-      // The widest in comparison with the range.
-      std::size_t widest = system.free.front();
-      double most = 0;
-      for (const std::size_t d : system.free)
-        if (const double part = box[d].width() / range[d].width(); part > most) most = part, widest = d;
-      LiftedBox other = box;
-      const double at = box[widest].lower() + cut_at[0] * box[widest].width();
-      box[widest] = Interval(box[widest].lower(), at);
-      other[widest] = Interval(at, other[widest].upper());
-      open.push_back(std::move(other));
-      open.push_back(std::move(box));
-    }
-    return found;
-  }
-
-  bool has_none(const Square& system, const LiftedBox& box) {
-    if (!lifted_.enter(box)) return false;
-    for (const std::size_t row : system.rows)
-      if (lifted_.value(row).sign() != 0) return true;
-    lifted_.differentiate();
-    return std::any_of(system.rows.begin(), system.rows.end(),
-                       [&](std::size_t row) { return excludes_zero(lifted_, row, box); });
-  }
-
-  /// On a side of the box itself, to rounding, counts as inside.
-  std::optional<bool> lies_within(const LiftedBox& zero, const LiftedBox& range,
-                                  const std::vector<std::size_t>& free) const {
-    bool open = false;
-    for (const std::size_t d : free) {
-      const std::optional<bool> own = lies_in(zero[d], range[d]);
-      if (own && !*own) return false;
-      const bool on_side = d < 3 && (zero[d].contains(box_[d].lower()) || zero[d].contains(box_[d].upper()));
-      open = open || (!own && !on_side);
-    }
-    if (open) return std::nullopt;
-    return true;
-  }
-
-  bool same(const LiftedBox& a, const LiftedBox& b) const {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (std::abs(a[i].middle() - b[i].middle()) > one_zero * box_[i].width()) return false;
-    return true;
-  }
-
-  const core::LocusProblem& problem_;
-  SearchLimits limits_;
-  LiftedCell lifted_;
-  std::vector<std::size_t> system_;
-  std::size_t first_determinant_ = 0;
-  SpaceCell box_;
-  long cells_ = 0;
-  std::vector<SpaceCell> settled_singular_;
-};
-
-class PointSearch : public Search {
- public:
-  using Search::Search;
+  using SpaceSearch::SpaceSearch;
 
   FoundPoints run() {
     FoundPoints result;
@@ -327,10 +63,10 @@ class PointSearch : public Search {
       point.at[i] = zero[i].middle();
       if (disjoint(zero[i], box_[i])) return;
     }
-    for (const ChartPoint& known : result.points) {
+    for (const ChartPoint& chart_point : result.points) {
       bool equal = true;
       for (std::size_t i = 0; i < 3; ++i)
-        equal = equal && std::abs(known.at[i] - point.at[i]) <= one_zero * box_[i].width();
+        equal = equal && std::abs(chart_point.at[i] - point.at[i]) <= one_zero * box_[i].width();
       if (equal) return;
     }
     result.points.push_back(point);
@@ -345,9 +81,9 @@ struct CurveCell {
   std::vector<Crossing> crossings;  ///< by the parameter; two and two bound a stretch
 };
 
-class CurveSearch : public Search {
+class CurveSearch : public SpaceSearch {
  public:
-  using Search::Search;
+  using SpaceSearch::SpaceSearch;
 
   FoundCurves run() {
     search(result_, [&](const OpenCell& open, const LiftedBox& box, bool singular) {
@@ -386,9 +122,9 @@ class CurveSearch : public Search {
         Square system{rows, {}};
         for (std::size_t d = 0; d < box.size(); ++d)
           if (d != face) system.free.push_back(d);
-        const auto own = zeros(system, range);
-        if (!own) return std::nullopt;
-        for (const LiftedBox& zero : *own) {
+        const auto found = zeros(system, range);
+        if (!found) return std::nullopt;
+        for (const LiftedBox& zero : *found) {
           Crossing crossing;
           for (const Interval& d : zero) crossing.at.push_back(d.middle());
           if (face >= 3)
@@ -460,14 +196,14 @@ class CurveSearch : public Search {
     std::size_t node = from;
     while (true) {
       used_[stretch] = true;
-      const Stretch& own = stretches_[stretch];
-      const CurveCell& cell = found_[own.cell];
-      const bool forwards = own.nodes[0] == node;
-      const Crossing &first = cell.crossings[own.crossing + (forwards ? 0 : 1)],
-                     &last = cell.crossings[own.crossing + (forwards ? 1 : 0)];
+      const Stretch& stretch_data = stretches_[stretch];
+      const CurveCell& cell = found_[stretch_data.cell];
+      const bool forwards = stretch_data.nodes[0] == node;
+      const Crossing &first = cell.crossings[stretch_data.crossing + (forwards ? 0 : 1)],
+                     &last = cell.crossings[stretch_data.crossing + (forwards ? 1 : 0)];
       add_vertices(cell, first.at, last.at, 0, arc.points);
       arc.certified = arc.certified && !cell.singular;
-      node = own.nodes[forwards ? 1 : 0];
+      node = stretch_data.nodes[forwards ? 1 : 0];
       arc.points.push_back(nodes_[node].at);
       const std::vector<std::size_t>& here = nodes_[node].stretches;
       if (node == from || here.size() != 2) break;
@@ -555,11 +291,11 @@ class CurveSearch : public Search {
   core::ArcEnd end_at(std::size_t node) const {
     if (nodes_[node].end != core::ArcEnd::none) return nodes_[node].end;
     const SpacePoint& at = nodes_[node].at;
-    for (const UndecidedCell& own : result_.undecided) {
-      bool touches = own.near_singularity;
+    for (const UndecidedCell& cell : result_.undecided) {
+      bool touches = cell.near_singularity;
       for (std::size_t i = 0; i < 3; ++i)
-        touches = touches && !disjoint(own.cell[i], Interval(at[i] - one_zero * box_[i].width(),
-                                                             at[i] + one_zero * box_[i].width()));
+        touches = touches && !disjoint(cell.cell[i], Interval(at[i] - one_zero * box_[i].width(),
+                                                              at[i] + one_zero * box_[i].width()));
       if (touches) return core::ArcEnd::direct_singularity;
     }
     return core::ArcEnd::none;
@@ -579,16 +315,16 @@ class CurveSearch : public Search {
     const std::optional<std::vector<double>> middle = between(cell, from, to);
     if (!middle) return;
     const SpacePoint a = placed(problem_, {from[0], from[1], from[2]}), b = placed(problem_, {to[0], to[1], to[2]}),
-                     own = placed(problem_, {(*middle)[0], (*middle)[1], (*middle)[2]});
+                     point = placed(problem_, {(*middle)[0], (*middle)[1], (*middle)[2]});
     double along = 0, length = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      along += (own[i] - a[i]) * (b[i] - a[i]);
+      along += (point[i] - a[i]) * (b[i] - a[i]);
       length += (b[i] - a[i]) * (b[i] - a[i]);
     }
     double off = 0;
     const double t = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double d = own[i] - a[i] - t * (b[i] - a[i]);
+      const double d = point[i] - a[i] - t * (b[i] - a[i]);
       off += d * d;
     }
     if (std::sqrt(off) <= limits_.tolerance) return;

@@ -111,8 +111,8 @@ void Field::enter(Chart& chart, const std::vector<Point>& places, std::vector<Po
   for (std::size_t i = 0; i < 3; ++i) {
     sheet::Batch variables;
     for (std::size_t l = 0; l < sheet::Batch::size; ++l) {
-      const std::size_t own = std::min(l, places.size() - 1);
-      variables[l] = variable_at(*chart.problem, i, places[own][i], scales[own][i]);
+      const std::size_t place = std::min(l, places.size() - 1);
+      variables[l] = variable_at(*chart.problem, i, places[place][i], scales[place][i]);
     }
     for (Point& scale : scales) scale[i] *= frame_.width(i);
     chart.beside.set(static_cast<int>(i), variables);
@@ -130,34 +130,34 @@ template <class Visit>
 void Field::each_batch(const std::vector<Point>& units, const Visit& visit) {
   std::vector<Chart*> chart_of;
   for (const Point& unit : units) chart_of.push_back(&chart_at(frame_.place(unit)));
-  std::vector<std::size_t> own;
+  std::vector<std::size_t> batch;
   std::vector<Point> places, scales;
   for (const auto& chart : charts_) {
     for (std::size_t k = 0; k < units.size(); ++k) {
-      if (chart_of[k] == chart.get()) own.push_back(k);
-      if (own.size() < sheet::Batch::size && (own.empty() || k + 1 < units.size())) continue;
+      if (chart_of[k] == chart.get()) batch.push_back(k);
+      if (batch.size() < sheet::Batch::size && (batch.empty() || k + 1 < units.size())) continue;
       places.clear();
-      for (const std::size_t point : own) places.push_back(frame_.place(units[point]));
+      for (const std::size_t point : batch) places.push_back(frame_.place(units[point]));
       enter(*chart, places, scales);
-      visit(*chart, own, scales);
-      own.clear();
+      visit(*chart, batch, scales);
+      batch.clear();
     }
   }
 }
 
 std::vector<double> Field::values(const std::vector<Point>& units) {
   std::vector<double> result(units.size());
-  each_batch(units, [&](Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>&) {
+  each_batch(units, [&](Chart& chart, const std::vector<std::size_t>& batch, const std::vector<Point>&) {
     chart.beside.run_values();
-    for (std::size_t l = 0; l < own.size(); ++l) result[own[l]] = chart.sign * chart.beside.value(0)[l];
+    for (std::size_t l = 0; l < batch.size(); ++l) result[batch[l]] = chart.sign * chart.beside.value(0)[l];
   });
   return result;
 }
 
 std::vector<double> Field::squares(const std::vector<Point>& units, int root) {
   std::vector<double> result(units.size());
-  each_batch(units, [&](const Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>&) {
-    for (std::size_t l = 0; l < own.size(); ++l) result[own[l]] = chart.beside.square(root)[l];
+  each_batch(units, [&](const Chart& chart, const std::vector<std::size_t>& batch, const std::vector<Point>&) {
+    for (std::size_t l = 0; l < batch.size(); ++l) result[batch[l]] = chart.beside.square(root)[l];
   });
   return result;
 }
@@ -165,11 +165,11 @@ std::vector<double> Field::squares(const std::vector<Point>& units, int root) {
 std::vector<Field::Sight> Field::look_at(const std::vector<Point>& units) {
   std::vector<Sight> result(units.size());
   gradient_.resize(static_cast<std::size_t>(charts_.front()->program.variables()));
-  each_batch(units, [&](Chart& chart, const std::vector<std::size_t>& own, const std::vector<Point>& scales) {
+  each_batch(units, [&](Chart& chart, const std::vector<std::size_t>& batch, const std::vector<Point>& scales) {
     chart.beside.run_values();
     chart.beside.run_gradients();
-    for (std::size_t l = 0; l < own.size(); ++l) {
-      Sight& sight = result[own[l]];
+    for (std::size_t l = 0; l < batch.size(); ++l) {
+      Sight& sight = result[batch[l]];
       sight.value = chart.sign * chart.beside.value(0)[l];
       sight.inside = true;
       chart.at.take_gradients(chart.beside, l);

@@ -157,7 +157,8 @@ class Field {
   /// Sets coordinates and roots.
   void enter(Chart& chart, Lanes& lanes);
   void differentiate(Chart& chart, Lanes& lanes);
-  static void reduce(const Chart& chart, const Lane& own, std::size_t lane, std::vector<core::Interval>& slopes);
+  static void reduce(const Chart& chart, const Lane& lane_values, std::size_t lane,
+                     std::vector<core::Interval>& slopes);
   void take_mean_values(Chart& chart, Lanes& lanes);
   /// `signs`: what is proven of the function where a lane is free of zeros.
   std::vector<Proof> examine(Chart& chart, Lanes& lanes, std::vector<int>& signs);
@@ -181,7 +182,7 @@ class Field {
   /// Of Q_j by the coordinates' variables; nothing where it depends on another root that may vanish.
   std::optional<Vector> square_slopes(const Chart& chart, const Lanes& lanes, std::size_t lane, int root) const;
   /// What differentiate() tells of a lane: all but its values and the clips at steep roots.
-  void take_slopes(const Chart& chart, Lanes& lanes, std::size_t lane, Over& own) const;
+  void take_slopes(const Chart& chart, Lanes& lanes, std::size_t lane, Over& over) const;
   void add_held_clips(Chart& chart, Lanes& lanes, std::vector<Over>& overs);
   void narrow_clips(Chart& chart, const Lanes& lanes, std::vector<Over>& overs);
 

@@ -35,17 +35,17 @@ void Field::enter_with_beyond(Chart& chart, Lanes& lanes) {
     return square < 0 ? -size : size;
   };
   for (int j = 0; j < roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
+    const auto root_index = static_cast<std::size_t>(j);
     chart.over.run_square(j);
     sheet::IntervalBatch root;
     for (std::size_t l = 0; l < lanes.size(); ++l) {
       const Interval& square = chart.over.square(j).lanes[l];
-      lanes[l].rising[own] = square.lower() <= 0;
+      lanes[l].rising[root_index] = square.lower() <= 0;
       const Interval reached = hull(root_at(square.lower()), root_at(square.upper()));
-      root.lanes[l] = mode_[own] > 0 ? reached : -reached;
+      root.lanes[l] = mode_[root_index] > 0 ? reached : -reached;
       // Slopes are taken on the way from 0.
-      const Interval from_none = lanes[l].rising[own] ? hull(reached, Interval(0.0)) : reached;
-      lanes[l].roots[own] = mode_[own] > 0 ? from_none : -from_none;
+      const Interval from_none = lanes[l].rising[root_index] ? hull(reached, Interval(0.0)) : reached;
+      lanes[l].roots[root_index] = mode_[root_index] > 0 ? from_none : -from_none;
     }
     chart.over.set(3 + j, root);
   }
@@ -53,18 +53,18 @@ void Field::enter_with_beyond(Chart& chart, Lanes& lanes) {
 
 void Field::set_roots(Chart& chart, const Lanes& lanes, bool held) {
   for (int j = 0; j < roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
+    const auto root_index = static_cast<std::size_t>(j);
     chart.over.run_square(j);
     sheet::IntervalBatch root;
     for (std::size_t l = 0; l < lanes.size(); ++l) {
       const Lane& lane = lanes[l];
       if (held && j == lane.steep)
         root.lanes[l] = Interval(0.0);
-      else if (lane.rising[own])
-        root.lanes[l] = lane.roots[own];
+      else if (lane.rising[root_index])
+        root.lanes[l] = lane.roots[root_index];
       else
-        root.lanes[l] =
-            mode_[own] > 0 ? square_root(chart.over.square(j).lanes[l]) : -square_root(chart.over.square(j).lanes[l]);
+        root.lanes[l] = mode_[root_index] > 0 ? square_root(chart.over.square(j).lanes[l])
+                                              : -square_root(chart.over.square(j).lanes[l]);
     }
     chart.over.set(3 + j, root);
   }
@@ -80,33 +80,33 @@ std::optional<Vector> Field::square_slopes(const Chart& chart, const Lanes& lane
   return Vector{slopes[0], slopes[1], slopes[2]};
 }
 
-void Field::take_slopes(const Chart& chart, Lanes& lanes, std::size_t lane, Over& own) const {
+void Field::take_slopes(const Chart& chart, Lanes& lanes, std::size_t lane, Over& over) const {
   Lane& at = lanes[lane];
   for (int j = 0; j < roots(); ++j) {
     const auto root = static_cast<std::size_t>(j);
     if (!at.rising[root] || sheet::is_zero(at.slopes[3 + root])) continue;
-    own.known = own.known && at.steep < 0;
+    over.known = over.known && at.steep < 0;
     at.steep = j;
   }
-  if (!own.known) return;
-  own.gradient = by_unit({at.slopes[0], at.slopes[1], at.slopes[2]}, at.variables, chart.sign);
+  if (!over.known) return;
+  over.gradient = by_unit({at.slopes[0], at.slopes[1], at.slopes[2]}, at.variables, chart.sign);
   if (at.steep >= 0) {
     const auto j = static_cast<std::size_t>(at.steep);
     const std::optional<Vector> square = square_slopes(chart, lanes, lane, at.steep);
     // The sign by which its clip is multiplied has to be known.
-    own.known = square.has_value() && at.slopes[3 + j].sign() != 0;
-    if (!own.known) return;
-    own.steep = by_unit(*square, at.variables, chart.sign * mode_[j]);
-    for (Interval& slope : *own.steep) slope = slope * at.slopes[3 + j];
-    own.reach = at.roots[j].magnitude();
+    over.known = square.has_value() && at.slopes[3 + j].sign() != 0;
+    if (!over.known) return;
+    over.steep = by_unit(*square, at.variables, chart.sign * mode_[j]);
+    for (Interval& slope : *over.steep) slope = slope * at.slopes[3 + j];
+    over.reach = at.roots[j].magnitude();
   }
   for (int j = 0; j < roots(); ++j) {
     if (!at.rising[static_cast<std::size_t>(j)] || j == lies_on_ || j == at.steep) continue;
     const std::optional<Vector> square = square_slopes(chart, lanes, lane, j);
-    own.known = own.known && square.has_value();
-    if (!own.known) return;
+    over.known = over.known && square.has_value();
+    if (!over.known) return;
     at.clip_slopes.push_back(*square);
-    own.clips.push_back({j, false, chart.over.square(j).lanes[lane], by_unit(*square, at.variables, 1)});
+    over.clips.push_back({j, false, chart.over.square(j).lanes[lane], by_unit(*square, at.variables, 1)});
   }
 }
 
@@ -127,8 +127,9 @@ void Field::add_held_clips(Chart& chart, Lanes& lanes, std::vector<Over>& overs)
   for (const std::size_t l : steep) {
     Lane& lane = lanes[l];
     for (int j = 0; j < roots(); ++j) {
-      const auto own = static_cast<std::size_t>(j);
-      if (j != lane.steep && lane.rising[own] && !sheet::is_zero(lane.slopes[3 + own])) overs[l].known = false;
+      const auto root_index = static_cast<std::size_t>(j);
+      if (j != lane.steep && lane.rising[root_index] && !sheet::is_zero(lane.slopes[3 + root_index]))
+        overs[l].known = false;
     }
     if (!overs[l].known) continue;
     lane.clip_slopes.push_back({lane.slopes[0], lane.slopes[1], lane.slopes[2]});
@@ -140,7 +141,7 @@ void Field::add_held_clips(Chart& chart, Lanes& lanes, std::vector<Over>& overs)
 
 /// By mean-value forms.
 void Field::narrow_clips(Chart& chart, const Lanes& lanes, std::vector<Over>& overs) {
-  const auto has_clips = [](const Over& own) { return own.known && !own.clips.empty(); };
+  const auto has_clips = [](const Over& over) { return over.known && !over.clips.empty(); };
   if (std::none_of(overs.begin(), overs.end(), has_clips)) return;
   set_variables(chart, lanes, true);
   set_roots(chart, lanes, true);
@@ -186,7 +187,7 @@ std::vector<Field::Over> Field::over(Chart& chart, Lanes& lanes) {
   }
   differentiate(chart, lanes);
   for (std::size_t l = 0; l < lanes.size(); ++l) take_slopes(chart, lanes, l, overs[l]);
-  const auto is_open = [](const Over& own) { return own.value.sign() == 0; };
+  const auto is_open = [](const Over& over) { return over.value.sign() == 0; };
   if (std::any_of(overs.begin(), overs.end(), is_open)) {
     take_mean_values(chart, lanes);
     for (std::size_t l = 0; l < lanes.size(); ++l)

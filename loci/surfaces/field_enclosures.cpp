@@ -51,8 +51,8 @@ void Field::set_variables(Chart& chart, const Lanes& lanes, bool middles) {
   for (std::size_t i = 0; i < 3; ++i) {
     sheet::IntervalBatch variables;
     for (std::size_t l = 0; l < lanes.size(); ++l) {
-      const Interval& own = lanes[l].variables[i];
-      variables.lanes[l] = middles ? Interval(own.middle()) : own;
+      const Interval& variable = lanes[l].variables[i];
+      variables.lanes[l] = middles ? Interval(variable.middle()) : variable;
     }
     chart.over.set(static_cast<int>(i), variables);
   }
@@ -69,25 +69,25 @@ void Field::begin(Chart& chart, Lanes& lanes) const {
 void Field::enter(Chart& chart, Lanes& lanes) {
   begin(chart, lanes);
   for (int j = 0; j < roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
+    const auto root_index = static_cast<std::size_t>(j);
     chart.over.run_square(j);
     sheet::IntervalBatch root;
     for (std::size_t l = 0; l < lanes.size(); ++l) {
       const Interval& square = chart.over.square(j).lanes[l];
       lanes[l].outside = lanes[l].outside || square.upper() < 0;
-      lanes[l].rising[own] = square.lower() <= 0;
+      lanes[l].rising[root_index] = square.lower() <= 0;
       const Interval positive = square.upper() < 0 ? Interval(0.0) : square_root(square);
-      lanes[l].roots[own] = root.lanes[l] = mode_[own] > 0 ? positive : -positive;
+      lanes[l].roots[root_index] = root.lanes[l] = mode_[root_index] > 0 ? positive : -positive;
     }
     chart.over.set(3 + j, root);
   }
 }
 
 /// Leaves roots that may be 0 in the cell as variables.
-void Field::reduce(const Chart& chart, const Lane& own, std::size_t lane, std::vector<Interval>& slopes) {
+void Field::reduce(const Chart& chart, const Lane& lane_values, std::size_t lane, std::vector<Interval>& slopes) {
   Interval half;
   const auto half_inverse = [&](int j) -> const Interval* {
-    if (own.rising[static_cast<std::size_t>(j)]) return nullptr;
+    if (lane_values.rising[static_cast<std::size_t>(j)]) return nullptr;
     half = inverse(Interval(2.0) * chart.over.root(j).lanes[lane]);
     return &half;
   };
@@ -118,20 +118,20 @@ void Field::take_mean_values(Chart& chart, Lanes& lanes) {
     }
   set_variables(chart, lanes, true);
   for (int j = 0; j < roots(); ++j) {
-    const auto own = static_cast<std::size_t>(j);
+    const auto root_index = static_cast<std::size_t>(j);
     chart.over.run_square(j);
     sheet::IntervalBatch root;
     for (std::size_t l = 0; l < lanes.size(); ++l) {
       const Lane& lane = lanes[l];
-      if (lane.rising[own]) {
-        const Interval middle = lane.roots[own].middle();
-        away[l] = away[l] + lane.slopes[3 + own] * (lane.roots[own] - middle);
+      if (lane.rising[root_index]) {
+        const Interval middle = lane.roots[root_index].middle();
+        away[l] = away[l] + lane.slopes[3 + root_index] * (lane.roots[root_index] - middle);
         root.lanes[l] = middle;
         continue;
       }
       const Interval& square = chart.over.square(j).lanes[l];
       const Interval positive = square.upper() < 0 ? Interval(0.0) : square_root(square);
-      root.lanes[l] = mode_[own] > 0 ? positive : -positive;
+      root.lanes[l] = mode_[root_index] > 0 ? positive : -positive;
     }
     chart.over.set(3 + j, root);
   }
@@ -216,8 +216,8 @@ std::vector<bool> Field::keeps_signs(const std::vector<Box>& units, const std::v
       enter_with_beyond(*chart, lanes);
       chart->over.run_values();
       for (std::size_t l = 0; l < lanes.size(); ++l) {
-        const int own = chart->sign * chart->over.value(0).lanes[l].sign();
-        if (own != signs[lanes[l].box]) result[lanes[l].box] = false;
+        const int sign = chart->sign * chart->over.value(0).lanes[l].sign();
+        if (sign != signs[lanes[l].box]) result[lanes[l].box] = false;
       }
     }
   return result;
@@ -226,20 +226,20 @@ std::vector<bool> Field::keeps_signs(const std::vector<Box>& units, const std::v
 std::vector<Interval> Field::squares_over(const std::vector<Box>& units, int root) {
   std::vector<Box> places;
   for (const Box& unit : units) places.push_back(place_of(unit));
-  std::vector<std::optional<Interval>> known(units.size());
+  std::vector<std::optional<Interval>> values(units.size());
   for (const auto& chart : charts_)
     for (Lanes& lanes : lanes_of(*chart, places)) {
       enter_with_beyond(*chart, lanes);
       for (std::size_t l = 0; l < lanes.size(); ++l) {
-        std::optional<Interval>& whole = known[lanes[l].box];
-        const Interval& own = chart->over.square(root).lanes[l];
-        whole = whole ? hull(*whole, own) : own;
+        std::optional<Interval>& whole = values[lanes[l].box];
+        const Interval& lane = chart->over.square(root).lanes[l];
+        whole = whole ? hull(*whole, lane) : lane;
       }
     }
   std::vector<Interval> result;
-  for (const std::optional<Interval>& own : known) {
-    core::ensure(own.has_value(), "a box of the cube meets a chart");
-    result.push_back(*own);
+  for (const std::optional<Interval>& interval : values) {
+    core::ensure(interval.has_value(), "a box of the cube meets a chart");
+    result.push_back(*interval);
   }
   return result;
 }

@@ -120,7 +120,7 @@ bool is_beyond_the_boundary(const Field::Over& f) {
 bool is_regular(const TetrahedronPart& part, const Slope& g, const std::vector<Field::Over>& over, int orientation) {
   const int sign = sign_of(part.nodes);
   Vector way = within(part.sides, g.gradient);
-  for (Interval& own : way) own = Interval(orientation) * own;
+  for (Interval& interval : way) interval = Interval(orientation) * interval;
   return std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
     if (sign != 0 && f.value.sign() == sign) return true;
     if (is_beyond_the_boundary(f)) return true;
@@ -158,7 +158,7 @@ class Homotopy {
       cells.push_back({cell, first, last});
       if (cells.size() < side_by_side && last < all.tetrahedra.size()) continue;
       std::vector<Box> boxes;
-      for (const Tetrahedral& own : cells) boxes.push_back(box_of(all, own));
+      for (const Tetrahedral& tetrahedral_cell : cells) boxes.push_back(box_of(all, tetrahedral_cell));
       const std::vector<std::vector<Field::Over>> over = field_.over(boxes);
       for (std::size_t k = 0; k < cells.size(); ++k) {
         if (stop && ++examined_ % clock_every == 0 && stop()) throw core::LimitReached("the time limit was reached");
@@ -186,7 +186,7 @@ class Homotopy {
 
   /// The marcher's corners come first, in its order.
   void place_corners() {
-    for (const Complex::Corner& own : complex_.corners) nodes_.push_back({own.at, own.signed_value()});
+    for (const Complex::Corner& corner : complex_.corners) nodes_.push_back({corner.at, corner.signed_value()});
     std::vector<Point> others;
     for (std::size_t i = nodes_.size(); i < complex_.cut.corners.size(); ++i)
       others.push_back(unit_of(complex_.cut.corners[i]));
@@ -196,9 +196,9 @@ class Homotopy {
   }
 
   /// Of a cell with all its tetrahedra, whose corners may have left it.
-  Box box_of(const Tetrahedra& all, const Tetrahedral& own) const {
-    Box box = cells_.cells()[static_cast<std::size_t>(own.cell)].box();
-    for (std::size_t t = own.first; t < own.last; ++t) {
+  Box box_of(const Tetrahedra& all, const Tetrahedral& cell) const {
+    Box box = cells_.cells()[static_cast<std::size_t>(cell.cell)].box();
+    for (std::size_t t = cell.first; t < cell.last; ++t) {
       const Box part = surface::box_of(nodes_of(all.tetrahedra[t]));
       for (std::size_t i = 0; i < 3; ++i) box[i] = hull(box[i], part[i]);
     }
@@ -206,28 +206,28 @@ class Homotopy {
   }
 
   /// With f over the whole cell, `over`, then, where that does not do, over the parts' own boxes.
-  bool is_regular_in(const Tetrahedra& all, const Tetrahedral& own, const std::vector<Field::Over>& over) {
-    if (!is_regular_where_likeliest_not(all, own, over)) return false;
+  bool is_regular_in(const Tetrahedra& all, const Tetrahedral& cell, const std::vector<Field::Over>& over) {
+    if (!is_regular_where_likeliest_not(all, cell, over)) return false;
     std::vector<Doubt> doubts;
-    for (std::size_t t = own.first; t < own.last; ++t) {
+    for (std::size_t t = cell.first; t < cell.last; ++t) {
       if (!find_doubts(all.tetrahedra[t], over, orientation(all, all.tetrahedra[t]), doubts)) return false;
-      if (doubts.size() < many_doubts && t + 1 < own.last) continue;
+      if (doubts.size() < many_doubts && t + 1 < cell.last) continue;
       if (!are_regular(doubts)) return false;
       doubts.clear();
     }
     if (std::all_of(over.begin(), over.end(), [](const Field::Over& f) { return f.known && f.clips.empty(); }))
       return true;
-    for (std::size_t t = own.first; t < own.last; ++t)
+    for (std::size_t t = cell.first; t < cell.last; ++t)
       if (!keeps_inside(all, t)) return false;
     return true;
   }
 
   /// False: one of a few parts is not regular. They are the likeliest ones, which the triangles run through, or else
   /// those where the function is the least: most of the cells that stay open are known for it here. True tells nothing.
-  bool is_regular_where_likeliest_not(const Tetrahedra& all, const Tetrahedral& own,
+  bool is_regular_where_likeliest_not(const Tetrahedra& all, const Tetrahedral& cell,
                                       const std::vector<Field::Over>& over) {
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t t = own.first; t < own.last; ++t) order.emplace_back(least_value(all.tetrahedra[t]), t);
+    for (std::size_t t = cell.first; t < cell.last; ++t) order.emplace_back(least_value(all.tetrahedra[t]), t);
     std::vector<Doubt> doubts;
     const auto taken = static_cast<std::ptrdiff_t>(std::min(order.size(), many_doubts));
     std::partial_sort(order.begin(), order.begin() + taken, order.end());
@@ -356,16 +356,16 @@ class Homotopy {
   bool are_regular(const std::vector<Doubt>& doubts) {
     std::vector<Box> boxes;
     std::vector<int> signs;
-    for (const Doubt& own : doubts)
-      if (const int sign = sign_of(own.part.nodes); sign != 0) {
-        boxes.push_back(surface::box_of(own.part.nodes));
+    for (const Doubt& doubt : doubts)
+      if (const int sign = sign_of(doubt.part.nodes); sign != 0) {
+        boxes.push_back(surface::box_of(doubt.part.nodes));
         signs.push_back(sign);
       }
     const std::vector<bool> kept = field_.keeps_signs(boxes, signs);
     std::vector<const Doubt*> open;
     std::size_t next = 0;
-    for (const Doubt& own : doubts)
-      if (sign_of(own.part.nodes) == 0 || !kept[next++]) open.push_back(&own);
+    for (const Doubt& doubt : doubts)
+      if (sign_of(doubt.part.nodes) == 0 || !kept[next++]) open.push_back(&doubt);
     return are_regular_by_slopes(open);
   }
 
@@ -379,8 +379,8 @@ class Homotopy {
       }
       const std::vector<std::vector<Field::Over>> closer = field_.over(boxes, signs);
       for (std::size_t k = 0; k < closer.size(); ++k) {
-        const Doubt& own = *doubts[first + k];
-        if (!is_regular(own.part, own.g, closer[k], own.orientation)) return false;
+        const Doubt& doubt = *doubts[first + k];
+        if (!is_regular(doubt.part, doubt.g, closer[k], doubt.orientation)) return false;
       }
     }
     return true;
@@ -400,9 +400,9 @@ class Homotopy {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = i + 1; k < 4; ++k) {
         if (!(below(i) && above(k)) && !(above(i) && below(k))) continue;
-        const auto known = complex_.crossing_of.find(Complex::key(corners[i], corners[k]));
-        if (known == complex_.crossing_of.end()) return std::nullopt;
-        result.push_back(known->second);
+        const auto found = complex_.crossing_of.find(Complex::key(corners[i], corners[k]));
+        if (found == complex_.crossing_of.end()) return std::nullopt;
+        result.push_back(found->second);
       }
     std::sort(result.begin(), result.end());
     return result;

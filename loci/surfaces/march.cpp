@@ -87,9 +87,9 @@ class Marcher {
   Corner& corner(int i) { return corners_[static_cast<std::size_t>(i)]; }
 
   int crossing(int a, int b) {
-    const auto [known, fresh] = crossing_of_.try_emplace(Complex::key(a, b), static_cast<int>(crossings_.size()));
+    const auto [found, fresh] = crossing_of_.try_emplace(Complex::key(a, b), static_cast<int>(crossings_.size()));
     if (fresh) crossings_.push_back({std::min(a, b), std::max(a, b)});
-    return known->second;
+    return found->second;
   }
 
   /// Places the crossings that are new, all of them side by side.
@@ -103,10 +103,10 @@ class Marcher {
     }
     while (!active.empty()) {
       std::vector<Point> points;
-      for (const std::size_t own : active) points.push_back(searches[own].next());
+      for (const std::size_t search : active) points.push_back(searches[search].next());
       const std::vector<double> values = field_.values(points);
       for (std::size_t k = 0; k < active.size(); ++k) searches[active[k]].learn(values[k]);
-      std::erase_if(active, [&](std::size_t own) { return searches[own].done(); });
+      std::erase_if(active, [&](std::size_t search) { return searches[search].done(); });
     }
     for (const SignChange& search : searches) {
       Crossing& crossing = crossings_[placed_++];
@@ -126,8 +126,8 @@ class Marcher {
   /// Faces of the cube that hold a must hold b: a then stays in them on its way to b.
   bool may_move_towards(int a, int b) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t own = cut_.corners[static_cast<std::size_t>(a)][i];
-      if ((own == 0 || own == lattice) && cut_.corners[static_cast<std::size_t>(b)][i] != own) return false;
+      const std::int32_t corner = cut_.corners[static_cast<std::size_t>(a)][i];
+      if ((corner == 0 || corner == lattice) && cut_.corners[static_cast<std::size_t>(b)][i] != corner) return false;
     }
     return true;
   }
@@ -146,9 +146,9 @@ class Marcher {
     std::vector<double> least(corners_.size(), near_corner);
     for (std::size_t c = 0; c < crossings_.size(); ++c) {
       const Crossing& crossing = crossings_[c];
-      const auto offer = [&](int own, int other, double part) {
-        const auto i = static_cast<std::size_t>(own);
-        if (part >= least[i] || !may_move_towards(own, other)) return;
+      const auto offer = [&](int moved_corner, int other, double part) {
+        const auto i = static_cast<std::size_t>(moved_corner);
+        if (part >= least[i] || !may_move_towards(moved_corner, other)) return;
         least[i] = part;
         nearest[i] = static_cast<int>(c);
       };
@@ -166,10 +166,10 @@ class Marcher {
   }
 
   void put_back(int c) {
-    Corner& own = corner(c);
-    own.at = unit_of(cut_.corners[static_cast<std::size_t>(c)]);
-    own.sign = own.value < 0 ? -1 : 1;
-    own.stays = true;
+    Corner& corner_data = corner(c);
+    corner_data.at = unit_of(cut_.corners[static_cast<std::size_t>(c)]);
+    corner_data.sign = corner_data.value < 0 ? -1 : 1;
+    corner_data.stays = true;
   }
 
   Mesh triangles() {
@@ -240,12 +240,12 @@ class Marcher {
   void add_flat(const std::array<int, 3>& face, const std::array<int, 2>& sides) {
     const Point a = corner(face[0]).at, b = corner(face[1]).at, c = corner(face[2]).at;
     if (sides[0] < 0 || sides[1] < 0) {
-      const int known = sides[0] < 0 ? sides[1] : sides[0];
+      const int side = sides[0] < 0 ? sides[1] : sides[0];
       const Point middle = 1.0 / 3 * (a + b + c);
-      const Point beyond = middle - 0.1 * (corner(known).at - middle);
+      const Point beyond = middle - 0.1 * (corner(side).at - middle);
       for (const double coordinate : beyond)
         if (coordinate < 0 || coordinate > 1) return;
-      if ((field_.value(beyond) < 0 ? -1 : 1) == corner(known).sign) return;
+      if ((field_.value(beyond) < 0 ? -1 : 1) == corner(side).sign) return;
     }
     const Triangle triangle = {point_at_corner(face[0]), point_at_corner(face[1]), point_at_corner(face[2])};
     if (sides[1] >= 0)
@@ -268,9 +268,9 @@ class Marcher {
     for (const MeshEdge& edge : edges_of(mesh)) {
       if (edge.triangles <= 2) continue;
       for (const int point : {edge.from, edge.to}) {
-        const int own = corner_of_point_[static_cast<std::size_t>(point)];
-        if (own < 0 || corner(own).stays) continue;
-        put_back(own);
+        const int corner_index = corner_of_point_[static_cast<std::size_t>(point)];
+        if (corner_index < 0 || corner(corner_index).stays) continue;
+        put_back(corner_index);
         any = true;
       }
     }

@@ -53,9 +53,9 @@ std::vector<int> components_of(const Mesh& mesh) {
   std::vector<int> number(mesh.points.size(), -1), result;
   int next = 0;
   for (const Triangle& t : mesh.triangles) {
-    int& own = number[static_cast<std::size_t>(root(t[0]))];
-    if (own < 0) own = next++;
-    result.push_back(own);
+    int& label = number[static_cast<std::size_t>(root(t[0]))];
+    if (label < 0) label = next++;
+    result.push_back(label);
   }
   return result;
 }

@@ -77,19 +77,19 @@ void add_open(const Cells& cells, const std::vector<int>& open, Meshed& meshed) 
   const std::vector<std::vector<int>> groups = groups_of(cells, open);
   std::map<int, std::vector<std::size_t>> near;  // the groups in or beside a leaf
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    OpenCells own{.count = static_cast<int>(groups[g].size()), .lower = {1, 1, 1}, .upper = {}, .triangles = {}};
+    OpenCells open_cells{.count = static_cast<int>(groups[g].size()), .lower = {1, 1, 1}, .upper = {}, .triangles = {}};
     for (const int leaf : groups[g]) {
       const Box box = cells.cells()[static_cast<std::size_t>(leaf)].box();
       for (std::size_t i = 0; i < 3; ++i) {
-        own.lower[i] = std::min(own.lower[i], box[i].lower());
-        own.upper[i] = std::max(own.upper[i], box[i].upper());
+        open_cells.lower[i] = std::min(open_cells.lower[i], box[i].lower());
+        open_cells.upper[i] = std::max(open_cells.upper[i], box[i].upper());
       }
       cells.each_neighbour(leaf, [&](int beside) {
-        std::vector<std::size_t>& known = near[beside];
-        if (known.empty() || known.back() != g) known.push_back(g);
+        std::vector<std::size_t>& boxes = near[beside];
+        if (boxes.empty() || boxes.back() != g) boxes.push_back(g);
       });
     }
-    meshed.open.push_back(std::move(own));
+    meshed.open.push_back(std::move(open_cells));
   }
   for (std::size_t t = 0; t < meshed.mesh.triangles.size(); ++t) {
     const Point middle = middle_of(meshed.mesh, meshed.mesh.triangles[t]);

@@ -70,14 +70,14 @@ class Clipping::Clipper {
 
   Cut& cut(int a, int b) {
     if (a > b) std::swap(a, b);
-    const auto [known, fresh] = cuts_.try_emplace(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
+    const auto [found, fresh] = cuts_.try_emplace(static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b));
     if (fresh) {
-      Cut& own = known->second;
-      own.at = solve(at(a), at(b));
+      Cut& cut = found->second;
+      cut.at = solve(at(a), at(b));
       const Point way = at(b) - at(a);
-      own.part = std::clamp(dot(own.at - at(a), way) / std::max(dot(way, way), 1e-300), 0.0, 1.0);
+      cut.part = std::clamp(dot(cut.at - at(a), way) / std::max(dot(way, way), 1e-300), 0.0, 1.0);
     }
-    return known->second;
+    return found->second;
   }
 
   Point solve(const Point& a, const Point& b) {
@@ -139,15 +139,15 @@ class Clipping::Clipper {
     std::vector<Point> target = mesh_.points;
     for (const MeshEdge& edge : edges_of(mesh_)) {
       if (sign(edge.from) * sign(edge.to) >= 0) continue;
-      const Cut own = cut(edge.from, edge.to);
+      const Cut edge_cut = cut(edge.from, edge.to);
       const auto offer = [&](int i, double part) {
         const auto place = static_cast<std::size_t>(i);
-        if (part >= least[place] || !same_faces(at(i), own.at)) return;
+        if (part >= least[place] || !same_faces(at(i), edge_cut.at)) return;
         least[place] = part;
-        target[place] = own.at;
+        target[place] = edge_cut.at;
       };
-      offer(edge.from, own.part);
-      offer(edge.to, 1 - own.part);
+      offer(edge.from, edge_cut.part);
+      offer(edge.to, 1 - edge_cut.part);
     }
     for (std::size_t i = 0; i < target.size(); ++i)
       if (least[i] < near_point) sign_[i] = 0;
@@ -155,12 +155,12 @@ class Clipping::Clipper {
   }
 
   int point_at(int a, int b) {
-    Cut& own = cut(a, b);
-    if (own.point < 0) {
-      own.point = static_cast<int>(mesh_.points.size());
-      mesh_.points.push_back(own.at);
+    Cut& edge_cut = cut(a, b);
+    if (edge_cut.point < 0) {
+      edge_cut.point = static_cast<int>(mesh_.points.size());
+      mesh_.points.push_back(edge_cut.at);
     }
-    return own.point;
+    return edge_cut.point;
   }
 
   /// A vertex, or where the rim crosses an edge: before and after it was moved onto the rim.
@@ -172,9 +172,9 @@ class Clipping::Clipper {
 
   Moved moved(int i) const { return {before_[static_cast<std::size_t>(i)], at(i)}; }
   Moved moved_cut(int a, int b) {
-    const Cut& own = cut(a, b);
+    const Cut& edge_cut = cut(a, b);
     const Point &from = at(std::min(a, b)), &to = at(std::max(a, b));
-    return {from + own.part * (to - from), own.at};
+    return {from + edge_cut.part * (to - from), edge_cut.at};
   }
 
   /// What a triangle is cut into, the parts on either side, in its own orientation.
@@ -184,10 +184,10 @@ class Clipping::Clipper {
       std::vector<Moved> polygon;
       bool any = false;
       for (std::size_t i = 0; i < 3; ++i) {
-        const int own = t[i], next = t[(i + 1) % 3];
-        if (side * sign(own) >= 0) polygon.push_back(moved(own));
-        any = any || side * sign(own) > 0;
-        if (sign(own) * sign(next) < 0) polygon.push_back(moved_cut(own, next));
+        const int corner = t[i], next = t[(i + 1) % 3];
+        if (side * sign(corner) >= 0) polygon.push_back(moved(corner));
+        any = any || side * sign(corner) > 0;
+        if (sign(corner) * sign(next) < 0) polygon.push_back(moved_cut(corner, next));
       }
       for (std::size_t i = 2; any && i < polygon.size(); ++i)
         result.push_back({polygon[0], polygon[i - 1], polygon[i]});
@@ -207,8 +207,8 @@ class Clipping::Clipper {
     Way result{.triangle = t, .parts = parts_of(t)};
     result.box = box_of({moved(t[0]), moved(t[1]), moved(t[2])});
     for (const std::array<Moved, 3>& part : result.parts) {
-      const Box own = box_of(part);
-      for (std::size_t i = 0; i < 3; ++i) result.box[i] = hull(result.box[i], own[i]);
+      const Box box = box_of(part);
+      for (std::size_t i = 0; i < 3; ++i) result.box[i] = hull(result.box[i], box[i]);
       result.still =
           result.still && std::all_of(part.begin(), part.end(), [](const Moved& m) { return m.from == m.to; });
     }
@@ -225,10 +225,10 @@ class Clipping::Clipper {
     std::vector<const Way*> near;
     std::vector<Box> boxes;
     for (std::size_t k = 0; k < ways.size(); ++k) {
-      const Way& own = ways[k];
-      if (squares[k].lower() > 0 && own.still && all(own.triangle, 1)) continue;
-      near.push_back(&own);
-      boxes.push_back(own.box);
+      const Way& way = ways[k];
+      if (squares[k].lower() > 0 && way.still && all(way.triangle, 1)) continue;
+      near.push_back(&way);
+      boxes.push_back(way.box);
     }
     const std::vector<std::vector<Field::Over>> over = field_.over(boxes);
     for (std::size_t k = 0; k < near.size(); ++k)
@@ -237,14 +237,14 @@ class Clipping::Clipper {
 
   std::vector<Interval> squares_over(const std::vector<Way>& ways) {
     std::vector<Box> boxes;
-    for (const Way& own : ways) boxes.push_back(own.box);
+    for (const Way& way : ways) boxes.push_back(way.box);
     return field_.squares_over(boxes, root_);
   }
 
   /// Whether the rim crosses a triangle as the signs of its corners say, and the triangle stays square enough to the
   /// slopes of the function while its corners move onto the rim.
-  bool is_proven(const Way& own, const std::vector<Field::Over>& over) {
-    const Triangle& t = own.triangle;
+  bool is_proven(const Way& way, const std::vector<Field::Over>& over) {
+    const Triangle& t = way.triangle;
     return std::all_of(over.begin(), over.end(), [&](const Field::Over& f) {
       if (!f.known) return false;
       const Field::Clip* clip = nullptr;
@@ -257,10 +257,10 @@ class Clipping::Clipper {
         if (one.value.upper() < 0) return true;
         others = others || one.value.lower() <= 0;
       }
-      if (clip == nullptr) return own.still && all(t, 1);
-      if (own.still && clip->value.sign() != 0) return all(t, clip->value.sign());
+      if (clip == nullptr) return way.still && all(t, 1);
+      if (way.still && clip->value.sign() != 0) return all(t, clip->value.sign());
       if (others || !ends_as_its_corners_say(t, *clip)) return false;
-      return own.still || std::all_of(own.parts.begin(), own.parts.end(),
+      return way.still || std::all_of(way.parts.begin(), way.parts.end(),
                                       [&](const std::array<Moved, 3>& part) { return stays_square(part, f); });
     });
   }
@@ -269,7 +269,7 @@ class Clipping::Clipper {
     Box box;
     for (std::size_t i = 0; i < 3; ++i) {
       box[i] = Interval(part[0].from[i]);
-      for (const Moved& own : part) box[i] = hull(box[i], hull(Interval(own.from[i]), Interval(own.to[i])));
+      for (const Moved& moved : part) box[i] = hull(box[i], hull(Interval(moved.from[i]), Interval(moved.to[i])));
     }
     return box;
   }
@@ -288,8 +288,8 @@ class Clipping::Clipper {
     for (std::size_t i = 0; i < 3; ++i) {
       Point slopes{};
       at[i] = before_[static_cast<std::size_t>(t[i])];
-      const double own = clip.held ? field_.gradient_on_rim(at[i], root_, slopes) : field_.square(at[i], root_);
-      value[i] = sign(t[i]) * std::max(std::abs(own), std::numeric_limits<double>::min());
+      const double corner = clip.held ? field_.gradient_on_rim(at[i], root_, slopes) : field_.square(at[i], root_);
+      value[i] = sign(t[i]) * std::max(std::abs(corner), std::numeric_limits<double>::min());
     }
     const Vector normal = cross_product(way(at[0], at[1]), way(at[0], at[2]));
     Vector rise{};  // across: of the corners' values times the edges opposite to them
@@ -339,9 +339,9 @@ class Clipping::Clipper {
     if (outside == 0 || inside == 0) return;
     std::vector<int> polygon;
     for (std::size_t i = 0; i < 3; ++i) {
-      const int own = t[i], next = t[(i + 1) % 3];
-      if (sign(own) >= 0) polygon.push_back(own);
-      if (sign(own) * sign(next) < 0) polygon.push_back(point_at(own, next));
+      const int corner = t[i], next = t[(i + 1) % 3];
+      if (sign(corner) >= 0) polygon.push_back(corner);
+      if (sign(corner) * sign(next) < 0) polygon.push_back(point_at(corner, next));
     }
     for (std::size_t i = 2; i < polygon.size(); ++i) kept.push_back({polygon[0], polygon[i - 1], polygon[i]});
   }

@@ -44,23 +44,23 @@ std::vector<FactorSet> sets_of(const LocusProblem& problem, const std::string& j
   for (const Quantity component : core::force_components(problem, joint)) {
     if (is_always_zero(problem, joint, component)) continue;
     std::vector<FactorSet> next;
-    for (const FactorSet& own : sets)
+    for (const FactorSet& set : sets)
       for (std::size_t f = 0; f < problem.factors.size(); ++f)
         if (makes_vanish(problem.factors[f], joint, component)) {
-          next.push_back(own);
+          next.push_back(set);
           next.back().insert(f);
         }
     sets = std::move(next);
   }
-  const auto holds_another = [&](const FactorSet& own) {
+  const auto holds_another = [&](const FactorSet& set) {
     return std::any_of(sets.begin(), sets.end(), [&](const FactorSet& other) {
-      return other.size() < own.size() && std::includes(own.begin(), own.end(), other.begin(), other.end());
+      return other.size() < set.size() && std::includes(set.begin(), set.end(), other.begin(), other.end());
     });
   };
   std::vector<FactorSet> least;
-  for (const FactorSet& own : sets)
-    if (own.size() > 1 && !holds_another(own) && std::find(least.begin(), least.end(), own) == least.end())
-      least.push_back(own);
+  for (const FactorSet& set : sets)
+    if (set.size() > 1 && !holds_another(set) && std::find(least.begin(), least.end(), set) == least.end())
+      least.push_back(set);
   return least;
 }
 
@@ -80,7 +80,7 @@ space::Equations equations_of(const LocusProblem& problem, const FactorSet& set)
 
 /// Undecided cells that are open for another reason than |A| = 0.
 std::ptrdiff_t open_cells(const std::vector<space::UndecidedCell>& cells) {
-  return std::count_if(cells.begin(), cells.end(), [](const auto& own) { return !own.near_singularity; });
+  return std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return !cell.near_singularity; });
 }
 
 /// Three equations of which one depends on the others vanish along curves: those of two of them on which the third
@@ -92,14 +92,15 @@ space::FoundCurves dependent_curves(const LocusProblem& problem, const core::Wor
     space::Equations two;
     for (std::size_t i = 0; i < 3; ++i) (i == third ? two.also : two.system).push_back(equations.system[i]);
     two.determinant = equations.determinant;
-    space::FoundCurves own = find_curves(problem, mode, two, limits);
-    std::erase_if(own.arcs, [&](const space::ChartArc& arc) {
+    space::FoundCurves curves = find_curves(problem, mode, two, limits);
+    std::erase_if(curves.arcs, [&](const space::ChartArc& arc) {
       return !vanishes_along(problem, mode, equations.system[third], arc);
     });
-    for (space::ChartArc& arc : own.arcs) arc.certified = false;
-    const bool better = own.arcs.empty() == best.arcs.empty() ? open_cells(own.undecided) < open_cells(best.undecided)
-                                                              : best.arcs.empty();
-    if (third == 0 || better) best = std::move(own);
+    for (space::ChartArc& arc : curves.arcs) arc.certified = false;
+    const bool better = curves.arcs.empty() == best.arcs.empty()
+                            ? open_cells(curves.undecided) < open_cells(best.undecided)
+                            : best.arcs.empty();
+    if (third == 0 || better) best = std::move(curves);
   }
   return best;
 }
@@ -192,13 +193,13 @@ class Joining {
 
   /// With another arc that goes on at the last or first point of `a`, or with itself.
   bool join_at(std::size_t a, bool last) {
-    SpaceArc& own = arcs_[a];
-    if (own.closed || own.ends[last ? 1 : 0] != core::ArcEnd::box) return false;
-    const core::Point3 at = last ? own.points.back() : own.points.front();
+    SpaceArc& arc = arcs_[a];
+    if (arc.closed || arc.ends[last ? 1 : 0] != core::ArcEnd::box) return false;
+    const core::Point3 at = last ? arc.points.back() : arc.points.front();
     if (on_side(at)) return false;
-    if (own.ends[last ? 0 : 1] == core::ArcEnd::box && own.points.size() > 2 &&
-        near(own.points.front(), own.points.back())) {
-      own.closed = true;
+    if (arc.ends[last ? 0 : 1] == core::ArcEnd::box && arc.points.size() > 2 &&
+        near(arc.points.front(), arc.points.back())) {
+      arc.closed = true;
       return true;
     }
     for (std::size_t b = 0; b < arcs_.size(); ++b) {
@@ -206,11 +207,11 @@ class Joining {
       if (b == a || other.closed) continue;
       const bool front = other.ends[0] == core::ArcEnd::box && near(other.points.front(), at);
       if (!front && !(other.ends[1] == core::ArcEnd::box && near(other.points.back(), at))) continue;
-      if (!last) turn(own);
+      if (!last) turn(arc);
       if (!front) turn(other);
-      own.points.insert(own.points.end(), other.points.begin() + 1, other.points.end());
-      own.ends[1] = other.ends[1];
-      own.certified = own.certified && other.certified;
+      arc.points.insert(arc.points.end(), other.points.begin() + 1, other.points.end());
+      arc.ends[1] = other.ends[1];
+      arc.certified = arc.certified && other.certified;
       arcs_.erase(arcs_.begin() + static_cast<std::ptrdiff_t>(b));
       return true;
     }
@@ -242,10 +243,10 @@ void note_undecided(const LocusProblem& problem, const EdgeLabel& label, const s
                     bool gave_up, LocusMap& map) {
   std::size_t count = 0;
   const space::UndecidedCell* first = nullptr;
-  for (const space::UndecidedCell& own : cells)
-    if (!own.near_singularity) {
+  for (const space::UndecidedCell& cell : cells)
+    if (!cell.near_singularity) {
       ++count;
-      if (first == nullptr) first = &own;
+      if (first == nullptr) first = &cell;
     }
   if (count == 0) return;
   const SpacePoint at =
@@ -319,16 +320,16 @@ class ModeCurves {
     }
     if (found.curves.arcs.empty()) return;
     auto group = std::find_if(groups_.begin(), groups_.end(),
-                              [&](const Group& own) { return own.label.vanishing == label.vanishing; });
+                              [&](const Group& other) { return other.label.vanishing == label.vanishing; });
     if (group == groups_.end()) group = groups_.insert(group, {label, {}});
     for (const space::ChartArc& arc : found.curves.arcs) {
       if (is_undirected(problem, mode_, label.vanishing, arc)) continue;
-      SpaceArc own;
-      own.closed = arc.closed;
-      own.ends = arc.ends;
-      own.certified = arc.certified;
-      for (const SpacePoint& at : arc.points) own.points.push_back(space::placed(problem, at));
-      group->arcs.push_back(std::move(own));
+      SpaceArc space_arc;
+      space_arc.closed = arc.closed;
+      space_arc.ends = arc.ends;
+      space_arc.certified = arc.certified;
+      for (const SpacePoint& at : arc.points) space_arc.points.push_back(space::placed(problem, at));
+      group->arcs.push_back(std::move(space_arc));
     }
   }
 

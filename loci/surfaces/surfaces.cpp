@@ -68,18 +68,19 @@ std::vector<Whole> joined(const std::vector<const LocusProblem*>& charts, const 
                   root_dividing(factor.sheet, charts[first]->tower.roots.size())};
       for (std::size_t part = 0; part < whole.parts.size(); ++part)
         for (std::size_t next = 0; next < charts.size(); ++next) {
-          const Field::ChartPart own = whole.parts[part];
+          const Field::ChartPart chart_part = whole.parts[part];
           const bool has = std::any_of(whole.parts.begin(), whole.parts.end(),
                                        [&](const Field::ChartPart& other) { return other.problem == charts[next]; });
-          if (has || !surface::are_neighbours(*own.problem, *charts[next])) continue;
+          if (has || !surface::are_neighbours(*chart_part.problem, *charts[next])) continue;
           for (std::size_t g = 0; g < charts[next]->factors.size(); ++g) {
             const LocusFactor& other = charts[next]->factors[g];
             if (taken[next][g] || other.role != factor.role || other.vanishing != factor.vanishing) continue;
             const sheet::SheetFunction function{other.sheet, other.line};
-            const auto sign = surface::sign_across_seam(*own.problem, own.function, *charts[next], function, mode);
+            const auto sign =
+                surface::sign_across_seam(*chart_part.problem, chart_part.function, *charts[next], function, mode);
             if (!sign) continue;
             taken[next][g] = true;
-            whole.parts.push_back({charts[next], function, own.sign * *sign});
+            whole.parts.push_back({charts[next], function, chart_part.sign * *sign});
             break;
           }
         }
@@ -140,12 +141,12 @@ class ModeSurfaces {
     std::vector<EdgeLabel> labels;
     std::vector<std::vector<int>> components;  // of each label
     for (int c = 0; c < count; ++c) {
-      std::vector<bool> own;
-      for (const int one : component) own.push_back(one == c);
-      for (EdgeLabel& label : labels_of(f, surface::part_of(meshed.mesh, own), meshed.boundary)) {
-        const auto known = std::find(labels.begin(), labels.end(), label);
-        const auto place = static_cast<std::size_t>(known - labels.begin());
-        if (known == labels.end()) {
+      std::vector<bool> kept;
+      for (const int one : component) kept.push_back(one == c);
+      for (EdgeLabel& label : labels_of(f, surface::part_of(meshed.mesh, kept), meshed.boundary)) {
+        const auto found = std::find(labels.begin(), labels.end(), label);
+        const auto place = static_cast<std::size_t>(found - labels.begin());
+        if (found == labels.end()) {
           labels.push_back(std::move(label));
           components.emplace_back();
         }
@@ -153,10 +154,10 @@ class ModeSurfaces {
       }
     }
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      std::vector<bool> own;
+      std::vector<bool> kept;
       for (const int one : component)
-        own.push_back(std::find(components[i].begin(), components[i].end(), one) != components[i].end());
-      map.surfaces.push_back(finished(f, labels[i], own, meshed));
+        kept.push_back(std::find(components[i].begin(), components[i].end(), one) != components[i].end());
+      map.surfaces.push_back(finished(f, labels[i], kept, meshed));
       map.surfaces.back().components = static_cast<int>(components[i].size());
     }
     if (meshed.unexplained > 0) note(f, meshed, map);
@@ -183,14 +184,14 @@ class ModeSurfaces {
 
   /// What vanishes on a component of the mesh of factor `f`; empty where another factor's mesh has it.
   std::vector<EdgeLabel> labels_of(std::size_t f, const Mesh& part, std::optional<int> boundary) {
-    const LocusFactor& own = *wholes_[f].factor;
+    const LocusFactor& factor = *wholes_[f].factor;
     std::vector<const LocusFactor*> reactions;
     std::vector<EdgeLabel> labels;
     for (std::size_t g = 0; g < wholes_.size(); ++g) {
       const LocusFactor& other = *wholes_[g].factor;
       const bool same = g == f;
-      if (!same && !wholes_[g].root && other.role != own.role) continue;
-      if (!same && (!shares_surface(own, other) || !vanishes_on(g, part, boundary))) continue;
+      if (!same && !wholes_[g].root && other.role != factor.role) continue;
+      if (!same && (!shares_surface(factor, other) || !vanishes_on(g, part, boundary))) continue;
       if (!same && !wholes_[g].root && g < f) return {};
       switch (other.role) {
         case FactorRole::reaction:
@@ -218,8 +219,8 @@ class ModeSurfaces {
   }
 
   /// `own`: the triangles of the mesh that are the surface's.
-  LocusSurface finished(std::size_t f, const EdgeLabel& label, const std::vector<bool>& own, const Meshed& meshed) {
-    const Mesh part = surface::part_of(meshed.mesh, own);
+  LocusSurface finished(std::size_t f, const EdgeLabel& label, const std::vector<bool>& kept, const Meshed& meshed) {
+    const Mesh part = surface::part_of(meshed.mesh, kept);
     const Whole& whole = wholes_[f];
     Field& field = *fields_[f];
     LocusSurface result;
@@ -241,7 +242,7 @@ class ModeSurfaces {
       // What no triangle is near may be a part that is missing: of any surface of the factor.
       const bool concerns =
           open.triangles.empty() || std::any_of(open.triangles.begin(), open.triangles.end(),
-                                                [&](int t) { return own[static_cast<std::size_t>(t)]; });
+                                                [&](int t) { return kept[static_cast<std::size_t>(t)]; });
       if (concerns)
         result.open.push_back({field.frame().place(open.lower), field.frame().place(open.upper), open.count});
     }
@@ -360,13 +361,14 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   return map;
 }
 
-void measure(LocusSurface& own) {
-  const Mesh mesh{own.vertices, own.triangles};
+void measure(LocusSurface& locus_surface) {
+  const Mesh mesh{locus_surface.vertices, locus_surface.triangles};
   const std::vector<int> component = surface::components_of(mesh);
-  own.components = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
-  own.euler_characteristic = static_cast<int>(mesh.points.size()) - static_cast<int>(surface::edges_of(mesh).size()) +
-                             static_cast<int>(mesh.triangles.size());
-  own.area = surface::area(mesh);
+  locus_surface.components = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  locus_surface.euler_characteristic = static_cast<int>(mesh.points.size()) -
+                                       static_cast<int>(surface::edges_of(mesh).size()) +
+                                       static_cast<int>(mesh.triangles.size());
+  locus_surface.area = surface::area(mesh);
 }
 
 }  // namespace clearloci::loci

@@ -17,9 +17,9 @@ class Cutter {
   int corner(const LatticePlace& place) {
     std::uint64_t key = 0;
     for (const std::int32_t coordinate : place) key = key << 20 | static_cast<std::uint64_t>(coordinate);
-    const auto [known, fresh] = result_.corner_at.try_emplace(key, static_cast<int>(result_.corners.size()));
+    const auto [found, fresh] = result_.corner_at.try_emplace(key, static_cast<int>(result_.corners.size()));
     if (fresh) result_.corners.push_back(place);
-    return known->second;
+    return found->second;
   }
 
   static LatticePlace moved(LatticePlace place, int axis, std::int32_t by) {

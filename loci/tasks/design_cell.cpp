@@ -99,9 +99,9 @@ int TaskCell::failed() const {
     const TaskCondition& condition = conditions_.conditions[i];
     if (!condition.unloaded.empty()) return static_cast<int>(i);
     for (const std::vector<int>& parts : condition.parts) {
-      std::vector<Interval> own;
-      for (const int f : parts) own.push_back(value(f));
-      const Interval size = size_of_vector(own);
+      std::vector<Interval> intervals;
+      for (const int f : parts) intervals.push_back(value(f));
+      const Interval size = size_of_vector(intervals);
       Interval asked = 0;
       if (condition.least > 0 && condition.denominator >= 0) {
         asked = least_[i] * square_root(squared(value(condition.denominator)));
@@ -153,8 +153,8 @@ const std::vector<double>& TaskCell::spreads() {
   if (is_outside_) return spreads_;
   const auto add = [&](const auto& slope) {
     for (std::size_t c = 0; c < n; ++c) {
-      const int own = static_cast<int>(c);
-      spreads_[c] += slope(own).magnitude() * cell_->local(own).width();
+      const int variable = static_cast<int>(c);
+      spreads_[c] += slope(variable).magnitude() * cell_->local(variable).width();
     }
   };
   if (displacement_in_doubt_) {
@@ -165,8 +165,9 @@ const std::vector<double>& TaskCell::spreads() {
       return spreads_;
     }
     // A direction in which a clearance is taken up is not known: what it is the direction of.
-    for (const TaskCondition& own : conditions_.take_ups)
-      for (const std::vector<int>& parts : own.parts) in_doubt_.insert(in_doubt_.end(), parts.begin(), parts.end());
+    for (const TaskCondition& condition : conditions_.take_ups)
+      for (const std::vector<int>& parts : condition.parts)
+        in_doubt_.insert(in_doubt_.end(), parts.begin(), parts.end());
   }
   differentiate();
   for (const int f : in_doubt_) add([&](int c) { return cell_->slope(f, c); });

@@ -39,13 +39,13 @@ void TaskCell::enclose_centred() {
 }
 
 const Centred& TaskCell::centred(int function) {
-  std::optional<Centred>& own = centred_[static_cast<std::size_t>(function)];
-  if (!own) {
-    own = Centred{value(function), cell_->middle_value(function), {}};
-    for (int c = 0; c < cell_->coordinates(); ++c) own->slopes.push_back(cell_->slope(function, c));
-    own->tighten(offsets_);
+  std::optional<Centred>& centred = centred_[static_cast<std::size_t>(function)];
+  if (!centred) {
+    centred = Centred{value(function), cell_->middle_value(function), {}};
+    for (int c = 0; c < cell_->coordinates(); ++c) centred->slopes.push_back(cell_->slope(function, c));
+    centred->tighten(offsets_);
   }
-  return *own;
+  return *centred;
 }
 
 /// A component of a reaction times D.
@@ -58,33 +58,33 @@ Centred TaskCell::loaded(const TaskCondition& take_up, std::size_t part, const L
     return centred::sum(centred::scaled(Interval(1.0) - Interval(t), first), centred::scaled(t, last));
   };
   // Affine in t.
-  Centred own = along(loads.t.lower());
-  if (loads.t.width() > 0) own = either(own, along(loads.t.upper()));
+  Centred loaded = along(loads.t.lower());
+  if (loads.t.width() > 0) loaded = either(loaded, along(loads.t.upper()));
   for (std::size_t d = 0; d < loads.factors.size(); ++d)
     if (loads.factors[d].magnitude() > 0)
-      own = centred::sum(own, centred::scaled(loads.factors[d], centred(take_up.directions[d][part])));
-  return own;
+      loaded = centred::sum(loaded, centred::scaled(loads.factors[d], centred(take_up.directions[d][part])));
+  return loaded;
 }
 
 /// f / |f| times the sign of D, or the sign of M likewise; what is not known of it is anything up to 1.
 std::vector<Centred> TaskCell::directions_taken(const TaskCondition& take_up, const Loads& loads) {
   const std::size_t n = static_cast<std::size_t>(cell_->coordinates()), parts = take_up.parts.front().size();
-  std::vector<Centred> own;
-  for (std::size_t i = 0; i < parts; ++i) own.push_back(loaded(take_up, i, loads));
+  std::vector<Centred> directions_taken;
+  for (std::size_t i = 0; i < parts; ++i) directions_taken.push_back(loaded(take_up, i, loads));
   if (parts == 1) {
-    const int sign = own[0].over.sign();
+    const int sign = directions_taken[0].over.sign();
     return {sign != 0 ? Centred::constant(sign, n) : Centred::rough(around_zero(1), n)};
   }
   Centred square = Centred::constant(0.0, n);
-  for (const Centred& part : own) square = centred::sum(square, centred::square(part));
+  for (const Centred& part : directions_taken) square = centred::sum(square, centred::square(part));
   square.tighten(offsets_);
   if (!(square.over.lower() > 0)) return std::vector(parts, Centred::rough(around_zero(1), n));
   const Centred per_length = centred::reciprocal(centred::root(square));
-  for (Centred& part : own) {
+  for (Centred& part : directions_taken) {
     part = centred::product(part, per_length).tighten(offsets_);
     part.over = meet(part.over, around_zero(1));
   }
-  return own;
+  return directions_taken;
 }
 
 Centred TaskCell::squared_displacement(const Loads& loads) {
@@ -104,7 +104,7 @@ Centred TaskCell::squared_displacement(const Loads& loads) {
       per_d = centred::product(per_d, centred::reciprocal(centred::root(square)));
     }
     const std::vector<Centred> taken = directions_taken(take_up, loads);
-    std::array<Interval, 2>& own = shares.emplace_back();
+    std::array<Interval, 2>& share = shares.emplace_back();
     for (std::size_t u = 0; u < 2; ++u) {
       // The unit forces are the last two directions.
       const std::vector<int>& to = take_up.directions[take_up.directions.size() - 2 + u];
@@ -112,11 +112,11 @@ Centred TaskCell::squared_displacement(const Loads& loads) {
       for (std::size_t i = 0; i < taken.size(); ++i)
         moved = centred::sum(moved, centred::product(centred(to[i]), taken[i]));
       moved = centred::product(moved, per_d).tighten(offsets_);
-      own[u] = moved.over;
+      share[u] = moved.over;
       displaced[u] = centred::sum(displaced[u], centred::scaled(clearances_[k], moved));
     }
   }
-  for (Centred& own : displaced) own.tighten(offsets_);
+  for (Centred& centred : displaced) centred.tighten(offsets_);
   for (std::size_t k = 0; k < shares.size(); ++k)
     per_clearance_[k] = Interval(2.0) * (displaced[0].over * shares[k][0] + displaced[1].over * shares[k][1]);
   Centred all = centred::sum(centred::square(displaced[0]), centred::square(displaced[1]));
@@ -152,7 +152,7 @@ std::optional<Interval> TaskCell::displacement_under(const Loads& loads) {
 /// One load in the middle of some.
 TaskCell::Loads TaskCell::middle_of(const Loads& loads) {
   Loads middle{loads.t.middle(), {}};
-  for (const Interval& own : loads.factors) middle.factors.emplace_back(own.middle());
+  for (const Interval& factor : loads.factors) middle.factors.emplace_back(factor.middle());
   return middle;
 }
 
@@ -168,8 +168,8 @@ std::vector<TaskCell::Loads> TaskCell::halves_of(const Loads& loads) const {
   if (along == -2) return {};
   std::vector<Loads> halves(2, loads);
   for (std::size_t half = 0; half < 2; ++half) {
-    Interval& own = along < 0 ? halves[half].t : halves[half].factors[static_cast<std::size_t>(along)];
-    own = loci::halves_of(own)[half];
+    Interval& interval = along < 0 ? halves[half].t : halves[half].factors[static_cast<std::size_t>(along)];
+    interval = loci::halves_of(interval)[half];
   }
   return halves;
 }
@@ -186,13 +186,13 @@ bool TaskCell::displaced_within(double most) {
   const Interval one = *displacement_under(middle);
   if (left.empty() || one.width() > room_of_poses * (most - one.lower())) return false;
   while (!left.empty()) {
-    const Loads own = left.take();
+    const Loads loads = left.take();
     ++parts_of_loads_;
-    const auto size = displacement_under(own);
+    const auto size = displacement_under(loads);
     if (!size || size->upper() <= most) continue;
-    const std::vector<Loads> halves = halves_of(own);
+    const std::vector<Loads> halves = halves_of(loads);
     if (parts_of_loads_ >= most_parts || halves.empty() ||
-        displacement_under(middle_of(own)).value_or(0.0).upper() > most) {
+        displacement_under(middle_of(loads)).value_or(0.0).upper() > most) {
       (void)displacement_under(middle);  // its slopes say where to cut
       return false;
     }
@@ -220,7 +220,8 @@ Interval TaskCell::displacement() {
     if (const auto one = displacement_under(middle_of(left.next().box.loads))) lower = std::max(lower, one->lower());
     const Interval whole = left.take().size;
     for (const Loads& half : halves)
-      if (const auto own = displacement_under(half)) push(half, meet(*own, Interval(0.0, whole.upper())));
+      if (const auto displacement = displacement_under(half))
+        push(half, meet(*displacement, Interval(0.0, whole.upper())));
   }
   const auto& [loads, size] = left.next().box;
   (void)displacement_under(middle_of(loads));

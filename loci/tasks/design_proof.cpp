@@ -303,7 +303,7 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
     int along = -1;  ///< the coordinate to cut, where that is known
   };
   const double sign = least ? 1.0 : -1.0;
-  double known = infinity;  // some pose's
+  double known_loss = infinity;  // some pose's
   const auto over = [&](const Box& box) -> std::optional<Interval> {
     const TaskCell::State state = enter(box);
     if (state == TaskCell::State::boundary || state == TaskCell::State::singular) return std::nullopt;
@@ -314,20 +314,20 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
     Box box = {Interval(pose[0]), Interval(pose[1])};
     const DesignBox one = one_of(some);
     box.insert(box.end(), one.begin(), one.end());
-    if (const auto here = over(box)) known = std::min(known, sign * (least ? here->upper() : here->lower()));
+    if (const auto here = over(box)) known_loss = std::min(known_loss, sign * (least ? here->upper() : here->lower()));
   };
   for (const Point2& pose : samples_) look(pose, designs);
   SearchMeter meter(budget);
   // Keys: bounds of what is to be made least: the size, or what it is short of nothing.
   BoxSearch<BoxToCut> left(SearchOrder::least_key_first);
   left.push({over_designs(designs, 0)}, -infinity);
-  double bound = known;
+  double bound = known_loss;
   while (!left.empty()) {
     const double key = left.next().key;
-    bound = std::min(key, known);
-    if (!meter.begin() || known - key <= accuracy * std::abs(known)) break;
+    bound = std::min(key, known_loss);
+    if (!meter.begin() || known_loss - key <= accuracy * std::abs(known_loss)) break;
     const BoxToCut cell = left.take();
-    bound = known;
+    bound = known_loss;
     // Where nothing says better, what is widest as a part of the whole.
     const bool along_x = cell.box[0].width() >= cell.box[1].width();
     std::size_t c = along_x ? 0 : 1;
@@ -347,10 +347,10 @@ Interval DesignJudge::extreme(const DesignBox& designs, const std::function<Inte
           std::max(key, size_of_half ? sign * (least ? size_of_half->lower() : size_of_half->upper()) : -infinity);
       if (const auto pose = pose_within(region_, 0, half[0], half[1]))
         look(*pose, DesignBox(half.begin() + 2, half.end()));
-      if (key_of_half < known) left.push({std::move(half), along}, key_of_half);
+      if (key_of_half < known_loss) left.push({std::move(half), along}, key_of_half);
     }
   }
-  return least ? Interval(std::max(0.0, bound), known) : Interval(-known, -bound);
+  return least ? Interval(std::max(0.0, bound), known_loss) : Interval(-known_loss, -bound);
 }
 
 }  // namespace clearloci::loci

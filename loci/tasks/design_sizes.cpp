@@ -30,7 +30,7 @@ TaskCell::WorstLoad TaskCell::worst_load(const TaskCondition& condition) const {
   };
   const std::vector<double> first = values(condition.parts.front()), last = values(condition.parts.back());
   std::vector<std::vector<double>> directions;
-  for (const std::vector<int>& own : condition.directions) directions.push_back(values(own));
+  for (const std::vector<int>& direction : condition.directions) directions.push_back(values(direction));
   WorstLoad worst;
   worst.t = nearest_part(first, last);
   worst.factors.assign(directions.size(), 0.0);
@@ -69,7 +69,7 @@ Interval TaskCell::least_size_of(const TaskCondition& condition, const Interval&
   const WorstLoad worst = worst_load(condition);
   const std::vector<double>& n = worst.reaction;
   Interval length = 0;
-  for (const double own : n) length = length + squared(Interval(own));
+  for (const double component : n) length = length + squared(Interval(component));
   double lower = 0;
   if (length.lower() > 0) {
     const Interval taken = reach_of_balls(condition, n, true);
@@ -99,17 +99,17 @@ Interval TaskCell::least_size_of(const TaskCondition& condition, const Interval&
 Interval TaskCell::greatest_size_of(const TaskCondition& condition, const Interval& share) {
   Interval greatest = 0;
   for (const std::vector<int>& parts : condition.parts) {
-    std::vector<Interval> own;
+    std::vector<Interval> intervals;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       std::vector<double> unit(parts.size(), 0.0);
       unit[i] = 1;
       const Interval value = combined({{Interval(1), parts[i]}}, true);
-      own.push_back(square_root(squared(value)) + reach_of_balls(condition, unit, true));
+      intervals.push_back(square_root(squared(value)) + reach_of_balls(condition, unit, true));
     }
-    const Interval size = size_of_vector(own) * share;
+    const Interval size = size_of_vector(intervals) * share;
     // Two components may not be at their most under one load.
-    const double known = parts.size() == 1 || extent_.balls.empty() ? size.lower() : 0.0;
-    greatest = Interval(std::max(greatest.lower(), known), std::max(greatest.upper(), size.upper()));
+    const double bound = parts.size() == 1 || extent_.balls.empty() ? size.lower() : 0.0;
+    greatest = Interval(std::max(greatest.lower(), bound), std::max(greatest.upper(), size.upper()));
   }
   return greatest;
 }

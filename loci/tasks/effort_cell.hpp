@@ -47,9 +47,9 @@ class EffortCellOf {
   EffortColumns columns() const {
     EffortColumns all;
     for (const auto& parts : forms_) {
-      auto& own = all.emplace_back();
+      auto& load_columns = all.emplace_back();
       for (const std::vector<Form>& columns : parts) {
-        std::vector<double>& values = own.emplace_back();
+        std::vector<double>& values = load_columns.emplace_back();
         for (const Form& column : columns) values.push_back(column.c);
       }
     }
@@ -70,19 +70,19 @@ class EffortCellOf {
     for (const EffortStatics::Ball& ball : statics_->balls) {
       double square = 0;
       for (std::size_t c = ball.first; c < ball.first + ball.count; ++c) {
-        const Form own = with_efforts(along, statics_->bases + statics_->efforts + c,
-                                      choice.gains.empty() ? std::vector<double>() : choice.gains[c]);
-        square += own.magnitude() * own.magnitude();
-        for (std::size_t p = 0; p < Form::noises; ++p) moves[p] += ball.radius * std::abs(own.a[p]);
+        const Form efforts = with_efforts(along, statics_->bases + statics_->efforts + c,
+                                          choice.gains.empty() ? std::vector<double>() : choice.gains[c]);
+        square += efforts.magnitude() * efforts.magnitude();
+        for (std::size_t p = 0; p < Form::noises; ++p) moves[p] += ball.radius * std::abs(efforts.a[p]);
       }
       beside += ball.radius * std::sqrt(square) * (1 + 0x1p-46);
     }
     for (std::size_t base = 0; base < statics_->bases; ++base) {
-      const Form own = with_efforts(along, base, choice.efforts[base]);
+      const Form efforts = with_efforts(along, base, choice.efforts[base]);
       // A way is a unit vector to some roundings.
-      const double low = own.lower() - beside, rounding = (std::abs(own.c) + beside) * 0x1p-46;
+      const double low = efforts.lower() - beside, rounding = (std::abs(efforts.c) + beside) * 0x1p-46;
       if (low - rounding > statics_->leasts[demand]) continue;
-      for (std::size_t p = 0; p < Form::noises; ++p) spreads_[p] = std::abs(own.a[p]) + moves[p];
+      for (std::size_t p = 0; p < Form::noises; ++p) spreads_[p] = std::abs(efforts.a[p]) + moves[p];
       return false;
     }
     return true;

@@ -130,21 +130,21 @@ class EffortSearch {
       columns.push_back(cells[i].columns());
     }
     if (part.statics == statics) {
-      const EffortChoice known = chooser_.turned(*statics, columns, part.choice);
-      if (keeps(cells, known)) return keep(part, statics, known);
+      const EffortChoice turned = chooser_.turned(*statics, columns, part.choice);
+      if (keeps(cells, turned)) return keep(part, statics, turned);
       // What seems good at the middle of a large cell is proven in smaller ones.
       constexpr double large = 1.0 / 16;
       const int along = widest(part);
-      if (along >= 0 && share(part, static_cast<std::size_t>(along)) > large && seem_to_keep(cells, known))
-        return cut_where_open(part, cells, known);
+      if (along >= 0 && share(part, static_cast<std::size_t>(along)) > large && seem_to_keep(cells, turned))
+        return cut_where_open(part, cells, turned);
     }
     const std::optional<EffortChoice> choice = chooser_.choose(*statics, columns);
     if (!choice) return without_choice(part, pose);
     if (keeps(cells, *choice)) return keep(part, statics, *choice);
-    EffortPart own = part;
-    own.statics = statics;
-    own.choice = *choice;
-    cut_where_open(own, cells, *choice);
+    EffortPart effort_part = part;
+    effort_part.statics = statics;
+    effort_part.choice = *choice;
+    cut_where_open(effort_part, cells, *choice);
   }
 
   void cut_where_open(const EffortPart& part, std::vector<EffortCellOf<Form>>& cells, const EffortChoice& choice) {
@@ -154,11 +154,11 @@ class EffortSearch {
 
   static bool seem_to_keep(const std::vector<EffortCellOf<Form>>& cells, const EffortChoice& choice) {
     return std::all_of(cells.begin(), cells.end(),
-                       [&](const EffortCellOf<Form>& own) { return own.seems_to_keep(choice); });
+                       [&](const EffortCellOf<Form>& cell) { return cell.seems_to_keep(choice); });
   }
 
   static bool keeps(std::vector<EffortCellOf<Form>>& cells, const EffortChoice& choice) {
-    return std::all_of(cells.begin(), cells.end(), [&](EffortCellOf<Form>& own) { return own.keeps(choice); });
+    return std::all_of(cells.begin(), cells.end(), [&](EffortCellOf<Form>& cell) { return cell.keeps(choice); });
   }
 
   void keep(EffortPart part, const EffortStatics* statics, const EffortChoice& choice) {
@@ -188,9 +188,9 @@ class EffortSearch {
     int best = -1;
     double most = finest;
     for (std::size_t p = 0; p < part.box.size(); ++p) {
-      const double own = share(part, p);
-      if (!(own > most)) continue;
-      most = own;
+      const double halved = share(part, p);
+      if (!(halved > most)) continue;
+      most = halved;
       best = static_cast<int>(p);
     }
     return best;
@@ -230,7 +230,7 @@ class EffortSearch {
   /// Which other cells each cell touches.
   std::vector<std::vector<std::size_t>> neighbours() const {
     std::vector<PoseBox> boxes;
-    for (const EffortPart& own : kept_) boxes.push_back(poses_of(own));
+    for (const EffortPart& part : kept_) boxes.push_back(poses_of(part));
     std::vector<std::size_t> order(kept_.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(),
@@ -252,8 +252,8 @@ class EffortSearch {
 
   /// Cells that touch and whose efforts are not proven to join are cut further.
   void cut_where_efforts_do_not_join() {
-    const bool several = std::any_of(kept_.begin(), kept_.end(), [](const EffortPart& own) {
-      const auto& all = own.statics->demands;
+    const bool several = std::any_of(kept_.begin(), kept_.end(), [](const EffortPart& part) {
+      const auto& all = part.statics->demands;
       return std::any_of(all.begin(), all.end(), [](const auto& each) { return each.components.size() > 1; });
     });
     if (!several) return;
@@ -271,10 +271,10 @@ class EffortSearch {
         continue;
       }
       // Each half tries what is chosen in the cell before it, then anew.
-      EffortPart own = kept_[i];
-      own.statics = *apart[i] < i ? kept_[*apart[i]].statics : nullptr;
-      if (*apart[i] < i) own.choice = kept_[*apart[i]].choice;
-      cut(own, widest(own));
+      EffortPart part = kept_[i];
+      part.statics = *apart[i] < i ? kept_[*apart[i]].statics : nullptr;
+      if (*apart[i] < i) part.choice = kept_[*apart[i]].choice;
+      cut(part, widest(part));
     }
     kept_ = std::move(joined);
   }
@@ -282,16 +282,16 @@ class EffortSearch {
   /// Those of the neighbours of a cell along whose ways its own efforts are not proven good where the two meet.
   std::vector<std::size_t> without_common_way(std::size_t j, const std::vector<std::size_t>& near) {
     std::vector<std::size_t> left = near;
-    const EffortPart& own = kept_[j];
-    keep_apart(own, own.box, left);
+    const EffortPart& part = kept_[j];
+    keep_apart(part, part.box, left);
     std::vector<std::size_t> apart;
     for (const std::size_t i : left) {
       std::vector<std::size_t> one = {i};
-      if (kept_[i].piece == own.piece) {
-        Box common = own.box;
+      if (kept_[i].piece == part.piece) {
+        Box common = part.box;
         for (std::size_t p = 0; p < common.size(); ++p)
           common[p] = {std::max(common[p][0], kept_[i].box[p][0]), std::min(common[p][1], kept_[i].box[p][1])};
-        keep_apart(own, common, one);
+        keep_apart(part, common, one);
       }
       if (!one.empty()) apart.push_back(i);
     }
@@ -299,25 +299,25 @@ class EffortSearch {
   }
 
   /// Leaves those of `others` along whose ways the efforts of a cell are not proven good in a box.
-  void keep_apart(const EffortPart& own, const Box& box, std::vector<std::size_t>& others) {
+  void keep_apart(const EffortPart& part, const Box& box, std::vector<std::size_t>& others) {
     std::vector<std::size_t> good = others;
-    for (std::size_t i = 0; i < own.designs.size() && !good.empty(); ++i) {
-      if (!joint_.enter(*own.statics, wider_[own.piece].chart, together(box, own.designs[i]))) return;
-      std::erase_if(good, [&](std::size_t other) { return !has_common_ways(own, kept_[other]); });
+    for (std::size_t i = 0; i < part.designs.size() && !good.empty(); ++i) {
+      if (!joint_.enter(*part.statics, wider_[part.piece].chart, together(box, part.designs[i]))) return;
+      std::erase_if(good, [&](std::size_t other) { return !has_common_ways(part, kept_[other]); });
     }
     std::erase_if(others, [&](std::size_t i) { return std::find(good.begin(), good.end(), i) != good.end(); });
   }
 
-  bool has_common_ways(const EffortPart& own, const EffortPart& other) {
-    for (std::size_t d = 0; d < own.statics->demands.size(); ++d) {
-      const core::PoseDemand& demand = own.statics->demands[d];
+  bool has_common_ways(const EffortPart& part, const EffortPart& other) {
+    for (std::size_t d = 0; d < part.statics->demands.size(); ++d) {
+      const core::PoseDemand& demand = part.statics->demands[d];
       if (demand.components.size() == 1) continue;
       const auto& all = other.statics->demands;
       const auto same = std::find_if(all.begin(), all.end(), [&](const core::PoseDemand& each) {
         return each.demand.joint == demand.demand.joint && each.demand.quantity == demand.demand.quantity;
       });
       if (same == all.end()) return false;
-      if (!joint_.keeps(d, own.choice, other.choice.ways[static_cast<std::size_t>(same - all.begin())])) return false;
+      if (!joint_.keeps(d, part.choice, other.choice.ways[static_cast<std::size_t>(same - all.begin())])) return false;
     }
     return true;
   }

@@ -32,28 +32,28 @@ class Displacement {
   /// |dp|^2, m^2.
   Form square(const Cell& cell, double from, double to) const {
     std::vector<Form> moved(units_);
-    for (const PoseTakeUp& own : take_ups_) {
-      const std::vector<Form> taken = direction(cell, own, from, to);
-      const Form clearance = within(own.clearance);
+    for (const PoseTakeUp& take_up : take_ups_) {
+      const std::vector<Form> taken = direction(cell, take_up, from, to);
+      const Form clearance = within(take_up.clearance);
       for (std::size_t u = 0; u < units_; ++u) {
         Form along;
         for (std::size_t i = 0; i < taken.size(); ++i)
-          along = along + cell.sum_of(own.reaction[i], loads_ + u) * taken[i];
+          along = along + cell.sum_of(take_up.reaction[i], loads_ + u) * taken[i];
         moved[u] = moved[u] + clearance * along;
       }
     }
     Form sum;
-    for (const Form& own : moved) sum = sum + squared(own);
+    for (const Form& form : moved) sum = sum + squared(form);
     return sum;
   }
 
  private:
   /// Anything between two numbers.
   static Form within(const std::array<double, 2>& range) {
-    Form own(range[0] + 0.5 * (range[1] - range[0]));
-    own.r = std::max(range[1] - own.c, own.c - range[0]) * (1 + 0x1p-50);
-    if (own.r > 0) own.r += Form::slack(std::abs(own.c));
-    return own;
+    Form form(range[0] + 0.5 * (range[1] - range[0]));
+    form.r = std::max(range[1] - form.c, form.c - range[0]) * (1 + 0x1p-50);
+    if (form.r > 0) form.r += Form::slack(std::abs(form.c));
+    return form;
   }
 
   /// c / |c| of every component, under some of the loads.
@@ -70,12 +70,12 @@ class Displacement {
       return {within({-1, 1})};
     }
     Form square;
-    for (const Form& own : c) square = square + squared(own);
+    for (const Form& form : c) square = square + squared(form);
     if (!(square.lower() > 0)) return std::vector<Form>(c.size(), within({-1, 1}));
     const Form per_size = inverse(square_root(square));
-    for (Form& own : c) {
-      own = own * per_size;
-      if (own.magnitude() > 2) own = within({-1, 1});
+    for (Form& form : c) {
+      form = form * per_size;
+      if (form.magnitude() > 2) form = within({-1, 1});
     }
     return c;
   }
@@ -147,21 +147,21 @@ class DisplacementSearch {
     std::vector<Seen> seen(some.size());
     run_in_order(some.size(), [&](std::size_t i) { seen[i] = look(cells_.local(), some[i].box); });
     for (std::size_t i = 0; i < some.size(); ++i) {
-      const Seen& own = seen[i];
-      if (!own.inside) continue;
+      const Seen& sighting = seen[i];
+      if (!sighting.inside) continue;
       const LoadedPart& loaded = some[i].box;
-      if (own.met && *own.met > found_.met) {
-        found_.met = *own.met;
+      if (sighting.met && *sighting.met > found_.met) {
+        found_.met = *sighting.met;
         found_.at = pose_of(loaded.part);
         found_.load = 0.5 * (loaded.from + loaded.to);
       }
-      const double most = std::min(own.most, -some[i].key);
-      if (own.cut_loads) {
+      const double most = std::min(sighting.most, -some[i].key);
+      if (sighting.cut_loads) {
         const double middle = 0.5 * (loaded.from + loaded.to);
         left_.push({loaded.part, loaded.from, middle}, -most);
         left_.push({loaded.part, middle, loaded.to}, -most);
-      } else if (own.along >= 0) {
-        for (PieceBox& half : halves_of(loaded.part, static_cast<std::size_t>(own.along)))
+      } else if (sighting.along >= 0) {
+        for (PieceBox& half : halves_of(loaded.part, static_cast<std::size_t>(sighting.along)))
           left_.push({std::move(half), loaded.from, loaded.to}, -most);
       } else {
         most_of_finest = std::max(most_of_finest, most);
@@ -178,23 +178,23 @@ class DisplacementSearch {
     if (region_.distance(*part.piece, part.box) > reach_) return {};
     const CellAnswers::State state = cell.enter(part.piece->chart, part.box);
     if (state == CellAnswers::State::outside) return {};
-    Seen own{.inside = true};
+    Seen seen{.inside = true};
     if (state != CellAnswers::State::proven) {
-      own.along = chosen(cell, part);
-      return own;
+      seen.along = chosen(cell, part);
+      return seen;
     }
     const Form square = displacement_.square(cell, loaded.from, loaded.to);
-    if (std::isfinite(square.upper())) own.most = root_above(square.upper());
+    if (std::isfinite(square.upper())) seen.most = root_above(square.upper());
     if (region_.distance(pose_of(part)) <= reach_) {
       const PoseBox point = point_of(part.box);
       const double middle = 0.5 * (loaded.from + loaded.to);
       if (cell.enter(part.piece->chart, point) == CellAnswers::State::proven)
-        own.met = std::sqrt(std::max(0.0, displacement_.square(cell, middle, middle).lower()));
+        seen.met = std::sqrt(std::max(0.0, displacement_.square(cell, middle, middle).lower()));
     }
     const Moves moves{square.a};
-    own.along = chosen(moves, part);
-    own.cut_loads = loaded.to > loaded.from && loaded.to - loaded.from >= widest(part);
-    return own;
+    seen.along = chosen(moves, part);
+    seen.cut_loads = loaded.to > loaded.from && loaded.to - loaded.from >= widest(part);
+    return seen;
   }
 
   struct Moves {

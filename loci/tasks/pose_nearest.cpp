@@ -38,7 +38,7 @@ struct Functions {
         std::vector<double> n = start.components[d][load];
         const double size = PoseCell::size_of({n, n});
         if (!(size > 0)) continue;
-        for (double& own : n) own /= size;
+        for (double& component : n) component /= size;
         names.push_back({Doubt::demand, static_cast<int>(d), load, 0, std::move(n)});
       }
   }
@@ -72,7 +72,7 @@ class Finder {
       if (!(least_distance() < within)) break;
     }
     std::vector<NearPose> list;
-    for (auto& [key, own] : found_) list.push_back(std::move(own));
+    for (auto& [key, node] : found_) list.push_back(std::move(node));
     std::sort(list.begin(), list.end(), [](const NearPose& a, const NearPose& b) { return a.distance < b.distance; });
     return list;
   }
@@ -127,7 +127,7 @@ class Finder {
 
   double least_distance() const {
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& [key, own] : found_) least = std::min(least, own.distance);
+    for (const auto& [key, node] : found_) least = std::min(least, node.distance);
     return least;
   }
 
@@ -181,10 +181,10 @@ class Finder {
     for (int step = 0; step < steps; ++step) {
       const auto all = slopes(functions, at);
       if (!all) return;
-      const Slope& own = (*all)[f];
-      usual = std::max(usual, std::abs(own.value));
+      const Slope& slope = (*all)[f];
+      usual = std::max(usual, std::abs(slope.value));
       const Pose base = region_.closest(at);
-      const auto zero = linear_zero(own, at, base);
+      const auto zero = linear_zero(slope, at, base);
       if (!zero) return;
       const double moved = apart(*zero, at);
       // Into reach, by halves.

@@ -44,15 +44,15 @@ int chosen(const Cell& cell, const PieceBox& part) {
   constexpr double share_of_width = 1e-3;
   int best = -1;
   double most = -1, total = 0;
-  for (const double own : cell.spreads()) total += own;
+  for (const double weighted : cell.spreads()) total += weighted;
   if (!(total > 0)) total = 1;
   for (std::size_t p = 0; p < part.box.size(); ++p) {
     const auto& whole = part.piece->box[p];
     const double width = part.box[p][1] - part.box[p][0], all = whole[1] - whole[0];
     if (!(width > finest * all) || !(width > 0x1p-50 * std::max(std::abs(whole[0]), std::abs(whole[1])))) continue;
-    const double own = cell.spreads()[p] + share_of_width * total * width / all;
-    if (own > most) {
-      most = own;
+    const double weighted = cell.spreads()[p] + share_of_width * total * width / all;
+    if (weighted > most) {
+      most = weighted;
       best = static_cast<int>(p);
     }
   }

@@ -49,20 +49,23 @@ class Signs {
     if (then.determinant != now->determinant) all.push_back({Doubt::singularity, -1, pose, base});
     for (std::size_t d = 0; d < statics_.demands.size(); ++d) {
       const double least = core::to_double(statics_.demands[d].demand.least);
-      const auto& own = now->components[d];
+      const auto& component = now->components[d];
       if (statics_.demands[d].demand.bound) {
         const auto is_beyond = [](const std::vector<double>& of_load) { return of_load.front() < 0; };
-        if (std::any_of(own.begin(), own.end(), is_beyond)) all.push_back({Doubt::demand, static_cast<int>(d), pose});
+        if (std::any_of(component.begin(), component.end(), is_beyond))
+          all.push_back({Doubt::demand, static_cast<int>(d), pose});
         continue;
       }
-      if (least > 0 && CellAnswers::size_of(own) < least) all.push_back({Doubt::demand, static_cast<int>(d), pose});
+      if (least > 0 && CellAnswers::size_of(component) < least)
+        all.push_back({Doubt::demand, static_cast<int>(d), pose});
       // Between two loads it may point the other way at one of them.
-      const bool turned = own.size() > 1 && own.front().size() == 1 && own.front()[0] * own.back()[0] < 0;
+      const bool turned =
+          component.size() > 1 && component.front().size() == 1 && component.front()[0] * component.back()[0] < 0;
       bool opposite = turned;
-      for (std::size_t load = 0; load < own.size(); ++load) {
-        const double together = dot(own[load], then.components[d][load]);
+      for (std::size_t load = 0; load < component.size(); ++load) {
+        const double together = dot(component[load], then.components[d][load]);
         const double sizes =
-            std::sqrt(dot(own[load], own[load]) * dot(then.components[d][load], then.components[d][load]));
+            std::sqrt(dot(component[load], component[load]) * dot(then.components[d][load], then.components[d][load]));
         opposite = opposite || together < -(1 - no_direction) * sizes;
       }
       if (opposite)
@@ -99,10 +102,10 @@ class Search {
     for (const PosePiece& piece : pieces_) parts.push({&piece, piece.box});
     while (!parts.empty() && parts.size() < enough_parts && !meter_.is_stopped()) visit(cell, parts.take(), parts);
     tbb::enumerable_thread_specific<Cell> cells([&] { return Cell(statics_); });
-    look_in_parts(parts.size(), 1, cells, [&](Cell& own, std::size_t i) {
+    look_in_parts(parts.size(), 1, cells, [&](Cell& candidate, std::size_t i) {
       BoxSearch<PieceBox> left(SearchOrder::depth_first);
       left.push(std::move(parts[i].box));
-      while (!left.empty() && !meter_.is_stopped()) visit(own, left.take(), left);
+      while (!left.empty() && !meter_.is_stopped()) visit(candidate, left.take(), left);
       for (const auto& part : left) leave_open(part.box);
     });
     return finished();

@@ -278,37 +278,37 @@ std::pair<std::size_t, double> PoseRegion::foot(const Pose& pose) const {
 Pose PoseRegion::closest(const Pose& pose) const {
   if (kind_ == Kind::path) {
     const auto [segment, t] = foot(pose);
-    Pose own = on_segment(segment, t);
+    Pose candidate = on_segment(segment, t);
     std::copy(pose.begin() + static_cast<std::ptrdiff_t>(shaped_), pose.end(),
-              own.begin() + static_cast<std::ptrdiff_t>(shaped_));
-    clamp_beside(own);
-    return own;
+              candidate.begin() + static_cast<std::ptrdiff_t>(shaped_));
+    clamp_beside(candidate);
+    return candidate;
   }
   if (kind_ == Kind::mesh) return nearest_in_solid(pose);
-  Pose own = pose;
-  clamp_beside(own);
+  Pose candidate = pose;
+  clamp_beside(candidate);
   if (kind_ == Kind::box || kind_ == Kind::polygon) {
-    for (std::size_t c = 0; c < shaped_; ++c) own[c] = std::clamp(own[c], lower_[c], upper_[c]);
-    if (kind_ == Kind::box) return own;
+    for (std::size_t c = 0; c < shaped_; ++c) candidate[c] = std::clamp(candidate[c], lower_[c], upper_[c]);
+    if (kind_ == Kind::box) return candidate;
     const core::Point2 at = plane_->closest(in_plane(pose));
-    for (std::size_t i = 0; i < 2; ++i) own[across_[i]] = at[i];
-    return own;
+    for (std::size_t i = 0; i < 2; ++i) candidate[across_[i]] = at[i];
+    return candidate;
   }
   double square = 0;
-  for (std::size_t c = 0; c < shaped_; ++c) square += std::pow(metric_.weights[c] * (own[c] - centre_[c]), 2);
+  for (std::size_t c = 0; c < shaped_; ++c) square += std::pow(metric_.weights[c] * (candidate[c] - centre_[c]), 2);
   const double far = std::sqrt(square);
   if (far > radius_)
-    for (std::size_t c = 0; c < shaped_; ++c) own[c] = centre_[c] + (own[c] - centre_[c]) * (radius_ / far);
-  return own;
+    for (std::size_t c = 0; c < shaped_; ++c) candidate[c] = centre_[c] + (candidate[c] - centre_[c]) * (radius_ / far);
+  return candidate;
 }
 
 Pose PoseRegion::farthest_along(std::size_t coordinate, double way) const {
   if (points_.empty()) {
-    Pose own = lower_;
-    for (std::size_t c = 0; c < own.size(); ++c)
-      own[c] = kind_ == Kind::ball && c < shaped_ ? centre_[c] : own[c] + 0.5 * (upper_[c] - own[c]);
-    own[coordinate] = way > 0 ? upper_[coordinate] : lower_[coordinate];
-    return own;
+    Pose pose = lower_;
+    for (std::size_t c = 0; c < pose.size(); ++c)
+      pose[c] = kind_ == Kind::ball && c < shaped_ ? centre_[c] : pose[c] + 0.5 * (upper_[c] - pose[c]);
+    pose[coordinate] = way > 0 ? upper_[coordinate] : lower_[coordinate];
+    return pose;
   }
   return *std::max_element(points_.begin(), points_.end(),
                            [&](const Pose& a, const Pose& b) { return way * a[coordinate] < way * b[coordinate]; });
@@ -317,12 +317,12 @@ Pose PoseRegion::farthest_along(std::size_t coordinate, double way) const {
 double PoseRegion::distance(const Pose& pose) const { return apart(pose, closest(pose)); }
 
 Pose PoseRegion::nearest_in_solid(const Pose& pose) const {
-  Pose own = pose;
-  clamp_beside(own);
-  if (solid_->holds(point_of(pose))) return own;
+  Pose candidate = pose;
+  clamp_beside(candidate);
+  if (solid_->holds(point_of(pose))) return candidate;
   const Solid::Point at = solid_->nearest_of_surface(point_of(pose));
-  std::copy(at.begin(), at.end(), own.begin());
-  return own;
+  std::copy(at.begin(), at.end(), candidate.begin());
+  return candidate;
 }
 
 bool PoseRegion::seems_inside(const Pose& from, const Pose& to) const {

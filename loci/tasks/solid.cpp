@@ -82,24 +82,25 @@ double apart(const std::array<Point, 3>& corners, const Box& box) {
     middle[c] = 0.5 * (box.lower[c] + box.upper[c]);
     half[c] = 0.5 * (box.upper[c] - box.lower[c]);
   }
-  const std::array<Point, 3> own = {minus(corners[0], middle), minus(corners[1], middle), minus(corners[2], middle)};
+  const std::array<Point, 3> points = {minus(corners[0], middle), minus(corners[1], middle), minus(corners[2], middle)};
   double most = 0;
   const auto along = [&](const Point& way) {
     const double length = std::sqrt(dot(way, way));
     if (!(length > std::numeric_limits<double>::min())) return;
     const double box_reach = half[0] * std::abs(way[0]) + half[1] * std::abs(way[1]) + half[2] * std::abs(way[2]);
-    const std::array<double, 3> at = {dot(way, own[0]), dot(way, own[1]), dot(way, own[2])};
+    const std::array<double, 3> at = {dot(way, points[0]), dot(way, points[1]), dot(way, points[2])};
     const double low = std::min({at[0], at[1], at[2]}), high = std::max({at[0], at[1], at[2]});
     most = std::max(most, std::max(low - box_reach, -high - box_reach) / length);
   };
   const std::array<Point, 3> axes = {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
-  const std::array<Point, 3> edges = {minus(own[1], own[0]), minus(own[2], own[1]), minus(own[0], own[2])};
+  const std::array<Point, 3> edges = {minus(points[1], points[0]), minus(points[2], points[1]),
+                                      minus(points[0], points[2])};
   for (const Point& axis : axes) along(axis);
   along(cross(edges[0], edges[1]));
   for (const Point& axis : axes)
     for (const Point& edge : edges) along(cross(axis, edge));
   if (!(most > 0)) return 0;
-  const Point way = nearest_of(own, Point{});
+  const Point way = nearest_of(points, Point{});
   return std::max(most, std::sqrt(dot(way, way)) - std::sqrt(dot(half, half)));
 }
 
@@ -113,9 +114,9 @@ int turn(const Point& a, const Point& b, const Point& p) {
 }  // namespace
 
 Solid::Solid(const core::TaskMesh& mesh) : corners_(mesh.corners) {
-  for (const std::array<int, 3>& own : mesh.triangles) {
+  for (const std::array<int, 3>& entry : mesh.triangles) {
     Triangle& triangle = triangles_.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = corners_[static_cast<std::size_t>(own[k])];
+    for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = corners_[static_cast<std::size_t>(entry[k])];
   }
   grow(0, triangles_.size());
   for (std::size_t c = 0; c < 3; ++c)
@@ -187,9 +188,9 @@ std::optional<int> Solid::winding(const Point& from) const {
       continue;
     for (std::size_t i = node.first; i < node.first + node.count; ++i) {
       const std::array<Point, 3>& t = triangles_[i].corners;
-      const Box own = around(t);
-      if (own.upper[0] < from[0] || own.lower[1] > from[1] || own.upper[1] < from[1] || own.lower[2] > from[2] ||
-          own.upper[2] < from[2])
+      const Box box = around(t);
+      if (box.upper[0] < from[0] || box.lower[1] > from[1] || box.upper[1] < from[1] || box.lower[2] > from[2] ||
+          box.upper[2] < from[2])
         continue;
       const std::array<int, 3> turns = {turn(t[0], t[1], from), turn(t[1], t[2], from), turn(t[2], t[0], from)};
       const auto [least, most] = std::minmax_element(turns.begin(), turns.end());
@@ -212,11 +213,11 @@ Point Solid::nearest_of_surface(const Point& point) const {
   double least = std::numeric_limits<double>::infinity();
   Point best = corners_.front();
   std::vector<std::size_t> stack = {0};
-  const Box own{point, point};
+  const Box box{point, point};
   while (!stack.empty()) {
     const Node& node = nodes_[stack.back()];
     stack.pop_back();
-    if (apart(node.box, own) >= least) continue;
+    if (apart(node.box, box) >= least) continue;
     for (std::size_t i = node.first; i < node.first + node.count; ++i) {
       const Point at = nearest_of(triangles_[i].corners, point);
       const Point way = minus(at, point);

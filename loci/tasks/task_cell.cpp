@@ -160,21 +160,21 @@ void TaskCell::add_bounds(const Sum& sum, const Judgement& what, bool either_sid
   if (either_side) bounds.push_back({-value, {-slopes[0], -slopes[1]}});
   for (std::size_t c = 2; c < slopes.size(); ++c) {
     // Where it grows with a root's size r it is positive but for the least r: r^2 <= square.
-    const int own = static_cast<int>(c);
+    const int variable = static_cast<int>(c);
     const double side = cell_->mode()[static_cast<std::size_t>(cell_->lifted()[c - 2])];
     const int sign = (Interval(side) * slopes[c]).sign();
     if (sign == 0 || (sign < 0 && !either_side)) continue;
     const Interval growth = Interval(sign * side) * slopes[c];
     const double rest = (Interval(sign) * without([&](std::size_t k) { return k == c; })).lower();
-    const double least = (Interval(side * cell_->middle(own)) -
+    const double least = (Interval(side * cell_->middle(variable)) -
                           Interval(rest) * inverse(Interval(rest > 0 ? growth.upper() : growth.lower())))
                              .upper();
     if (least < 0) return;
-    Bound bound = square_bound(own - 2);
+    Bound bound = square_bound(variable - 2);
     bound.value = bound.value - squared(Interval(least));
     bounds.push_back(bound);
   }
-  if (std::none_of(bounds.begin(), bounds.end(), [&](const Bound& own) { return positive(own); }))
+  if (std::none_of(bounds.begin(), bounds.end(), [&](const Bound& bound) { return positive(bound); }))
     doubt.unproven.push_back({what, std::move(bounds), either_side, either_side});
 }
 
@@ -207,8 +207,8 @@ TaskCell::Doubt TaskCell::doubt() {
   nonzero_or_bounded(conditions_.determinant, singular);
   doubt.anywhere = false;
   for (std::size_t i = 0; i < conditions_.conditions.size(); ++i) {
-    const TaskCondition& own = conditions_.conditions[i];
-    if (!holds(own) && !add_bounds(own, {State::unmet, static_cast<int>(i)}, doubt)) doubt.anywhere = true;
+    const TaskCondition& condition = conditions_.conditions[i];
+    if (!holds(condition) && !add_bounds(condition, {State::unmet, static_cast<int>(i)}, doubt)) doubt.anywhere = true;
   }
   return doubt;
 }
@@ -294,9 +294,9 @@ bool TaskPoint::enter(const Point2& at) {
 }
 
 int TaskPoint::sign(std::size_t watched) const {
-  const Watched& own = watched_[watched];
-  if (own.function >= 0) return cell_.value(own.function).sign();
-  const TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(own.condition)];
+  const Watched& watch = watched_[watched];
+  if (watch.function >= 0) return cell_.value(watch.function).sign();
+  const TaskCondition& condition = conditions_.conditions[static_cast<std::size_t>(watch.condition)];
   const auto part = [&](std::size_t load, std::size_t i) { return cell_.value(condition.parts[load][i]); };
   // Where the ends point into one half plane the way between them does not pass through zero, whatever their area.
   const Interval dot = part(0, 0) * part(1, 0) + part(0, 1) * part(1, 1);
@@ -305,15 +305,15 @@ int TaskPoint::sign(std::size_t watched) const {
 }
 
 bool TaskPoint::step(int condition, Point2& at, double& load) {
-  const TaskCondition& own = conditions_.conditions[static_cast<std::size_t>(condition)];
-  if (own.parts.empty() || !enter(at)) return false;
+  const TaskCondition& task_condition = conditions_.conditions[static_cast<std::size_t>(condition)];
+  if (task_condition.parts.empty() || !enter(at)) return false;
   cell_.differentiate();
   if (cell_.dimension() != 2) return false;
-  const bool range = own.parts.size() > 1;
+  const bool range = task_condition.parts.size() > 1;
   // Normal equations of J delta = -w, with a hair on the diagonal so that they can be solved where J has less rank.
   double m[3][4] = {};
-  for (std::size_t i = 0; i < own.parts.front().size(); ++i) {
-    const int f = own.parts.front()[i], g = own.parts.back()[i];
+  for (std::size_t i = 0; i < task_condition.parts.front().size(); ++i) {
+    const int f = task_condition.parts.front()[i], g = task_condition.parts.back()[i];
     const auto mix = [&](const Interval& a, const Interval& b) { return (1 - load) * a.middle() + load * b.middle(); };
     const double row[3] = {mix(cell_.slope(f, 0), cell_.slope(g, 0)), mix(cell_.slope(f, 1), cell_.slope(g, 1)),
                            range ? cell_.value(g).middle() - cell_.value(f).middle() : 0.0};

@@ -22,12 +22,12 @@ Point2 between(const Point2& a, const Point2& b, double t) {
 void search_segment(const TaskRegion& region, const Point2& a, const Point2& b, double gain, double& best, Point2& at) {
   const Point2 middle = between(a, b, 0.5);
   const double half = std::hypot(b[0] - a[0], b[1] - a[1]) / 2;
-  const double own = region.signed_distance(middle);
-  if (own < best) {
-    best = own;
+  const double distance = region.signed_distance(middle);
+  if (distance < best) {
+    best = distance;
     at = middle;
   }
-  if (own - half >= best - gain || half < gain) return;
+  if (distance - half >= best - gain || half < gain) return;
   search_segment(region, a, middle, gain, best, at);
   search_segment(region, middle, b, gain, best, at);
 }

@@ -231,16 +231,16 @@ class Reaches {
     Reach reach;
     if (doubt.anywhere) return reach;
     reach.least = std::numeric_limits<double>::infinity();
-    for (const TaskCell::Unproven& own : doubt.unproven) {
+    for (const TaskCell::Unproven& unproven : doubt.unproven) {
       if (reach.least <= cell.distance) return reach;
-      const double least = nearest(own.any.data(), own.any.size(), false, doubt.middle, cell).distance;
+      const double least = nearest(unproven.any.data(), unproven.any.size(), false, doubt.middle, cell).distance;
       reach.least = std::min(reach.least, least);
-      if (!closely || !own.sharp || !(least < reach.most)) continue;
-      TaskRegion::Nearest most = nearest(own.any.data(), 1, true, doubt.middle, cell);
-      if (own.either_side)
-        if (const auto other = nearest(&own.any[1], 1, true, doubt.middle, cell); other.distance > most.distance)
+      if (!closely || !unproven.sharp || !(least < reach.most)) continue;
+      TaskRegion::Nearest most = nearest(unproven.any.data(), 1, true, doubt.middle, cell);
+      if (unproven.either_side)
+        if (const auto other = nearest(&unproven.any[1], 1, true, doubt.middle, cell); other.distance > most.distance)
           most = other;
-      if (most.distance < reach.most) reach = {reach.least, most.distance, most.at, own.what};
+      if (most.distance < reach.most) reach = {reach.least, most.distance, most.at, unproven.what};
     }
     return reach;
   }
@@ -261,10 +261,10 @@ class Reaches {
       double value = at_most ? first[i].value.upper() : first[i].value.lower(), doubt = 0, size = std::abs(value);
       Point2 slope{};
       for (std::size_t c = 0; c < 2; ++c) {
-        const Interval& own = first[i].slopes[c];
-        slope[c] = own.middle();
-        doubt += std::max(own.upper() - slope[c], slope[c] - own.lower()) * half[c];
-        size += own.magnitude() * half[c];
+        const Interval& interval = first[i].slopes[c];
+        slope[c] = interval.middle();
+        doubt += std::max(interval.upper() - slope[c], slope[c] - interval.lower()) * half[c];
+        size += interval.magnitude() * half[c];
       }
       constexpr double roundings = 1e-14;
       value += (at_most ? doubt : -doubt) - roundings * size;
@@ -300,7 +300,7 @@ class Reaches {
 TaskClearance proven_clearance(const core::TaskConditions& conditions, const core::WorkingMode& mode,
                                const TaskRegion& region, double from, double limit, const SearchBudget& budget) {
   // What ends the margin is told apart to this part of it; where bounds tell what does, they tell it to that part.
-  constexpr double resolution = 1e-4, known = 1e-5;
+  constexpr double resolution = 1e-4, known_within = 1e-5;
   // Cells this wide, as a part of their distance, may tell it so well.
   constexpr double close = 0.02;
   TaskCell judge(conditions, mode);
@@ -350,7 +350,7 @@ TaskClearance proven_clearance(const core::TaskConditions& conditions, const cor
       left.push(cell, cell.distance);
       continue;
     }
-    const bool is_known = cell.reach.most <= cell.distance + known * at_hand(cell);
+    const bool is_known = cell.reach.most <= cell.distance + known_within * at_hand(cell);
     if (is_known || cell.width() <= resolution * at_hand(cell)) {
       proven_to(cell.distance);
       const auto [what, which] = is_known ? cell.reach.what : *cell.judgement;

@@ -115,8 +115,8 @@ Point2 TaskRegion::closest(const Point2& to) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < line_.size(); ++i) {
     const Point2 at = closest_on_segment(to, line_[i - 1], line_[i]);
-    const double own = std::hypot(at[0] - to[0], at[1] - to[1]);
-    if (own < least) least = own, best = at;
+    const double distance = std::hypot(at[0] - to[0], at[1] - to[1]);
+    if (distance < least) least = distance, best = at;
   }
   return best;
 }
@@ -143,7 +143,7 @@ TaskRegion::Nearest TaskRegion::nearest_to_box(const Polyline& polygon) const {
   double least = std::numeric_limits<double>::infinity();  // squared
   Point2 best{}, low = polygon.front(), high = low;
   const auto meet = [&](double x, double y, const Point2& at) {
-    if (const double own = x * x + y * y; own < least) least = own, best = at;
+    if (const double square = x * x + y * y; square < least) least = square, best = at;
   };
   for (const Point2& p : polygon) {
     meet(std::max({lower_[0] - p[0], p[0] - upper_[0], 0.0}), std::max({lower_[1] - p[1], p[1] - upper_[1], 0.0}), p);
@@ -169,8 +169,8 @@ TaskRegion::Nearest TaskRegion::nearest(const Polyline& polygon) const {
   double least = std::numeric_limits<double>::infinity();  // squared
   Point2 best{};
   const auto meet = [&](const Point2& on_shape, const Point2& on_polygon) {
-    const double x = on_polygon[0] - on_shape[0], y = on_polygon[1] - on_shape[1], own = x * x + y * y;
-    if (own < least) least = own, best = on_polygon;
+    const double x = on_polygon[0] - on_shape[0], y = on_polygon[1] - on_shape[1], square = x * x + y * y;
+    if (square < least) least = square, best = on_polygon;
   };
   if (circle_) {
     if (holds(polygon, round_.centre)) return {0, round_.centre};

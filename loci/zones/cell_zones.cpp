@@ -20,9 +20,9 @@ const HalfSpace& all_of_it() {
 class Groups {
  public:
   explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t of(std::size_t own) {
-    while (parent_[own] != own) own = parent_[own] = parent_[parent_[own]];
-    return own;
+  std::size_t of(std::size_t cell) {
+    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
+    return cell;
   }
   void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
 
@@ -50,11 +50,11 @@ class Zones {
 
  private:
   const HalfSpace* part(std::size_t cell, std::size_t side) const {
-    const ZoneCell& own = cells_[cell];
-    if (own.kind == Kind::free) return side == 0 ? &all_of_it() : nullptr;
-    if (own.kind != Kind::in_doubt || !own.parts || (*own.parts)[side].empty()) return nullptr;
-    if (own.beyond && side == 1) return nullptr;
-    return &(*own.parts)[side];
+    const ZoneCell& zone_cell = cells_[cell];
+    if (zone_cell.kind == Kind::free) return side == 0 ? &all_of_it() : nullptr;
+    if (zone_cell.kind != Kind::in_doubt || !zone_cell.parts || (*zone_cell.parts)[side].empty()) return nullptr;
+    if (zone_cell.beyond && side == 1) return nullptr;
+    return &(*zone_cell.parts)[side];
   }
   static std::size_t number_of(std::size_t cell, std::size_t side) { return 2 * cell + side; }
 
@@ -95,8 +95,8 @@ class Zones {
     std::map<std::size_t, double> sizes;
     for (std::size_t c = 0; c < cells_.size(); ++c)
       for (std::size_t side = 0; side < 2; ++side)
-        if (const HalfSpace* own = part(c, side))
-          sizes[groups_.of(number_of(c, side))] += share_of(*own) * cells_[c].size();
+        if (const HalfSpace* space = part(c, side))
+          sizes[groups_.of(number_of(c, side))] += share_of(*space) * cells_[c].size();
     std::vector<std::pair<double, std::size_t>> large;
     for (const auto& [group, size] : sizes)
       if (size >= effort_.least_part * cells_.front().size()) large.emplace_back(size, group);
@@ -119,16 +119,16 @@ class Zones {
     std::vector<double> largest(result_.zones.size(), 0);
     doubt_.assign(cells_.size(), 0);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const ZoneCell& own = cells_[c];
-      if (own.kind == Kind::cut) continue;
-      const double size = own.size();
-      if (own.kind == Kind::outside) {
+      const ZoneCell& cell = cells_[c];
+      if (cell.kind == Kind::cut) continue;
+      const double size = cell.size();
+      if (cell.kind == Kind::outside) {
         result_.outside += size;
         continue;
       }
       doubt_[c] = size;
-      if (own.beyond) {
-        const double share = share_of((*own.parts)[1]) * size;
+      if (cell.beyond) {
+        const double share = share_of((*cell.parts)[1]) * size;
         result_.outside += share;
         doubt_[c] = std::max(0.0, size - share);
       }
@@ -137,8 +137,8 @@ class Zones {
         if (z < 0) continue;
         const HalfSpace& half = *part(c, side);
         const double share = share_of(half) * size;
-        doubt_[c] = own.kind == Kind::free ? 0 : std::max(0.0, doubt_[c] - share);
-        add_part(result_.zones[static_cast<std::size_t>(z)], half, own, share, largest[static_cast<std::size_t>(z)]);
+        doubt_[c] = cell.kind == Kind::free ? 0 : std::max(0.0, doubt_[c] - share);
+        add_part(result_.zones[static_cast<std::size_t>(z)], half, cell, share, largest[static_cast<std::size_t>(z)]);
       }
       result_.in_doubt += doubt_[c];
     }
@@ -202,19 +202,19 @@ class Zones {
       const std::array<std::size_t, 2> both = {a, b};
       for (std::size_t first = 0; first < 2; ++first)
         for (std::size_t i = 0; i < 2; ++i) {
-          const std::size_t own = both[first], other = both[1 - first];
-          const int z = zone(own, i);
+          const std::size_t cell = both[first], other = both[1 - first];
+          const int z = zone(cell, i);
           if (z < 0) continue;
           CellZone& zone_here = result_.zones[static_cast<std::size_t>(z)];
-          if (cells_[other].kind == Kind::in_doubt && cells_[own].kind == Kind::free)
+          if (cells_[other].kind == Kind::in_doubt && cells_[cell].kind == Kind::free)
             zone_here.bounds.insert(cells_[other].open.begin(), cells_[other].open.end());
           if (cells_[a].box.size() == 1 && cells_[other].kind == Kind::in_doubt && zone(other, 0) != z &&
               zone(other, 1) != z)
             zone_here.at_ends[first == 0 ? 1 : 0].insert(cells_[other].open.begin(), cells_[other].open.end());
           if (cells_[a].box.size() < 2) continue;
-          if (cells_[own].kind == Kind::free && cells_[other].kind == Kind::free && zone(other, 0) == z) continue;
+          if (cells_[cell].kind == Kind::free && cells_[other].kind == Kind::free && zone(other, 0) == z) continue;
           const PoseBox common = common_face(a, b, axis);
-          Polygon left = clipped(corners_of(common), *part(own, i), cells_[own].box, 0, true);
+          Polygon left = clipped(corners_of(common), *part(cell, i), cells_[cell].box, 0, true);
           for (std::size_t j = 0; j < 2 && !left.empty(); ++j)
             if (zone(other, j) == z) left = clipped(left, *part(other, j), cells_[other].box, 0, false);
           add_face(zone_here, std::move(left), axis, first == 0);
@@ -222,9 +222,9 @@ class Zones {
     });
   }
 
-  static bool may_have(const PoseCell::Signs& known, const PoseCell::Signs& of_zone) {
-    for (std::size_t d = 0; d < known.size() && d < of_zone.size(); ++d)
-      if (known[d] * of_zone[d] < 0) return false;
+  static bool may_have(const PoseCell::Signs& signs, const PoseCell::Signs& of_zone) {
+    for (std::size_t d = 0; d < signs.size() && d < of_zone.size(); ++d)
+      if (signs[d] * of_zone[d] < 0) return false;
     return true;
   }
 
@@ -262,10 +262,10 @@ class Zones {
       for (const auto& [cell, z] : zones_beside)
         if (may[cell] && place[z] != none) touching[groups.of(cell)].insert(z);
       for (const std::size_t z : zones) result_.zones[z].at_most = result_.zones[z].at_least;
-      for (const auto& [group, own] : touching)
-        for (const std::size_t z : own) {
+      for (const auto& [group, zones_beside_group] : touching)
+        for (const std::size_t z : zones_beside_group) {
           result_.zones[z].at_most += sizes[group];
-          for (const std::size_t other : own)
+          for (const std::size_t other : zones_beside_group)
             if (other != z) result_.zones[z].perhaps.insert(other);
         }
     }

@@ -30,8 +30,8 @@ double to_face(const Point& p, const Polygon& face) {
   if (face.size() < 3) return least;
   Point normal{};
   for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    const Point own = cross(face[i] - face[0], face[i + 1] - face[0]);
-    for (std::size_t c = 0; c < 3; ++c) normal[c] += own[c];
+    const Point point = cross(face[i] - face[0], face[i + 1] - face[0]);
+    for (std::size_t c = 0; c < 3; ++c) normal[c] += point[c];
   }
   const double size = std::sqrt(dot(normal, normal));
   if (!(size > 0)) return least;
@@ -43,9 +43,9 @@ double to_face(const Point& p, const Polygon& face) {
 class Faces {
  public:
   explicit Faces(const std::vector<Polygon>& faces) : faces_(faces) {
-    for (const Polygon& own : faces) {
-      std::array<Point, 2> around = {own.front(), own.front()};
-      for (const Point& corner : own)
+    for (const Polygon& polygon : faces) {
+      std::array<Point, 2> around = {polygon.front(), polygon.front()};
+      for (const Point& corner : polygon)
         for (std::size_t c = 0; c < 3; ++c) {
           around[0][c] = std::min(around[0][c], corner[c]);
           around[1][c] = std::max(around[1][c], corner[c]);
@@ -58,8 +58,8 @@ class Faces {
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       double off = 0;
       for (std::size_t c = 0; c < 3; ++c) {
-        const double own = std::max({around_[i][0][c] - p[c], p[c] - around_[i][1][c], 0.0});
-        off += own * own;
+        const double distance = std::max({around_[i][0][c] - p[c], p[c] - around_[i][1][c], 0.0});
+        off += distance * distance;
       }
       if (off < least * least) least = std::min(least, to_face(p, faces_[i]));
     }
@@ -105,16 +105,16 @@ std::optional<core::ZoneBall> largest_ball(const CellZone& zone, std::size_t num
   Pose widths;
   for (std::size_t c = 0; c < n; ++c) widths.push_back((upper[c] - lower[c]) / cells[c]);
   std::vector<double> squares;
-  for (const int own : raster) squares.push_back(own == label ? std::numeric_limits<double>::infinity() : 0);
+  for (const int pixel : raster) squares.push_back(pixel == label ? std::numeric_limits<double>::infinity() : 0);
   for (std::size_t c = 0; c < n; ++c) spread(squares, cells, c, widths[c]);
   const auto best = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) - squares.begin());
   if (!(squares[best] > 0)) return std::nullopt;
   Point centre{};
   std::size_t index = best;
   for (std::size_t c = 0; c < n; ++c) {
-    const auto own = static_cast<std::size_t>(cells[c]);
-    centre[c] = lower[c] + (static_cast<double>(index % own) + 0.5) * widths[c];
-    index /= own;
+    const auto cell = static_cast<std::size_t>(cells[c]);
+    centre[c] = lower[c] + (static_cast<double>(index % cell) + 0.5) * widths[c];
+    index /= cell;
   }
   const Faces faces(zone.faces);
   double radius = faces.distance(centre);
@@ -127,10 +127,10 @@ std::optional<core::ZoneBall> largest_ball(const CellZone& zone, std::size_t num
       for (const double way : {1.0, -1.0}) {
         Point other = centre;
         other[c] += way * step * radius;
-        const double own = faces.distance(other);
-        if (own <= radius * (1 + 0.1 * step)) continue;
+        const double distance = faces.distance(other);
+        if (distance <= radius * (1 + 0.1 * step)) continue;
         centre = other;
-        radius = own;
+        radius = distance;
         better = true;
       }
     if (!better) step *= 0.5;

@@ -71,10 +71,10 @@ std::vector<Contact> contacts(const Circle& circle, const std::vector<Obstacle>&
                               double slack) {
   std::vector<Contact> list;
   const auto add = [&](const Contact& contact) {
-    const bool known = std::any_of(list.begin(), list.end(), [&](const Contact& other) {
+    const bool is_present = std::any_of(list.begin(), list.end(), [&](const Contact& other) {
       return other.slides == contact.slides && distance(other.at, contact.at) < same_contact * circle.radius;
     });
-    if (!known) list.push_back(contact);
+    if (!is_present) list.push_back(contact);
   };
   const double reach = circle.radius + slack;
   for (const Obstacle& obstacle : obstacles) {

@@ -56,13 +56,13 @@ std::vector<std::size_t> BoxedPolyline::pieces_near(const core::Point2& at, doub
   while (!pending.empty()) {
     const int i = pending.back();
     pending.pop_back();
-    const Node& own = nodes_[static_cast<std::size_t>(i)];
-    if (disjoint(near.x, own.box.x) || disjoint(near.y, own.box.y)) continue;
-    if (own.halves < 0) {
-      pieces.push_back(own.piece);
+    const Node& node = nodes_[static_cast<std::size_t>(i)];
+    if (disjoint(near.x, node.box.x) || disjoint(near.y, node.box.y)) continue;
+    if (node.halves < 0) {
+      pieces.push_back(node.piece);
     } else {
       pending.push_back(i - 1);
-      pending.push_back(own.halves);
+      pending.push_back(node.halves);
     }
   }
   return pieces;
@@ -76,16 +76,16 @@ std::optional<std::vector<PlaneCell>> near_passes(const BoxedPolyline& a, const 
   while (!pending.empty()) {
     const auto [i, k] = pending.back();
     pending.pop_back();
-    const BoxedPolyline::Node &own = a.nodes_[static_cast<std::size_t>(i)],
+    const BoxedPolyline::Node &node = a.nodes_[static_cast<std::size_t>(i)],
                               &other = b.nodes_[static_cast<std::size_t>(k)];
-    const PlaneCell near = widened(own.box, reach);
+    const PlaneCell near = widened(node.box, reach);
     if (disjoint(near.x, other.box.x) || disjoint(near.y, other.box.y)) continue;
-    if (own.halves < 0 && other.halves < 0) {
+    if (node.halves < 0 && other.halves < 0) {
       if (places.size() == most_pairs) return std::nullopt;
       const PlaneCell there = widened(other.box, reach);
       places.push_back({meet(near.x, there.x), meet(near.y, there.y)});
-    } else if (other.halves < 0 || (own.halves >= 0 && size(own.box) >= size(other.box))) {
-      pending.emplace_back(own.halves, k);
+    } else if (other.halves < 0 || (node.halves >= 0 && size(node.box) >= size(other.box))) {
+      pending.emplace_back(node.halves, k);
       pending.emplace_back(i - 1, k);
     } else {
       pending.emplace_back(i, other.halves);

@@ -91,8 +91,8 @@ PlaneGraph without_edges(const PlaneGraph& graph, const std::vector<bool>& marke
   }
   for (std::size_t n = 0; n < graph.around.size(); ++n)
     for (const HalfEdge half : graph.around[n])
-      if (const int own = place[static_cast<std::size_t>(half.edge)]; own >= 0)
-        less.around[n].push_back({own, half.reversed});
+      if (const int new_edge = place[static_cast<std::size_t>(half.edge)]; new_edge >= 0)
+        less.around[n].push_back({new_edge, half.reversed});
   return less;
 }
 
@@ -249,12 +249,12 @@ std::vector<GraphFace> faces_of(const PlaneGraph& graph) {
   }
   // Every component has one walk around its outside: the one of least signed area.
   for (const Walk& walk : outer) {
-    const auto known =
+    const auto found =
         std::find_if(inner.begin(), inner.end(), [&](const Walk& w) { return w.component == walk.component; });
-    if (known == inner.end())
+    if (found == inner.end())
       inner.push_back(walk);
-    else if (walk.area < known->area)
-      *known = walk;
+    else if (walk.area < found->area)
+      *found = walk;
   }
   std::erase_if(outer, [&](const Walk& walk) {
     return std::any_of(inner.begin(), inner.end(), [&](const Walk& w) { return w.halves == walk.halves; });

@@ -21,7 +21,7 @@ double ZoneCell::doubt() const {
   if (kind != Kind::in_doubt) return 0;
   double share = 1;
   if (parts)
-    for (const HalfSpace& own : *parts) share -= share_of(own);
+    for (const HalfSpace& space : *parts) share -= share_of(space);
   return std::max(share, 0.0) * size();
 }
 
@@ -43,44 +43,46 @@ ZoneCells::ZoneCells(const core::PoseStatics& statics, const Pose& lower, const 
 
 /// What a cell is, and along which coordinate it is cut best.
 ZoneCell ZoneCells::looked(PoseCell& cell, PoseBox box) const {
-  ZoneCell own;
-  own.box = std::move(box);
-  const PoseCell::State state = cell.enter(chart_, own.box);
+  ZoneCell zone_cell;
+  zone_cell.box = std::move(box);
+  const PoseCell::State state = cell.enter(chart_, zone_cell.box);
   if (state == PoseCell::State::outside) {
-    own.kind = ZoneCell::Kind::outside;
-    return own;
+    zone_cell.kind = ZoneCell::Kind::outside;
+    return zone_cell;
   }
-  own.kind = ZoneCell::Kind::free;
-  if (state == PoseCell::State::proven) return own;
-  PoseCell::Known known = cell.known();
-  if (known.free) return own;
-  if (known.outside) {
-    own.kind = ZoneCell::Kind::outside;
-    return own;
+  zone_cell.kind = ZoneCell::Kind::free;
+  if (state == PoseCell::State::proven) return zone_cell;
+  PoseCell::Known sides_known = cell.known();
+  if (sides_known.free) return zone_cell;
+  if (sides_known.outside) {
+    zone_cell.kind = ZoneCell::Kind::outside;
+    return zone_cell;
   }
-  own.beyond = known.beyond;
-  own.kind = ZoneCell::Kind::in_doubt;
-  own.signs = std::move(known.signs);
-  own.open = std::move(known.open);
-  if (!known.parts[0].empty() || !known.parts[1].empty()) {
-    own.parts = std::make_unique<std::array<HalfSpace, 2>>(known.parts);
-    own.of = std::make_unique<std::array<PoseCell::Signs, 2>>(std::move(known.of_parts));
+  zone_cell.beyond = sides_known.beyond;
+  zone_cell.kind = ZoneCell::Kind::in_doubt;
+  zone_cell.signs = std::move(sides_known.signs);
+  zone_cell.open = std::move(sides_known.open);
+  if (!sides_known.parts[0].empty() || !sides_known.parts[1].empty()) {
+    zone_cell.parts = std::make_unique<std::array<HalfSpace, 2>>(sides_known.parts);
+    zone_cell.of = std::make_unique<std::array<PoseCell::Signs, 2>>(std::move(sides_known.of_parts));
   }
   // Along what moves it most, but no cell gets thin: its size says where to cut next, and bounds the zones.
   constexpr double thin = 8;
   double total = 0, most = -1, widest = 0;
   for (const double spread : cell.spreads()) total += spread;
-  const auto part = [&](std::size_t c) { return (own.box[c][1] - own.box[c][0]) / (box_[c][1] - box_[c][0]); };
-  for (std::size_t c = 0; c < own.box.size(); ++c) widest = std::max(widest, part(c));
-  for (std::size_t c = 0; c < own.box.size(); ++c) {
+  const auto part = [&](std::size_t c) {
+    return (zone_cell.box[c][1] - zone_cell.box[c][0]) / (box_[c][1] - box_[c][0]);
+  };
+  for (std::size_t c = 0; c < zone_cell.box.size(); ++c) widest = std::max(widest, part(c));
+  for (std::size_t c = 0; c < zone_cell.box.size(); ++c) {
     if (part(c) <= effort_.finest || part(c) * thin < widest) continue;
     const double score = (total > 0 ? cell.spreads()[c] / total : 0) + 0.1 * part(c) / widest;
     if (score > most) {
       most = score;
-      own.axis = static_cast<int>(c);
+      zone_cell.axis = static_cast<int>(c);
     }
   }
-  return own;
+  return zone_cell;
 }
 
 void ZoneCells::enter(const std::vector<std::size_t>& list) {
@@ -89,10 +91,10 @@ void ZoneCells::enter(const std::vector<std::size_t>& list) {
                 [&](PoseCell& cell, std::size_t i) { looked_at[i] = looked(cell, std::move(cells_[list[i]].box)); });
   looked_at_ += static_cast<long>(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
-    ZoneCell& own = cells_[list[i]] = std::move(looked_at[i]);
-    const double doubt = own.doubt();
+    ZoneCell& cell = cells_[list[i]] = std::move(looked_at[i]);
+    const double doubt = cell.doubt();
     in_doubt_ += doubt;
-    if (own.kind != ZoneCell::Kind::in_doubt || own.axis < 0) continue;
+    if (cell.kind != ZoneCell::Kind::in_doubt || cell.axis < 0) continue;
     open_.push(list[i], {-doubt, -static_cast<long>(list[i])});
   }
 }
@@ -110,13 +112,13 @@ bool ZoneCells::cut(std::size_t index, std::vector<std::size_t>& fresh) {
     fresh.push_back(cells_.size());
     cells_.push_back(std::move(child));
   }
-  ZoneCell& own = cells_[index];
-  own.kind = ZoneCell::Kind::cut;
-  own.beyond = false;
-  own.parts.reset();
-  own.of.reset();
-  own.open = {};
-  own.signs = {};
+  ZoneCell& cell = cells_[index];
+  cell.kind = ZoneCell::Kind::cut;
+  cell.beyond = false;
+  cell.parts.reset();
+  cell.of.reset();
+  cell.open = {};
+  cell.signs = {};
   return true;
 }
 
@@ -140,9 +142,9 @@ void ZoneCells::subdivide() {
 std::size_t ZoneCells::leaf_at(const Pose& pose) const {
   std::size_t at = 0;
   while (cells_[at].kind == ZoneCell::Kind::cut) {
-    const ZoneCell& own = cells_[at];
-    const auto axis = static_cast<std::size_t>(own.axis);
-    at = own.halves[pose[axis] < cells_[own.halves[0]].box[axis][1] ? 0 : 1];
+    const ZoneCell& cell = cells_[at];
+    const auto axis = static_cast<std::size_t>(cell.axis);
+    at = cell.halves[pose[axis] < cells_[cell.halves[0]].box[axis][1] ? 0 : 1];
   }
   return at;
 }
@@ -151,7 +153,8 @@ PoseCell::Signs ZoneCells::signs_at(const Pose& pose) {
   PoseCell::Signs signs;
   const auto at = workers_.local().at(pose);
   if (!at) return signs;
-  for (const auto& own : at->components) signs.push_back(own.front().size() != 1 ? 0 : own.front()[0] > 0 ? 1 : -1);
+  for (const auto& component : at->components)
+    signs.push_back(component.front().size() != 1 ? 0 : component.front()[0] > 0 ? 1 : -1);
   signs.push_back(at->determinant);
   return signs;
 }

@@ -66,15 +66,15 @@ class ZoneCells {
       if (c != axis && (one.box[c][1] <= two.box[c][0] || two.box[c][1] <= one.box[c][0])) return;
     const bool first = one.kind == ZoneCell::Kind::cut;
     if (!first && two.kind != ZoneCell::Kind::cut) return meet(a, b, axis);
-    const ZoneCell& own = first ? one : two;
-    const bool along = static_cast<std::size_t>(own.axis) == axis;
+    const ZoneCell& cell = first ? one : two;
+    const bool along = static_cast<std::size_t>(cell.axis) == axis;
     for (std::size_t half = 0; half < 2; ++half) {
       // Of the lower cell only its upper half touches the face, and the other way round.
       if (along && half != (first ? 1U : 0U)) continue;
       if (first)
-        face(own.halves[half], b, axis, meet);
+        face(cell.halves[half], b, axis, meet);
       else
-        face(a, own.halves[half], axis, meet);
+        face(a, cell.halves[half], axis, meet);
     }
   }
 

@@ -101,10 +101,10 @@ class ModeZones {
       for (const auto& walk : face.inner) rings.push_back(ring_of(cut_.graph, walk));
       const Polyline inner = points_in_face(rings);
       if (!workspace_.holds_one_of(inner)) continue;
-      const std::string own = label(mode_, {inner.front()[0], inner.front()[1]});
-      for (const HalfEdge half : face.outer) labels[place_of(half)] = own;
+      const std::string zone_label = label(mode_, {inner.front()[0], inner.front()[1]});
+      for (const HalfEdge half : face.outer) labels[place_of(half)] = zone_label;
       for (const auto& walk : face.inner)
-        for (const HalfEdge half : walk) labels[place_of(half)] = own;
+        for (const HalfEdge half : walk) labels[place_of(half)] = zone_label;
     }
     std::vector<bool> alike(cut_.graph.edges.size(), false);
     for (std::size_t e = 0; e < alike.size(); ++e)
@@ -468,7 +468,7 @@ void number_zones(std::vector<Zone>& zones) {
     for (core::ZoneBorder& border : zone.borders) {
       std::vector<std::string> beside;
       for (const std::string& face : border.beside)
-        if (const auto own = names.find(face); own != names.end() && face != zone.id) beside.push_back(own->second);
+        if (const auto name = names.find(face); name != names.end() && face != zone.id) beside.push_back(name->second);
       border.beside = std::move(beside);
     }
   }
@@ -486,13 +486,13 @@ CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sk
   std::deque<ModeZones> modes;
   bool is_certified = true;
   for (const core::WorkingMode& mode : problem.modes) {
-    const ModeZones& own = modes.emplace_back(problem, map.loci, mode, sketch);
-    cut.finer_may_tell = cut.finer_may_tell && own.finer_may_tell();
-    is_certified = is_certified && own.is_cut_certified();
+    const ModeZones& zones = modes.emplace_back(problem, map.loci, mode, sketch);
+    cut.finer_may_tell = cut.finer_may_tell && zones.finer_may_tell();
+    is_certified = is_certified && zones.is_cut_certified();
   }
   cut.left = may_leave && cut.finer_may_tell && !is_certified;
   if (cut.left) return cut;
-  for (ModeZones& own : modes) own.find(map, label);
+  for (ModeZones& zones : modes) zones.find(map, label);
   number_zones(map.zones);
   return cut;
 }

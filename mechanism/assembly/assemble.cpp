@@ -9,32 +9,32 @@ namespace {
 
 Node merged(const Node& old, const std::vector<WrittenPoint>& more, const core::SourcePosition& where) {
   std::vector<Node::Pair> pairs = old.pairs();
-  for (const WrittenPoint& own : more) pairs.emplace_back(Node::scalar(own.name, where), own.form);
+  for (const WrittenPoint& point : more) pairs.emplace_back(Node::scalar(point.name, where), point.form);
   return Node::map(std::move(pairs), where);
 }
 
 /// Nodes that the construction made have no place: it is that of what they are found for.
 Node placed(const Node& node, const core::SourcePosition& where) {
-  const core::SourcePosition& own = node.where().line > 0 ? node.where() : where;
-  if (node.IsScalar()) return Node::scalar(node.Scalar(), own);
+  const core::SourcePosition& position = node.where().line > 0 ? node.where() : where;
+  if (node.IsScalar()) return Node::scalar(node.Scalar(), position);
   if (node.IsSequence()) {
     std::vector<Node> items;
     for (const Node& item : node.items()) items.push_back(placed(item, where));
-    return Node::sequence(std::move(items), own);
+    return Node::sequence(std::move(items), position);
   }
   if (!node.IsMap()) return node;
   std::vector<Node::Pair> pairs;
   for (const auto& [key, content] : node.pairs()) pairs.emplace_back(placed(key, where), placed(content, where));
-  return Node::map(std::move(pairs), own);
+  return Node::map(std::move(pairs), position);
 }
 
 Node points_of(const FoundConstruction& found, const Drawing& drawing, const core::SourcePosition& where) {
   std::vector<Node::Pair> pairs;
-  for (const WrittenPoint& own : found.points) {
+  for (const WrittenPoint& written_point : found.points) {
     core::SourcePosition place = where;
     for (const Point& point : drawing.mechanism.points)
-      if (point.name == own.name) place = point.where;
-    pairs.emplace_back(Node::scalar(own.name, place), placed(own.form, place));
+      if (point.name == written_point.name) place = point.where;
+    pairs.emplace_back(Node::scalar(written_point.name, place), placed(written_point.form, place));
   }
   return Node::map(std::move(pairs), where);
 }
@@ -76,8 +76,8 @@ Assembled assemble(const Value& document, const std::vector<Override>& overrides
   const FoundConstruction found = drawing.is_spatial() ? construct_in_space(drawing) : construct_in_plane(drawing);
   Assembled result;
   result.notes = drawing.mechanism.notes;
-  for (const WrittenPoint& own : found.points)
-    if (!own.comment.empty()) result.comments[own.name] = own.comment;
+  for (const WrittenPoint& point : found.points)
+    if (!point.comment.empty()) result.comments[point.name] = point.comment;
   std::vector<Node::Pair> pairs;
   bool has_frames = false, has_workspace = false;
   core::SourcePosition where = document.where;

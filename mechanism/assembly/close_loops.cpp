@@ -55,14 +55,15 @@ class LoopClosure {
   void add_link(LinkIndex index) {
     const Link& link = d_.link(index);
     const std::vector<GivenLength>& given = d_.lengths[static_cast<std::size_t>(index)];
-    for (const GivenLength& own : given)
-      if (placed(own.first) && placed(own.second))
-        kept_.push_back({index, static_cast<std::size_t>(own.first), static_cast<std::size_t>(own.second), own.metres});
+    for (const GivenLength& length : given)
+      if (placed(length.first) && placed(length.second))
+        kept_.push_back(
+            {index, static_cast<std::size_t>(length.first), static_cast<std::size_t>(length.second), length.metres});
     // What is built on them keeps its drawn distances from points of given lengths: its construction puts it right.
     const auto keeps = [&](PointIndex a, PointIndex b) { return given.empty() || d_.at(a).built || d_.at(b).built; };
     const auto is_given = [&](PointIndex a, PointIndex b) {
-      return std::any_of(given.begin(), given.end(), [&](const GivenLength& own) {
-        return std::minmax(own.first, own.second) == std::minmax(a, b);
+      return std::any_of(given.begin(), given.end(), [&](const GivenLength& length) {
+        return std::minmax(length.first, length.second) == std::minmax(a, b);
       });
     };
     constexpr std::size_t enough = 3;  // points from which the others are told, in space on one of two sides
@@ -103,16 +104,16 @@ class LoopClosure {
     }
   }
 
-  double residual(const Kept& own) const {
-    const PointAt &p = d_.posture[own.first], &q = d_.posture[own.second];
-    if (!own.along) return length_between(p, q) - own.length;
-    const PointAt &u = *own.along, &from = start_[own.first];
+  double residual(const Kept& kept) const {
+    const PointAt &p = d_.posture[kept.first], &q = d_.posture[kept.second];
+    if (!kept.along) return length_between(p, q) - kept.length;
+    const PointAt &u = *kept.along, &from = start_[kept.first];
     return u[0] * (p[0] - from[0]) + u[1] * (p[1] - from[1]) + u[2] * (p[2] - from[2]);
   }
 
   double worst() const {
     double most = 0;
-    for (const Kept& own : kept_) most = std::max(most, std::abs(residual(own)));
+    for (const Kept& kept : kept_) most = std::max(most, std::abs(residual(kept)));
     return most;
   }
 
@@ -120,7 +121,7 @@ class LoopClosure {
   void settle() {
     const auto squares = [&] {
       double sum = 0;
-      for (const Kept& own : kept_) sum += residual(own) * residual(own);
+      for (const Kept& kept : kept_) sum += residual(kept) * residual(kept);
       return sum;
     };
     constexpr int most_steps = 300;
@@ -144,19 +145,19 @@ class LoopClosure {
     std::vector<std::vector<double>> jacobian(rows, std::vector<double>(columns));
     std::vector<double> right(rows);
     for (std::size_t r = 0; r < rows; ++r) {
-      const Kept& own = kept_[r];
-      right[r] = -residual(own);
-      PointAt u = own.along.value_or(PointAt{});
-      if (!own.along) {
-        const PointAt &p = d_.posture[own.first], &q = d_.posture[own.second];
+      const Kept& kept = kept_[r];
+      right[r] = -residual(kept);
+      PointAt u = kept.along.value_or(PointAt{});
+      if (!kept.along) {
+        const PointAt &p = d_.posture[kept.first], &q = d_.posture[kept.second];
         const double now = length_between(p, q);
         if (!(now > 0)) continue;
         u = {(p[0] - q[0]) / now, (p[1] - q[1]) / now, (p[2] - q[2]) / now};
       }
       for (std::size_t i = 0; i < 3; ++i) {
-        if (unknown_[own.first] >= 0) jacobian[r][3 * static_cast<std::size_t>(unknown_[own.first]) + i] += u[i];
-        if (!own.along && unknown_[own.second] >= 0)
-          jacobian[r][3 * static_cast<std::size_t>(unknown_[own.second]) + i] -= u[i];
+        if (unknown_[kept.first] >= 0) jacobian[r][3 * static_cast<std::size_t>(unknown_[kept.first]) + i] += u[i];
+        if (!kept.along && unknown_[kept.second] >= 0)
+          jacobian[r][3 * static_cast<std::size_t>(unknown_[kept.second]) + i] -= u[i];
       }
     }
     const std::vector<double> force = solved(jacobian, right, damping);
@@ -206,13 +207,13 @@ class LoopClosure {
   /// The links on the way round through one of them.
   std::vector<std::string> loop_of(LinkIndex through) const {
     std::map<LinkIndex, LinkIndex> before;
-    std::vector<JointIndex> own;
+    std::vector<JointIndex> joints;
     for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j)
       if (d_.mechanism.joints[j].from == through || d_.mechanism.joints[j].to == through)
-        own.push_back(static_cast<JointIndex>(j));
+        joints.push_back(static_cast<JointIndex>(j));
     const auto other = [&](const Joint& joint, LinkIndex link) { return joint.from == link ? joint.to : joint.from; };
-    if (own.size() < 2) return {d_.name_of(through)};
-    const LinkIndex start = other(d_.joint(own[0]), through), end = other(d_.joint(own[1]), through);
+    if (joints.size() < 2) return {d_.name_of(through)};
+    const LinkIndex start = other(d_.joint(joints[0]), through), end = other(d_.joint(joints[1]), through);
     std::queue<LinkIndex> next;
     next.push(start);
     before[start] = start;
@@ -238,9 +239,9 @@ class LoopClosure {
 
   [[noreturn]] void refuse() const {
     // Where the lengths do not close, all links give way a little: the fault is one of a link of given lengths.
-    const auto fault = [&](const Kept& own) {
-      const double off = std::abs(residual(own));
-      return std::pair(off > 1e-9 * d_.size && !d_.lengths[static_cast<std::size_t>(own.link)].empty(), off);
+    const auto fault = [&](const Kept& kept) {
+      const double off = std::abs(residual(kept));
+      return std::pair(off > 1e-9 * d_.size && !d_.lengths[static_cast<std::size_t>(kept.link)].empty(), off);
     };
     const auto found =
         std::max_element(kept_.begin(), kept_.end(), [&](const Kept& a, const Kept& b) { return fault(a) < fault(b); });
@@ -248,9 +249,9 @@ class LoopClosure {
     // All links of the loop give way: what is missing is the sum.
     const std::vector<std::string> loop = loop_of(found->link);
     double missing = 0;
-    for (const Kept& own : kept_)
-      if (!own.along && std::find(loop.begin(), loop.end(), d_.name_of(own.link)) != loop.end())
-        missing += std::abs(residual(own));
+    for (const Kept& kept : kept_)
+      if (!kept.along && std::find(loop.begin(), loop.end(), d_.name_of(kept.link)) != loop.end())
+        missing += std::abs(residual(kept));
     const std::string what = found->along
                                  ? name(found->first) + " leaves its guide by " + in_units(std::abs(residual(*found)))
                                  : name(found->first) + " and " + name(found->second) + " come " + in_units(missing) +
@@ -287,7 +288,7 @@ class LoopClosure {
 
 void close_loops(Drawing& drawing) {
   const bool any =
-      std::any_of(drawing.lengths.begin(), drawing.lengths.end(), [](const auto& own) { return !own.empty(); });
+      std::any_of(drawing.lengths.begin(), drawing.lengths.end(), [](const auto& length) { return !length.empty(); });
   if (!any) return;
   for (std::size_t l = 0; l < drawing.mechanism.links.size(); ++l)
     (void)Shape(drawing, static_cast<LinkIndex>(l));  // throws where lengths make no triangle

@@ -26,9 +26,9 @@ std::optional<Amounts> amounts_of(const Drawing& d, const VectorExpression& v) {
   using VectorKind = VectorExpression::Kind;
   std::vector<Amounts> arguments;
   for (const VectorExpression& argument : v.arguments) {
-    const auto own = amounts_of(d, argument);
-    if (!own) return std::nullopt;
-    arguments.push_back(*own);
+    const auto amounts = amounts_of(d, argument);
+    if (!amounts) return std::nullopt;
+    arguments.push_back(*amounts);
   }
   const auto number = [&](const Expression& e) {
     const ExactValue value = evaluate(e, d.mechanism.parameters);
@@ -61,8 +61,8 @@ Construction::Construction(const Drawing& drawing) : d_(drawing), fixed_(fixed_p
   for (std::size_t l = 0; l < drawing.mechanism.links.size(); ++l)
     shapes_.emplace_back(drawing, static_cast<LinkIndex>(l));
   for (const Point& point : drawing.mechanism.points) names_.insert(point.name);
-  for (const Parameter& own : drawing.mechanism.parameters) names_.insert(own.name);
-  for (const Coordinate& own : drawing.mechanism.coordinates) names_.insert(own.name);
+  for (const Parameter& parameter : drawing.mechanism.parameters) names_.insert(parameter.name);
+  for (const Coordinate& coordinate : drawing.mechanism.coordinates) names_.insert(coordinate.name);
 }
 
 std::string Construction::new_name(const std::string& wanted) {
@@ -83,9 +83,9 @@ Construction::Handle Construction::put(PointIndex point, const Node& form, const
 Construction::Handle Construction::put_extra(const std::string& name, const Node& form,
                                              const std::array<double, 3>& posture, const std::string& comment,
                                              std::optional<WrittenVector> place) {
-  const std::string own = new_name(name);
-  found_.points.push_back({own, form, comment});
-  known_.push_back({own, std::move(place), posture, true});
+  const std::string point_name = new_name(name);
+  found_.points.push_back({point_name, form, comment});
+  known_.push_back({point_name, std::move(place), posture, true});
   return static_cast<Handle>(known_.size()) - 1;
 }
 
@@ -100,22 +100,22 @@ void Construction::put_together(const std::string& name, const Node& form, const
 
 double Construction::drawn_value(std::size_t coordinate) const {
   using Kind = DrawnCoordinate::Kind;
-  const DrawnCoordinate& own = d_.coordinates[coordinate];
+  const DrawnCoordinate& drawn_coordinate = d_.coordinates[coordinate];
   const auto way = [&](LinkIndex link) -> std::array<double, 3> {
     if (link == ground) return {1, 0, 0};
     const auto &p = d_.place(d_.link(link).points.at(0)), &q = d_.place(d_.link(link).points.at(1));
     return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
   };
-  if (own.kind == Kind::place) return d_.place(own.point)[own.axis];
-  if (own.kind == Kind::direction) {
-    const auto a = way(own.other), b = way(own.link);
+  if (drawn_coordinate.kind == Kind::place) return d_.place(drawn_coordinate.point)[drawn_coordinate.axis];
+  if (drawn_coordinate.kind == Kind::direction) {
+    const auto a = way(drawn_coordinate.other), b = way(drawn_coordinate.link);
     return std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
   }
-  if (own.kind == Kind::stroke) {
-    const Joint& joint = d_.joint(own.joint);
+  if (drawn_coordinate.kind == Kind::stroke) {
+    const Joint& joint = d_.joint(drawn_coordinate.joint);
     const bool to_holds = joint.to != ground && is_on_link(d_.mechanism, joint.at, joint.to);
     const LinkIndex base = to_holds ? joint.from : joint.to;
-    const auto axis = drawn_axis(own.joint);
+    const auto axis = drawn_axis(drawn_coordinate.joint);
     const auto& at = d_.place(joint.at);
     const std::array<double, 3> from =
         base == ground ? std::array<double, 3>{} : d_.place(d_.link(base).points.front());
@@ -131,7 +131,7 @@ double Construction::drawn_value(std::size_t coordinate) const {
 
 Node Construction::list(const std::vector<std::string>& texts) const {
   std::vector<Node> items;
-  for (const std::string& own : texts) items.push_back(text(own));
+  for (const std::string& part : texts) items.push_back(text(part));
   return Node::sequence(std::move(items), {});
 }
 
@@ -173,26 +173,30 @@ Node Construction::form_at(Handle base, const WrittenVector& by, std::optional<W
 }
 
 void Construction::require_place(Handle handle) const {
-  const KnownPoint& own = known(handle);
-  if (own.has_place) return;
+  const KnownPoint& known_point = known(handle);
+  if (known_point.has_place) return;
   for (const Point& point : d_.mechanism.points)
-    if (point.name == own.name)
+    if (point.name == known_point.name)
       throw core::InputError(
-          point.where, "point " + own.name + " has a construction over the coordinates, and no place in the drawing",
+          point.where,
+          "point " + known_point.name + " has a construction over the coordinates, and no place in the drawing",
           "write where it is in the drawn posture, under drawn too");
 }
 
 bool Construction::put_given(PointIndex point) {
-  const DrawnPoint& own = d_.at(point);
-  if (own.built) {
-    if (!std::all_of(own.uses.begin(), own.uses.end(), [&](PointIndex base) { return is_known(base); })) return false;
+  const DrawnPoint& drawn_point = d_.at(point);
+  if (drawn_point.built) {
+    if (!std::all_of(drawn_point.uses.begin(), drawn_point.uses.end(), [&](PointIndex base) { return is_known(base); }))
+      return false;
     std::optional<WrittenVector> place;
-    if (own.form.IsSequence()) place = own.is_exact && !own.moves ? constant_vector(own.at) : as_written(own.form);
-    put(point, own.form, "", std::move(place));
+    if (drawn_point.form.IsSequence())
+      place =
+          drawn_point.is_exact && !drawn_point.moves ? constant_vector(drawn_point.at) : as_written(drawn_point.form);
+    put(point, drawn_point.form, "", std::move(place));
     return true;
   }
   if (!fixed_[static_cast<std::size_t>(point)]) return false;
-  put(point, own.form, "", constant_vector(own.at));
+  put(point, drawn_point.form, "", constant_vector(drawn_point.at));
   return true;
 }
 
@@ -216,9 +220,9 @@ std::optional<Amounts> Construction::drawn_axis(JointIndex joint, std::size_t wh
 }
 
 bool Construction::axis_stays(JointIndex joint, std::size_t which) const {
-  const Joint& own = d_.joint(joint);
-  const bool stands = own.from == ground || (own.to == ground && !is_slot(d_.mechanism, own));
-  return stands || !points_of(own.axes.at(which)).empty();
+  const Joint& drawn_joint = d_.joint(joint);
+  const bool stands = drawn_joint.from == ground || (drawn_joint.to == ground && !is_slot(d_.mechanism, drawn_joint));
+  return stands || !points_of(drawn_joint.axes.at(which)).empty();
 }
 
 std::vector<LinkIndex> Construction::open_links() const {

@@ -58,9 +58,9 @@ void CoordinateReader::resolve() const {
 }
 
 Node CoordinateReader::plain_coordinate(const Entry& entry) {
-  DrawnCoordinate& own = drawing_.coordinates.emplace_back();
-  own.name = entry.key;
-  own.where = entry.where;
+  DrawnCoordinate& coordinate = drawing_.coordinates.emplace_back();
+  coordinate.name = entry.key;
+  coordinate.where = entry.where;
   if (!entry.value.is_map()) return entry.value.node;
   Value value = entry.value;
   value.what = "coordinate " + entry.key;
@@ -73,19 +73,19 @@ Node CoordinateReader::plain_coordinate(const Entry& entry) {
     return Node::map({{text_node("angle", entry.where), range}}, entry.value.where);
   };
   if (value.node.has("place")) {
-    own.kind = CoordinateKind::place;
+    coordinate.kind = CoordinateKind::place;
     return range_of(Mapping(value, {"place", "of", "within"}), "within");
   }
   if (value.node.has("stroke")) {
-    own.kind = CoordinateKind::stroke;
+    coordinate.kind = CoordinateKind::stroke;
     return range_of(Mapping(value, {"stroke", "of"}), "stroke");
   }
   if (value.node.has("turn")) {
-    own.kind = CoordinateKind::turn;
+    coordinate.kind = CoordinateKind::turn;
     return angle(range_of(Mapping(value, {"turn", "of", "within"}), "within"));
   }
   if (!value.node.has("of")) return entry.value.node;
-  own.kind = CoordinateKind::direction;
+  coordinate.kind = CoordinateKind::direction;
   return angle(range_of(Mapping(value, {"angle", "of"}), "angle"));
 }
 
@@ -106,10 +106,10 @@ void CoordinateReader::add_motors(const Value& joints, std::vector<Node::Pair>& 
     if (type != "revolute")
       throw InputError(entry.where, "the motor " + entry.key + " is a coordinate without a range",
                        "write workspace: {" + entry.key + ": {stroke: [least, greatest], of: " + entry.key + "}}");
-    DrawnCoordinate& own = drawing_.coordinates.emplace_back();
-    own.name = entry.key;
-    own.where = entry.where;
-    own.kind = CoordinateKind::direction;
+    DrawnCoordinate& coordinate = drawing_.coordinates.emplace_back();
+    coordinate.name = entry.key;
+    coordinate.where = entry.where;
+    coordinate.kind = CoordinateKind::direction;
     written_.push_back(
         {entry.key,
          entry.where,
@@ -123,85 +123,86 @@ void CoordinateReader::add_motors(const Value& joints, std::vector<Node::Pair>& 
                      "write workspace: {theta: {angle: [0, 360 deg], of: a link}}, or actuated: true at a joint");
 }
 
-LinkIndex CoordinateReader::link_named(const Value& value, const DrawnCoordinate& own, bool or_ground) const {
+LinkIndex CoordinateReader::link_named(const Value& value, const DrawnCoordinate& coordinate, bool or_ground) const {
   Value name = value;
-  name.what = "coordinate " + own.name;
+  name.what = "coordinate " + coordinate.name;
   const LinkIndex link = read_link_name(drawing_.mechanism, name, or_ground);
   if (link != ground && drawing_.mechanism.space == Space::planar && drawing_.link(link).points.size() < 2)
     throw InputError(value.where,
-                     "coordinate " + own.name + " is the direction of link " + drawing_.link(link).name +
+                     "coordinate " + coordinate.name + " is the direction of link " + drawing_.link(link).name +
                          ", which has a single point",
                      "name a link of two points, or add a second point to it");
   return link;
 }
 
-void CoordinateReader::resolve(DrawnCoordinate& own, const Value& written) const {
-  if (own.kind == CoordinateKind::plain) return;
+void CoordinateReader::resolve(DrawnCoordinate& coordinate, const Value& written) const {
+  if (coordinate.kind == CoordinateKind::plain) return;
   Value value = written;
-  value.what = "coordinate " + own.name;
+  value.what = "coordinate " + coordinate.name;
   const Mapping mapping(value, {"angle", "place", "stroke", "turn", "of", "within"});
   Value of = mapping.at("of");
-  if (own.kind == CoordinateKind::direction) {
+  if (coordinate.kind == CoordinateKind::direction) {
     if (of.is_sequence()) {
       const std::vector<Value> pair = elements(of, 2);
-      own.other = link_named(pair[0], own, true);
-      own.link = link_named(pair[1], own, true);
-      if (own.link == ground) std::swap(own.link, own.other);
-      if (own.link == own.other)
-        throw InputError(of.where, "coordinate " + own.name + " is the angle of a link from itself",
+      coordinate.other = link_named(pair[0], coordinate, true);
+      coordinate.link = link_named(pair[1], coordinate, true);
+      if (coordinate.link == ground) std::swap(coordinate.link, coordinate.other);
+      if (coordinate.link == coordinate.other)
+        throw InputError(of.where, "coordinate " + coordinate.name + " is the angle of a link from itself",
                          "name two different links");
     } else {
-      own.link = link_named(of, own, false);
+      coordinate.link = link_named(of, coordinate, false);
     }
-  } else if (own.kind == CoordinateKind::place) {
+  } else if (coordinate.kind == CoordinateKind::place) {
     const Value axis = mapping.at("place");
-    own.axis = axis_of(text_of(axis));
-    if (own.axis >= dimension(drawing_.mechanism))
-      throw InputError(axis.where, "coordinate " + own.name + ": the place is '" + text_of(axis) + "'",
+    coordinate.axis = axis_of(text_of(axis));
+    if (coordinate.axis >= dimension(drawing_.mechanism))
+      throw InputError(axis.where, "coordinate " + coordinate.name + ": the place is '" + text_of(axis) + "'",
                        dimension(drawing_.mechanism) == 2 ? "write place: x or y" : "write place: x, y or z");
-    own.point = read_point_name(drawing_.mechanism, of);
-  } else if (own.kind == CoordinateKind::stroke) {
-    own.joint = joint_named(of, own);
+    coordinate.point = read_point_name(drawing_.mechanism, of);
+  } else if (coordinate.kind == CoordinateKind::stroke) {
+    coordinate.joint = joint_named(of, coordinate);
   } else {
-    own.link = link_named(of, own, false);
-    read_turn(mapping.at("turn"), own);
+    coordinate.link = link_named(of, coordinate, false);
+    read_turn(mapping.at("turn"), coordinate);
   }
 }
 
-JointIndex CoordinateReader::joint_named(const Value& of, const DrawnCoordinate& own) const {
-  std::vector<std::string> known;
+JointIndex CoordinateReader::joint_named(const Value& of, const DrawnCoordinate& coordinate) const {
+  std::vector<std::string> allowed;
   for (std::size_t j = 0; j < drawing_.mechanism.joints.size(); ++j) {
     const Joint& joint = drawing_.mechanism.joints[j];
     if (joint.type != JointType::prismatic && joint.type != JointType::cylindrical) continue;
     if (joint.name == text_of(of)) return static_cast<JointIndex>(j);
-    known.push_back(joint.name);
+    allowed.push_back(joint.name);
   }
-  throw InputError(of.where, "coordinate " + own.name + ": there is no prismatic joint '" + text_of(of) + "'",
-                   suggest(text_of(of), known, "prismatic joints"));
+  throw InputError(of.where, "coordinate " + coordinate.name + ": there is no prismatic joint '" + text_of(of) + "'",
+                   suggest(text_of(of), allowed, "prismatic joints"));
 }
 
-void CoordinateReader::read_turn(const Value& turn, DrawnCoordinate& own) {
+void CoordinateReader::read_turn(const Value& turn, DrawnCoordinate& coordinate) {
   const std::string text = text_of(turn);
   std::string sorted = text.substr(0, 3);
   std::sort(sorted.begin(), sorted.end());
   if (text.size() != 5 || sorted != "xyz" || text[3] != '.' || text[4] < '1' || text[4] > '3')
-    throw InputError(turn.where, "coordinate " + own.name + ": the turn is '" + text + "'",
+    throw InputError(turn.where, "coordinate " + coordinate.name + ": the turn is '" + text + "'",
                      "write such as turn: zyx.1, the first angle of the order z, y, x");
-  own.order = text.substr(0, 3);
-  own.axis = static_cast<std::size_t>(text[4] - '1');
+  coordinate.order = text.substr(0, 3);
+  coordinate.axis = static_cast<std::size_t>(text[4] - '1');
 }
 
 void CoordinateReader::check_order_of_turns() const {
-  for (const DrawnCoordinate& own : drawing_.coordinates) {
-    if (own.kind != CoordinateKind::turn) continue;
+  for (const DrawnCoordinate& coordinate : drawing_.coordinates) {
+    if (coordinate.kind != CoordinateKind::turn) continue;
     if (!drawing_.is_spatial())
-      throw InputError(own.where, "coordinate " + own.name + " is a turn in space, but the mechanism is planar",
-                       "write {angle: [...], of: " + drawing_.name_of(own.link) + "}");
+      throw InputError(coordinate.where,
+                       "coordinate " + coordinate.name + " is a turn in space, but the mechanism is planar",
+                       "write {angle: [...], of: " + drawing_.name_of(coordinate.link) + "}");
     for (const DrawnCoordinate& other : drawing_.coordinates)
-      if (other.kind == CoordinateKind::turn && other.link == own.link && other.order != own.order)
+      if (other.kind == CoordinateKind::turn && other.link == coordinate.link && other.order != coordinate.order)
         throw InputError(other.where,
-                         "coordinates " + own.name + " and " + other.name + " turn link " + drawing_.name_of(own.link) +
-                             " in two orders",
+                         "coordinates " + coordinate.name + " and " + other.name + " turn link " +
+                             drawing_.name_of(coordinate.link) + " in two orders",
                          "write one order for all of its angles");
   }
 }

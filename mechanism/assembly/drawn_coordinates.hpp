@@ -32,10 +32,10 @@ class CoordinateReader {
  private:
   Node plain_coordinate(const Entry& entry);
   void add_motors(const Value& joints, std::vector<Node::Pair>& pairs);
-  LinkIndex link_named(const Value& value, const DrawnCoordinate& own, bool or_ground) const;
-  JointIndex joint_named(const Value& of, const DrawnCoordinate& own) const;
-  void resolve(DrawnCoordinate& own, const Value& written) const;
-  static void read_turn(const Value& turn, DrawnCoordinate& own);
+  LinkIndex link_named(const Value& value, const DrawnCoordinate& coordinate, bool or_ground) const;
+  JointIndex joint_named(const Value& of, const DrawnCoordinate& coordinate) const;
+  void resolve(DrawnCoordinate& coordinate, const Value& written) const;
+  static void read_turn(const Value& turn, DrawnCoordinate& coordinate);
   void check_order_of_turns() const;
 
   Drawing& drawing_;

@@ -28,9 +28,9 @@ class PoseOfDrawing {
       Value form{drawing_.points[p].form, "point " + as_built.points[p].name, drawing_.points[p].form.where(),
                  "points"};
       if (!form.is_sequence() && !form.node.has("in")) continue;
-      PointForm own = read_point_form(drawing_.mechanism, form);
-      if (!std::holds_alternative<ExplicitPoint>(own)) continue;
-      as_built.points[p].form = std::move(own);
+      PointForm point_form = read_point_form(drawing_.mechanism, form);
+      if (!std::holds_alternative<ExplicitPoint>(point_form)) continue;
+      as_built.points[p].form = std::move(point_form);
       drawing_.points[p].held = true;
       drawing_.points[p].moves = !coordinates_of(as_built, static_cast<PointIndex>(p)).empty();
       if (drawing_.points[p].moves) both.push_back(p);
@@ -90,9 +90,9 @@ class PoseOfDrawing {
     constexpr int steps = 40;
     constexpr double difference = 1e-6;  // m and rad: of a quotient that only points the way
     const std::size_t n = pose.size();
-    const auto square = [](const Places& own) {
+    const auto square = [](const Places& places) {
       double sum = 0;
-      for (const double part : own) sum += part * part;
+      for (const double part : places) sum += part * part;
       return sum;
     };
     double off = square(offsets(as_built, both, pose));

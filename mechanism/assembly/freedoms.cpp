@@ -79,11 +79,12 @@ void check_axes(const Drawing& d) {
 /// A coordinate that is the place of what cannot move.
 void check_places_move(const Drawing& d) {
   const std::vector<bool> fixed = fixed_points(d);
-  for (const DrawnCoordinate& own : d.coordinates)
-    if (own.kind == DrawnCoordinate::Kind::place && fixed[static_cast<std::size_t>(own.point)])
-      throw InputError(own.where,
-                       "coordinate " + own.name + " is the place of " + d.name(own.point) + ", which stands still",
-                       "name a point that moves");
+  for (const DrawnCoordinate& coordinate : d.coordinates)
+    if (coordinate.kind == DrawnCoordinate::Kind::place && fixed[static_cast<std::size_t>(coordinate.point)])
+      throw InputError(
+          coordinate.where,
+          "coordinate " + coordinate.name + " is the place of " + d.name(coordinate.point) + ", which stands still",
+          "name a point that moves");
 }
 
 /// The same links and joints in a posture beside the drawn one, with other lengths.
@@ -121,7 +122,7 @@ class Freedoms {
     pose_ = spread_poses(m_, 1).front();
     for (const auto& place : sample_points(m_, pose_)) places_.push_back(place.value_or(PointAt{}));
     if (auto columns = reactions_at(m_, pose_)) {
-      for (const BorneReaction& own : *columns) (own.motor ? motors_ : passive_).push_back(own);
+      for (const BorneReaction& reaction : *columns) (reaction.motor ? motors_ : passive_).push_back(reaction);
       hold_turning_of_points();
       known_ = true;
     }
@@ -148,14 +149,16 @@ class Freedoms {
 
   /// Rods, and joints where there are none, that work against each other.
   void braced(std::vector<std::string>& rods, std::vector<std::string>& joints) const {
-    std::set<JointIndex> own;
-    for (const std::size_t c : dependence_of(balances_of(m_, passive_, places_)).columns) own.insert(passive_[c].joint);
+    std::set<JointIndex> braced_joints;
+    for (const std::size_t c : dependence_of(balances_of(m_, passive_, places_)).columns)
+      braced_joints.insert(passive_[c].joint);
     const auto joint_at = [&](JointIndex j) -> const Joint& { return m_.joints[static_cast<std::size_t>(j)]; };
-    for (const JointIndex j : own) joints.push_back(joint_at(j).name);
+    for (const JointIndex j : braced_joints) joints.push_back(joint_at(j).name);
     for (std::size_t l = 0; l < m_.links.size(); ++l) {
       const auto link = static_cast<LinkIndex>(l);
-      const bool touched = std::any_of(
-          own.begin(), own.end(), [&](JointIndex j) { return joint_at(j).from == link || joint_at(j).to == link; });
+      const bool touched = std::any_of(braced_joints.begin(), braced_joints.end(), [&](JointIndex j) {
+        return joint_at(j).from == link || joint_at(j).to == link;
+      });
       if (touched && is_rod(m_, link)) rods.push_back(m_.links[l].name);
     }
   }
@@ -201,9 +204,9 @@ class Freedoms {
   /// What would hold every coordinate still.
   void add_coordinates(std::vector<BorneReaction>& columns) const {
     const auto hold = [&](PointIndex point, std::size_t axis) {
-      BorneReaction own{0, false, ground, link_of(point), point, {}, {}};
-      own.force[axis] = 1;
-      if (own.to != ground) columns.push_back(own);
+      BorneReaction reaction{0, false, ground, link_of(point), point, {}, {}};
+      reaction.force[axis] = 1;
+      if (reaction.to != ground) columns.push_back(reaction);
     };
     for (const DrawnCoordinate& c : d_.coordinates) {
       using Kind = DrawnCoordinate::Kind;
@@ -216,9 +219,10 @@ class Freedoms {
         columns.push_back({0, false, c.other, c.link, d_.link(c.link).points.front(), {}, {0, 0, 1}});
       if (c.kind == Kind::turn || (c.kind == Kind::direction && d_.is_spatial()))
         for (std::size_t i = 0; i < 3; ++i) {
-          BorneReaction own{0, false, c.other, c.link, d_.link(c.link).points.front(), {}, {}};
-          own.couple[i] = 1;
-          if (c.kind == Kind::direction || i == static_cast<std::size_t>(c.order[c.axis] - 'x')) columns.push_back(own);
+          BorneReaction reaction{0, false, c.other, c.link, d_.link(c.link).points.front(), {}, {}};
+          reaction.couple[i] = 1;
+          if (c.kind == Kind::direction || i == static_cast<std::size_t>(c.order[c.axis] - 'x'))
+            columns.push_back(reaction);
         }
     }
     for (std::size_t p = 0; p < d_.points.size(); ++p)
@@ -234,9 +238,9 @@ class Freedoms {
                                       [&](const Joint& joint) { return joint.from == link || joint.to == link; });
       if (!d_.cabled[l] || joined || m_.links[l].points.size() != 1) continue;
       for (std::size_t i = d_.is_spatial() ? 0 : 2; i < 3; ++i) {
-        BorneReaction own{0, false, ground, link, m_.links[l].points.front(), {}, {}};
-        own.couple[i] = 1;
-        passive_.push_back(own);
+        BorneReaction reaction{0, false, ground, link, m_.links[l].points.front(), {}, {}};
+        reaction.couple[i] = 1;
+        passive_.push_back(reaction);
       }
     }
   }
@@ -308,8 +312,8 @@ std::vector<bool> fixed_points(const Drawing& d) {
     for (const PointIndex point : link.points)
       if (static_cast<std::size_t>(point) < carried.size()) carried[static_cast<std::size_t>(point)] = true;
   for (std::size_t p = 0; p < fixed.size(); ++p) {
-    const DrawnPoint& own = d.points[p];
-    fixed[p] = own.built ? !own.moves && own.uses.empty() : !carried[p];
+    const DrawnPoint& point = d.points[p];
+    fixed[p] = point.built ? !point.moves && point.uses.empty() : !carried[p];
   }
   for (const Joint& joint : d.mechanism.joints) {
     if (joint.from != ground && joint.to != ground) continue;
@@ -329,9 +333,9 @@ std::vector<bool> fixed_points(const Drawing& d) {
     }
   }
   for (std::size_t p = 0; p < fixed.size(); ++p) {
-    const DrawnPoint& own = d.points[p];
-    if (own.built && !own.moves && !own.uses.empty())
-      fixed[p] = std::all_of(own.uses.begin(), own.uses.end(),
+    const DrawnPoint& point = d.points[p];
+    if (point.built && !point.moves && !point.uses.empty())
+      fixed[p] = std::all_of(point.uses.begin(), point.uses.end(),
                              [&](PointIndex base) { return fixed[static_cast<std::size_t>(base)]; });
   }
   return fixed;
@@ -356,11 +360,11 @@ LinkIndex carrier_of(const Drawing& d, const Joint& mesh) {
 
 /// A coordinate that only constructions use moves no link that is drawn.
 void refuse_plain(const Drawing& d, const std::vector<LinkIndex>& loose) {
-  for (const DrawnCoordinate& own : d.coordinates)
-    if (own.kind == DrawnCoordinate::Kind::plain)
-      throw InputError(own.where,
+  for (const DrawnCoordinate& coordinate : d.coordinates)
+    if (coordinate.kind == DrawnCoordinate::Kind::plain)
+      throw InputError(coordinate.where,
                        link_words(d, loose) + (loose.size() == 1 ? " moves" : " move") + " while coordinate " +
-                           own.name + " stands still: it is the angle of no link",
+                           coordinate.name + " stands still: it is the angle of no link",
                        "say of which link it is, such as of: " + d.name_of(loose.front()));
 }
 
@@ -406,7 +410,7 @@ void check_drawing(const Drawing& d) {
                      "draw another posture, or name other coordinates");
   if (d.coordinates.size() > freedoms.mobility() &&
       std::none_of(d.coordinates.begin(), d.coordinates.end(),
-                   [](const auto& own) { return own.kind == DrawnCoordinate::Kind::plain; }))
+                   [](const auto& coordinate) { return coordinate.kind == DrawnCoordinate::Kind::plain; }))
     throw InputError(d.coordinates.back().where,
                      "coordinate " + d.coordinates.back().name + " is one too many: " + counts(d, freedoms),
                      "leave out " + counted(d.coordinates.size() - freedoms.mobility(), "coordinate", "coordinates"));

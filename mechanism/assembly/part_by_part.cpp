@@ -50,17 +50,18 @@ bool PartByPart::is_placed(LinkIndex link) const {
 }
 
 const DrawnCoordinate* PartByPart::place_coordinate(PointIndex point, std::size_t axis) const {
-  for (const DrawnCoordinate& own : d_.coordinates)
-    if (own.kind == DrawnCoordinate::Kind::place && own.point == point && own.axis == axis) return &own;
+  for (const DrawnCoordinate& coordinate : d_.coordinates)
+    if (coordinate.kind == DrawnCoordinate::Kind::place && coordinate.point == point && coordinate.axis == axis)
+      return &coordinate;
   return nullptr;
 }
 
 bool PartByPart::put_by_coordinates(PointIndex point) {
   WrittenVector place;
   for (std::size_t axis = 0; axis < dimension(); ++axis) {
-    const DrawnCoordinate* own = place_coordinate(point, axis);
-    if (own == nullptr) return false;
-    place.components[axis].push_back({one_, own->name});
+    const DrawnCoordinate* coordinate = place_coordinate(point, axis);
+    if (coordinate == nullptr) return false;
+    place.components[axis].push_back({one_, coordinate->name});
   }
   put(point, explicit_form(place), "", place);
   return true;
@@ -68,13 +69,13 @@ bool PartByPart::put_by_coordinates(PointIndex point) {
 
 std::vector<PartByPart::Stroke> PartByPart::strokes_at(PointIndex point) const {
   std::vector<Stroke> all;
-  for (const DrawnCoordinate& own : d_.coordinates) {
-    if (own.kind != DrawnCoordinate::Kind::stroke || d_.joint(own.joint).at != point) continue;
-    const Joint& joint = d_.joint(own.joint);
-    const auto axis = drawn_axis(own.joint);
+  for (const DrawnCoordinate& coordinate : d_.coordinates) {
+    if (coordinate.kind != DrawnCoordinate::Kind::stroke || d_.joint(coordinate.joint).at != point) continue;
+    const Joint& joint = d_.joint(coordinate.joint);
+    const auto axis = drawn_axis(coordinate.joint);
     if (!axis || !d_.at(point).is_exact) continue;
     const bool to_holds = joint.to != ground && is_on_link(d_.mechanism, joint.at, joint.to);
-    Stroke stroke{&own, own.joint, to_holds ? joint.to : joint.from, ground, {}, *axis};
+    Stroke stroke{&coordinate, coordinate.joint, to_holds ? joint.to : joint.from, ground, {}, *axis};
     stroke.base = other_of(joint, stroke.carried);
     if (stroke.base != ground) stroke.origin = d_.link(stroke.base).points.front();
     if (!stroke.origin || (is_known(*stroke.origin) && d_.at(*stroke.origin).is_exact))
@@ -84,15 +85,15 @@ std::vector<PartByPart::Stroke> PartByPart::strokes_at(PointIndex point) const {
 }
 
 bool PartByPart::put_by_stroke(PointIndex point) {
-  for (const Stroke& own : strokes_at(point)) {
-    if (!is_placed(own.base)) continue;
-    const Amounts unit = (one_ / length(own.axis)) * own.axis;
-    const Amounts way = own.origin ? d_.at(point).at - d_.at(*own.origin).at : d_.at(point).at;
-    const Amounts beside = way - (dot(way, own.axis) / dot(own.axis, own.axis)) * own.axis;
-    WrittenVector by = image(own.base, beside) + times(own.coordinate->name, image(own.base, unit));
-    const std::string comment = "out by " + own.coordinate->name;
-    if (own.origin)
-      put_from({*own.origin}, point, comment, [&](PointIndex) { return by; });
+  for (const Stroke& stroke : strokes_at(point)) {
+    if (!is_placed(stroke.base)) continue;
+    const Amounts unit = (one_ / length(stroke.axis)) * stroke.axis;
+    const Amounts way = stroke.origin ? d_.at(point).at - d_.at(*stroke.origin).at : d_.at(point).at;
+    const Amounts beside = way - (dot(way, stroke.axis) / dot(stroke.axis, stroke.axis)) * stroke.axis;
+    WrittenVector by = image(stroke.base, beside) + times(stroke.coordinate->name, image(stroke.base, unit));
+    const std::string comment = "out by " + stroke.coordinate->name;
+    if (stroke.origin)
+      put_from({*stroke.origin}, point, comment, [&](PointIndex) { return by; });
     else
       put(point, explicit_form(by), comment, by);
     return true;

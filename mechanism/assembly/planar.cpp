@@ -24,10 +24,10 @@ class PlanarConstruction : public PlanarGroups {
       const auto link = static_cast<LinkIndex>(l);
       if (!has_point(link, point)) continue;
       const std::vector<PointIndex> bases = known_points(link);
-      const Orientation* own = orientation(link);
-      if (own == nullptr || bases.empty()) continue;
+      const Orientation* turn = orientation(link);
+      if (turn == nullptr || bases.empty()) continue;
       const std::string comment = "a point of " + d_.link(link).name;
-      if (own->means == Means::points && bases.size() > 1) {
+      if (turn->means == Means::points && bases.size() > 1) {
         const auto [along, beside] =
             parts(shape(link).way(bases[0], point), shape(link).way(bases[0], bases[1]), false);
         put(point,
@@ -129,9 +129,9 @@ class PlanarConstruction : public PlanarGroups {
           "the axis of joint " + joint.name + " is fixed in links whose direction is not known: " +
               d_.name_of(joint.from) + " and " + d_.name_of(joint.to),
           "write it from one point to another, such as axis: [A, B], or draw a second point of a link");
-    const WrittenVector own = image(link, *axis);
-    if (own.is_constant()) return;
-    found_.axes[index] = {text_of(own, 2)};
+    const WrittenVector vector = image(link, *axis);
+    if (vector.is_constant()) return;
+    found_.axes[index] = {text_of(vector, 2)};
   }
 };
 

@@ -32,11 +32,11 @@ bool PlanarGroups::put_group() {
     if (is_shared(p)) parts.use[p] = Use::free;
   std::vector<std::pair<std::size_t, LinkIndex>> links;  // those with most points first
   for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
-    if (const std::size_t own = shared_of(static_cast<LinkIndex>(l), parts).size(); own > 0)
-      links.emplace_back(own, static_cast<LinkIndex>(l));
+    if (const std::size_t count = shared_of(static_cast<LinkIndex>(l), parts).size(); count > 0)
+      links.emplace_back(count, static_cast<LinkIndex>(l));
   std::stable_sort(links.begin(), links.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& own : links)
-    if (!add_link(own.second, parts)) return false;
+  for (const auto& link : links)
+    if (!add_link(link.second, parts)) return false;
   add_known_guides(parts);
   add_moving_guides(parts.held);
   return put_smallest(parts);
@@ -50,13 +50,13 @@ std::vector<PointIndex> PlanarGroups::shared_of(LinkIndex link, const Parts& par
 }
 
 void PlanarGroups::add_distance(LinkIndex link, PointIndex a, PointIndex b, Parts& parts) const {
-  Held own;
+  Held held;
   for (const PointIndex p : {a, b})
-    if (!is_known(p)) own.points.push_back(p);
-  own.first = name_of(a);
-  own.second = name_of(b);
-  own.length = shape(link).distance(a, b).text();
-  parts.held.push_back(std::move(own));
+    if (!is_known(p)) held.points.push_back(p);
+  held.first = name_of(a);
+  held.second = name_of(b);
+  held.length = shape(link).distance(a, b).text();
+  parts.held.push_back(std::move(held));
 }
 
 /// Lengths that are given say more than what follows from them, where they hold a point well: off the line of two
@@ -81,8 +81,8 @@ bool PlanarGroups::add_link(LinkIndex link, Parts& parts) {
   if (!turned && !bases.empty()) points.insert(points.begin(), bases.front());
   const std::size_t fixed = turned ? 1 : 2;
   for (std::size_t k = 0; k < std::min(fixed, points.size()); ++k)
-    if (auto own = parts.use.find(points[k]); own != parts.use.end() && own->second == Use::free)
-      own->second = Use::base;
+    if (auto use = parts.use.find(points[k]); use != parts.use.end() && use->second == Use::free)
+      use->second = Use::base;
   if (!turned && points.size() > 1) add_distance(link, points[0], points[1], parts);
   for (std::size_t k = fixed; k < points.size(); ++k) {
     const PointIndex p = points[k];
@@ -94,18 +94,18 @@ bool PlanarGroups::add_link(LinkIndex link, Parts& parts) {
       continue;
     }
     parts.use[p] = Use::derived;
-    Derived own{p, {points[0]}, {}};
+    Derived derived{p, {points[0]}, {}};
     if (turned) {
-      own.form = map({{"from", text(name_of(points[0]))},
-                      {"by", vector_node(text_of(image_of_shape(link, shape(link).way(points[0], p)), 2))}});
+      derived.form = map({{"from", text(name_of(points[0]))},
+                          {"by", vector_node(text_of(image_of_shape(link, shape(link).way(points[0], p)), 2))}});
     } else {
-      own.bases.push_back(points[1]);
+      derived.bases.push_back(points[1]);
       const auto [along, beside] =
           PlanarTurning::parts(shape(link).way(points[0], p), shape(link).way(points[0], points[1]), false);
-      own.form = map(
+      derived.form = map(
           {{"on", list({name_of(points[0]), name_of(points[1])})}, {"offset", list({along.text(), beside.text()})}});
     }
-    parts.derived.push_back(std::move(own));
+    parts.derived.push_back(std::move(derived));
   }
   return true;
 }
@@ -114,19 +114,19 @@ bool PlanarGroups::add_link(LinkIndex link, Parts& parts) {
 void PlanarGroups::add_known_guides(Parts& parts) {
   parts.loci.resize(parts.use.size());
   std::size_t at = 0;
-  for (const auto& own : parts.use) {
+  for (const auto& use : parts.use) {
     std::vector<Locus>& all = parts.loci[at++];
     for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
       if (const auto link = static_cast<LinkIndex>(l);
-          has_point(link, own.first) && orientation(link) != nullptr && known_points(link).empty())
-        add_lines(link, own.first, all);
-    add_slots(own.first, all);
-    for (const Stroke& stroke : strokes_at(own.first)) add_leg(stroke, own.first, all);
+          has_point(link, use.first) && orientation(link) != nullptr && known_points(link).empty())
+        add_lines(link, use.first, all);
+    add_slots(use.first, all);
+    for (const Stroke& stroke : strokes_at(use.first)) add_leg(stroke, use.first, all);
     for (std::size_t axis = 0; axis < 2; ++axis)
-      if (const DrawnCoordinate* c = place_coordinate(own.first, axis)) add_coordinate_line(own.first, axis, *c, all);
+      if (const DrawnCoordinate* c = place_coordinate(use.first, axis)) add_coordinate_line(use.first, axis, *c, all);
     for (const Locus& locus : all) {
       Held held;
-      held.points = {own.first};
+      held.points = {use.first};
       held.locus = &locus;
       parts.held.push_back(std::move(held));
     }
@@ -167,22 +167,22 @@ void PlanarGroups::add_moving_guides(std::vector<Held>& held) const {
 
 void PlanarGroups::expand(PointIndex point, const Parts& parts, std::vector<PointIndex>& into) const {
   if (is_known(point)) return;
-  const auto own = std::find_if(parts.derived.begin(), parts.derived.end(),
-                                [&](const Derived& other) { return other.point == point; });
-  if (own == parts.derived.end()) {
+  const auto derived = std::find_if(parts.derived.begin(), parts.derived.end(),
+                                    [&](const Derived& other) { return other.point == point; });
+  if (derived == parts.derived.end()) {
     into.push_back(point);
     return;
   }
-  for (const PointIndex base : own->bases) expand(base, parts, into);
+  for (const PointIndex base : derived->bases) expand(base, parts, into);
 }
 
 bool PlanarGroups::put_smallest(const Parts& parts) {
   std::vector<PointIndex> points;
-  for (const auto& own : parts.use) points.push_back(own.first);
+  for (const auto& use : parts.use) points.push_back(use.first);
   std::vector<std::vector<std::size_t>> equations;
-  for (const Held& own : parts.held) {
+  for (const Held& held : parts.held) {
     std::vector<PointIndex> used;
-    for (const PointIndex p : own.points) expand(p, parts, used);
+    for (const PointIndex p : held.points) expand(p, parts, used);
     std::set<std::size_t> places;
     for (const PointIndex p : used)
       if (const auto found = std::find(points.begin(), points.end(), p); found != points.end())
@@ -191,9 +191,9 @@ bool PlanarGroups::put_smallest(const Parts& parts) {
   }
   const SmallestGroup group = smallest_group(points.size(), 2, equations);
   if (group.points.empty()) return false;
-  std::vector<PointIndex> own;
-  for (const std::size_t p : group.points) own.push_back(points[p]);
-  write_group(own, group.equations, parts);
+  std::vector<PointIndex> unknowns;
+  for (const std::size_t p : group.points) unknowns.push_back(points[p]);
+  write_group(unknowns, group.equations, parts);
   return true;
 }
 
@@ -203,26 +203,26 @@ void PlanarGroups::write_group(const std::vector<PointIndex>& points, const std:
   std::vector<PointIndex> placed = points;
   for (const PointIndex p : points) names.push_back(d_.name(p));
   std::vector<std::pair<std::string, Node>> with, lengths, lines;
-  for (const Derived& own : parts.derived) {
+  for (const Derived& derived : parts.derived) {
     std::vector<PointIndex> used;
-    for (const PointIndex base : own.bases) expand(base, parts, used);
+    for (const PointIndex base : derived.bases) expand(base, parts, used);
     if (!std::all_of(used.begin(), used.end(),
                      [&](PointIndex p) { return std::find(points.begin(), points.end(), p) != points.end(); }))
       continue;
-    with.emplace_back(d_.name(own.point), own.form);
-    placed.push_back(own.point);
+    with.emplace_back(d_.name(derived.point), derived.form);
+    placed.push_back(derived.point);
   }
   for (const std::size_t e : equations) {
-    const Held& own = parts.held[e];
-    if (own.locus != nullptr && own.locus->is_circle)
-      lengths.emplace_back(known(own.locus->base()).name + "-" + d_.name(own.points.front()),
-                           text(radius_of(*own.locus)));
-    else if (own.locus != nullptr)
-      lines.emplace_back(d_.name(own.points.front()), line(own.locus->base(), *own.locus));
-    else if (own.along.empty())
-      lengths.emplace_back(own.first + "-" + own.second, text(own.length));
+    const Held& held = parts.held[e];
+    if (held.locus != nullptr && held.locus->is_circle)
+      lengths.emplace_back(known(held.locus->base()).name + "-" + d_.name(held.points.front()),
+                           text(radius_of(*held.locus)));
+    else if (held.locus != nullptr)
+      lines.emplace_back(d_.name(held.points.front()), line(held.locus->base(), *held.locus));
+    else if (held.along.empty())
+      lengths.emplace_back(held.first + "-" + held.second, text(held.length));
     else
-      lines.emplace_back(own.first, Node::sequence({text(own.second), vector_node(own.along)}, {}));
+      lines.emplace_back(held.first, Node::sequence({text(held.second), vector_node(held.along)}, {}));
   }
   std::vector<std::pair<std::string, Node>> form = {{"group", list(names)}};
   if (!with.empty()) form.emplace_back("with", map(with));
@@ -230,7 +230,7 @@ void PlanarGroups::write_group(const std::vector<PointIndex>& points, const std:
   if (!lines.empty()) form.emplace_back("lines", map(lines));
   form.emplace_back("near", near_of(points));
   std::string name = "group";
-  for (const std::string& own : names) name += "_" + own;
+  for (const std::string& suffix : names) name += "_" + suffix;
   constexpr std::size_t longest = 40;
   put_together(name.size() > longest ? "group" : name, map(form), "close together", placed);
 }
@@ -240,16 +240,16 @@ Node PlanarGroups::near_of(const std::vector<PointIndex>& points) const {
   const double unit = core::to_double(d_.unit);
   std::vector<std::pair<std::string, Node>> pose, near;
   for (std::size_t c = 0; c < d_.coordinates.size(); ++c) {
-    const mechanism::Coordinate& own = d_.mechanism.coordinates[c];
+    const mechanism::Coordinate& coordinate = d_.mechanism.coordinates[c];
     double value = drawn_value(c);
     // Of the values of an angle a turn apart one in its range.
     constexpr double turn = 2 * std::numbers::pi;
-    if (own.angle && value < core::to_double(own.lower))
-      value += turn * std::ceil((core::to_double(own.lower) - value) / turn);
-    if (own.angle && value > core::to_double(own.upper))
-      value -= turn * std::ceil((value - core::to_double(own.upper)) / turn);
+    if (coordinate.angle && value < core::to_double(coordinate.lower))
+      value += turn * std::ceil((core::to_double(coordinate.lower) - value) / turn);
+    if (coordinate.angle && value > core::to_double(coordinate.upper))
+      value -= turn * std::ceil((value - core::to_double(coordinate.upper)) / turn);
     pose.emplace_back(d_.coordinates[c].name,
-                      text(number_text(value / (own.angle ? 1 : unit)) + (own.angle ? " rad" : "")));
+                      text(number_text(value / (coordinate.angle ? 1 : unit)) + (coordinate.angle ? " rad" : "")));
   }
   near.emplace_back("at", map(pose));
   for (const PointIndex p : points)

@@ -18,9 +18,10 @@ std::vector<Locus> PlanarLoci::loci(PointIndex point, int depth) {
     }
   }
   add_slots(point, all);
-  for (const Stroke& own : strokes_at(point)) add_leg(own, point, all);
+  for (const Stroke& stroke : strokes_at(point)) add_leg(stroke, point, all);
   for (std::size_t axis = 0; axis < 2; ++axis)
-    if (const DrawnCoordinate* own = place_coordinate(point, axis)) add_coordinate_line(point, axis, *own, all);
+    if (const DrawnCoordinate* coordinate = place_coordinate(point, axis))
+      add_coordinate_line(point, axis, *coordinate, all);
   return all;
 }
 
@@ -28,35 +29,35 @@ void PlanarLoci::add_circle(LinkIndex link, PointIndex point, std::vector<Locus>
   if (orientation(link) != nullptr) return;
   const std::vector<PointIndex> bases = known_points(link);
   if (bases.size() != 1 || !is_apart(bases[0], point)) return;
-  Locus own;
-  own.is_circle = true;
-  own.base = [this, base = bases[0]] { return handle(base); };
-  own.radius = shape(link).distance(bases[0], point);
-  own.link = link;
-  own.source = d_.link(link).name;
-  all.push_back(std::move(own));
-}
-
-/// A leg whose motor says how long it is.
-void PlanarLoci::add_leg(const Stroke& own, PointIndex point, std::vector<Locus>& all) {
-  if (!own.origin || is_turned(own.base)) return;
-  const Amounts way = d_.at(point).at - d_.at(*own.origin).at;
-  if (std::abs(cross(own.axis, way)[2].value()) > 1e-12 * size_of(own.axis) * size_of(way)) return;
   Locus locus;
   locus.is_circle = true;
-  locus.base = [this, origin = *own.origin] { return handle(origin); };
-  locus.radius_text = own.coordinate->name;
-  locus.source = d_.joint(own.joint).name;
+  locus.base = [this, base = bases[0]] { return handle(base); };
+  locus.radius = shape(link).distance(bases[0], point);
+  locus.link = link;
+  locus.source = d_.link(link).name;
   all.push_back(std::move(locus));
 }
 
-void PlanarLoci::add_coordinate_line(PointIndex point, std::size_t axis, const DrawnCoordinate& own,
+/// A leg whose motor says how long it is.
+void PlanarLoci::add_leg(const Stroke& stroke, PointIndex point, std::vector<Locus>& all) {
+  if (!stroke.origin || is_turned(stroke.base)) return;
+  const Amounts way = d_.at(point).at - d_.at(*stroke.origin).at;
+  if (std::abs(cross(stroke.axis, way)[2].value()) > 1e-12 * size_of(stroke.axis) * size_of(way)) return;
+  Locus locus;
+  locus.is_circle = true;
+  locus.base = [this, origin = *stroke.origin] { return handle(origin); };
+  locus.radius_text = stroke.coordinate->name;
+  locus.source = d_.joint(stroke.joint).name;
+  all.push_back(std::move(locus));
+}
+
+void PlanarLoci::add_coordinate_line(PointIndex point, std::size_t axis, const DrawnCoordinate& coordinate,
                                      std::vector<Locus>& all) {
   Locus line;
   line.along = axis == 0 ? "[0, 1]" : "[1, 0]";
   line.way = axis == 0 ? std::array<double, 2>{0, 1} : std::array<double, 2>{1, 0};
-  line.source = own.name;
-  line.base = [this, point, axis, name = own.name] {
+  line.source = coordinate.name;
+  line.base = [this, point, axis, name = coordinate.name] {
     WrittenVector place;
     place.components[axis].push_back({one_, name});
     std::array<double, 3> posture{};
@@ -167,10 +168,10 @@ PlanarLoci::Handle PlanarLoci::carried_along(LinkIndex link, Handle from, PointI
 void PlanarLoci::add_translated(LinkIndex link, PointIndex point, std::vector<Locus>& all) {
   for (const PointIndex other : d_.link(link).points) {
     if (other == point || is_known(other) || !shape(link).has(other) || d_.at(other).built) continue;
-    for (Locus& own : loci(other, 1)) {
-      if (own.link == link) continue;
-      own.base = [this, link, base = own.base, point, other] { return carried_along(link, base(), other, point); };
-      all.push_back(std::move(own));
+    for (Locus& locus : loci(other, 1)) {
+      if (locus.link == link) continue;
+      locus.base = [this, link, base = locus.base, point, other] { return carried_along(link, base(), other, point); };
+      all.push_back(std::move(locus));
     }
   }
 }
@@ -179,8 +180,8 @@ std::string PlanarLoci::radius_of(const Locus& circle) {
   return circle.radius_text.empty() ? circle.radius.text() : circle.radius_text;
 }
 
-Node PlanarLoci::line(Handle base, const Locus& own) const {
-  return Node::sequence({text(known(base).name), vector_node(own.along)}, {});
+Node PlanarLoci::line(Handle base, const Locus& locus) const {
+  return Node::sequence({text(known(base).name), vector_node(locus.along)}, {});
 }
 
 }  // namespace clearloci::mechanism

@@ -32,8 +32,9 @@ class PlanarLoci : public PlanarTurning {
   std::vector<Locus> loci(PointIndex point, int depth = 0);
   void add_circle(LinkIndex link, PointIndex point, std::vector<Locus>& all);
   /// A leg whose motor says how long it is.
-  void add_leg(const Stroke& own, PointIndex point, std::vector<Locus>& all);
-  void add_coordinate_line(PointIndex point, std::size_t axis, const DrawnCoordinate& own, std::vector<Locus>& all);
+  void add_leg(const Stroke& stroke, PointIndex point, std::vector<Locus>& all);
+  void add_coordinate_line(PointIndex point, std::size_t axis, const DrawnCoordinate& coordinate,
+                           std::vector<Locus>& all);
   /// Lines along the guides of a link that turns as a known one does.
   void add_lines(LinkIndex link, PointIndex point, std::vector<Locus>& all);
   /// The line of a slot: of its pin in a known link, or of a point of a link that a known pin guides.
@@ -48,7 +49,7 @@ class PlanarLoci : public PlanarTurning {
   /// A link that does not turn on its own carries what keeps its other points over to this one.
   void add_translated(LinkIndex link, PointIndex point, std::vector<Locus>& all);
   static std::string radius_of(const Locus& circle);
-  Node line(Handle base, const Locus& own) const;
+  Node line(Handle base, const Locus& locus) const;
 };
 
 }  // namespace clearloci::mechanism

@@ -25,9 +25,9 @@ Amounts complex_power(const Amounts& direction, const Rational& power) {
 }
 
 void add_angle(SumOfAngles& sum, const std::string& name, const Rational& times) {
-  for (auto& [other, own] : sum)
+  for (auto& [other, coefficient] : sum)
     if (other == name) {
-      own += times;
+      coefficient += times;
       return;
     }
   sum.emplace_back(name, times);
@@ -40,16 +40,16 @@ std::string angle_text(const SumOfAngles& angle) {
   return text_of(terms);
 }
 
-void point_along_angle(Orientation& own) {
-  const std::string angle = angle_text(*own.angle);
+void point_along_angle(Orientation& orientation) {
+  const std::string angle = angle_text(*orientation.angle);
   if (angle == "0") {
-    own.first = constant_vector(Amounts{Amount(Rational(1)), {}, {}});
-    own.second = constant_vector(Amounts{Amount(), Amount(Rational(1)), {}});
+    orientation.first = constant_vector(Amounts{Amount(Rational(1)), {}, {}});
+    orientation.second = constant_vector(Amounts{Amount(), Amount(Rational(1)), {}});
     return;
   }
-  own.first.components[0].push_back({Amount(Rational(1)), "cos(" + angle + ")"});
-  own.first.components[1].push_back({Amount(Rational(1)), "sin(" + angle + ")"});
-  own.second = left_of(own.first);
+  orientation.first.components[0].push_back({Amount(Rational(1)), "cos(" + angle + ")"});
+  orientation.first.components[1].push_back({Amount(Rational(1)), "sin(" + angle + ")"});
+  orientation.second = left_of(orientation.first);
 }
 
 }  // namespace
@@ -63,8 +63,8 @@ PlanarTurning::PlanarTurning(const Drawing& drawing)
 
 const Orientation* PlanarTurning::orientation(LinkIndex link) const {
   if (link == ground) return &ground_;
-  const auto& own = orientations_[static_cast<std::size_t>(link)];
-  return own ? &*own : nullptr;
+  const auto& orientation = orientations_[static_cast<std::size_t>(link)];
+  return orientation ? &*orientation : nullptr;
 }
 
 bool PlanarTurning::slides(const Joint& joint, LinkIndex link) const {
@@ -72,9 +72,9 @@ bool PlanarTurning::slides(const Joint& joint, LinkIndex link) const {
 }
 
 bool PlanarTurning::turn(LinkIndex link) {
-  for (const DrawnCoordinate& own : d_.coordinates)
-    if (own.kind == DrawnCoordinate::Kind::direction && (own.link == link || own.other == link) &&
-        orient_by_angle(link, own))
+  for (const DrawnCoordinate& coordinate : d_.coordinates)
+    if (coordinate.kind == DrawnCoordinate::Kind::direction && (coordinate.link == link || coordinate.other == link) &&
+        orient_by_angle(link, coordinate))
       return true;
   return orient_by_points(link) || orient_by_guide(link) || orient_by_way(link) || orient_by_wheels(link);
 }
@@ -89,13 +89,13 @@ std::array<Amount, 2> PlanarTurning::parts(const Amounts& v, const Amounts& refe
   return {dot(v, reference) / below, cross(reference, v)[2] / below};
 }
 
-WrittenVector PlanarTurning::image(const Orientation& own, const Amounts& v, const Amounts& reference) {
-  const auto [along, beside] = parts(v, reference, own.means == Means::points);
-  if (own.means == Means::vectors) return along * own.first + beside * own.second;
-  const std::string from = known(own.from).name, to = known(own.to).name;
-  const std::string tail = own.means == Means::way ? extra(own, "_along", 0) : to;
+WrittenVector PlanarTurning::image(const Orientation& orientation, const Amounts& v, const Amounts& reference) {
+  const auto [along, beside] = parts(v, reference, orientation.means == Means::points);
+  if (orientation.means == Means::vectors) return along * orientation.first + beside * orientation.second;
+  const std::string from = known(orientation.from).name, to = known(orientation.to).name;
+  const std::string tail = orientation.means == Means::way ? extra(orientation, "_along", 0) : to;
   WrittenVector result = along * way_between(from, tail);
-  if (!beside.is_zero()) result += beside * way_between(from, extra(own, "_left", 1));
+  if (!beside.is_zero()) result += beside * way_between(from, extra(orientation, "_left", 1));
   return result;
 }
 WrittenVector PlanarTurning::image_of_shape(LinkIndex link, const Amounts& v) {
@@ -109,15 +109,15 @@ WrittenVector PlanarTurning::image(LinkIndex link, const Amounts& drawn) {
 }
 
 /// The point at a unit along the way of an orientation, or as far to its left as it is long.
-std::string PlanarTurning::extra(const Orientation& own, const std::string& suffix, std::size_t which) {
-  const std::string from = known(own.from).name, to = known(own.to).name;
+std::string PlanarTurning::extra(const Orientation& orientation, const std::string& suffix, std::size_t which) {
+  const std::string from = known(orientation.from).name, to = known(orientation.to).name;
   const std::string key = from + " " + to + " " + suffix;
   const auto found = extras_.find(key);
   if (found != extras_.end()) return found->second;
-  const std::string size = own.means == Means::points ? length(own.reference).text() : "1";
-  const auto &p = known(own.from).posture, &q = known(own.to).posture;
+  const std::string size = orientation.means == Means::points ? length(orientation.reference).text() : "1";
+  const auto &p = known(orientation.from).posture, &q = known(orientation.to).posture;
   std::array<double, 3> way = {q[0] - p[0], q[1] - p[1], 0};
-  if (own.means == Means::way) {
+  if (orientation.means == Means::way) {
     const double unit = core::to_double(d_.unit) / std::hypot(way[0], way[1]);
     way = {way[0] * unit, way[1] * unit, 0};
   }
@@ -147,39 +147,39 @@ bool PlanarTurning::orient_by_angle(LinkIndex link, const DrawnCoordinate& c) {
   const Orientation* base = orientation(other);
   const auto own_pointer = pointer(link), base_pointer = pointer(other);
   if (base == nullptr || !own_pointer || !base_pointer) return false;
-  Orientation own;
-  own.reference = *own_pointer;
-  own.drawn = shape(link).is_drawn() ? own.reference : drawn_pointer(link);
+  Orientation turn;
+  turn.reference = *own_pointer;
+  turn.drawn = shape(link).is_drawn() ? turn.reference : drawn_pointer(link);
   const bool from_x = base->angle && base->reference[0].text() == (*base_pointer)[0].text() &&
                       base->reference[1].text() == (*base_pointer)[1].text();
   if (from_x) {
-    own.angle = base->angle;
-    add_angle(*own.angle, c.name, forward ? 1 : -1);
-    point_along_angle(own);
+    turn.angle = base->angle;
+    add_angle(*turn.angle, c.name, forward ? 1 : -1);
+    point_along_angle(turn);
   } else {
     const Amount over = one_ / length(*base_pointer);
     const WrittenVector ahead = image_of_shape(other, over * *base_pointer),
                         beside = image_of_shape(other, over * left(*base_pointer));
     const Amount sign = forward ? one_ : -one_;
     const std::string cosine = "cos(" + c.name + ")", sine = "sin(" + c.name + ")";
-    own.first = times(cosine, ahead) + sign * times(sine, beside);
-    own.second = times(cosine, beside) + -sign * times(sine, ahead);
+    turn.first = times(cosine, ahead) + sign * times(sine, beside);
+    turn.second = times(cosine, beside) + -sign * times(sine, ahead);
   }
-  orientations_[static_cast<std::size_t>(link)] = std::move(own);
+  orientations_[static_cast<std::size_t>(link)] = std::move(turn);
   return true;
 }
 
 bool PlanarTurning::orient_by_points(LinkIndex link) {
   const std::vector<PointIndex> points = known_points(link);
   if (points.size() < 2) return false;
-  Orientation own;
-  own.means = Means::points;
-  own.from = handle(points[0]);
-  own.to = handle(points[1]);
-  own.reference = shape(link).way(points[0], points[1]);
-  own.drawn = d_.at(points[0]).is_exact && d_.at(points[1]).is_exact ? d_.at(points[1]).at - d_.at(points[0]).at
-                                                                     : own.reference;
-  orientations_[static_cast<std::size_t>(link)] = std::move(own);
+  Orientation turn;
+  turn.means = Means::points;
+  turn.from = handle(points[0]);
+  turn.to = handle(points[1]);
+  turn.reference = shape(link).way(points[0], points[1]);
+  turn.drawn = d_.at(points[0]).is_exact && d_.at(points[1]).is_exact ? d_.at(points[1]).at - d_.at(points[0]).at
+                                                                      : turn.reference;
+  orientations_[static_cast<std::size_t>(link)] = std::move(turn);
   return true;
 }
 
@@ -197,8 +197,8 @@ bool PlanarTurning::orient_by_guide(LinkIndex link) {
 bool PlanarTurning::orient_as(LinkIndex link, LinkIndex guide) {
   const Orientation* base = orientation(guide);
   if (base == nullptr) return false;
-  Orientation own = *base;
-  own.reference = own.drawn;
+  Orientation turn = *base;
+  turn.reference = turn.drawn;
   if (!shape(link).is_drawn()) {
     const Amounts direction = (one_ / length(drawn_pointer(link))) * drawn_pointer(link);
     Orientation turned;
@@ -206,9 +206,9 @@ bool PlanarTurning::orient_as(LinkIndex link, LinkIndex guide) {
     turned.drawn = drawn_pointer(link);
     turned.first = image(guide, direction);
     turned.second = image(guide, left(direction));
-    own = std::move(turned);
+    turn = std::move(turned);
   }
-  orientations_[static_cast<std::size_t>(link)] = std::move(own);
+  orientations_[static_cast<std::size_t>(link)] = std::move(turn);
   return true;
 }
 
@@ -216,8 +216,8 @@ bool PlanarTurning::orient_as(LinkIndex link, LinkIndex guide) {
 /// with one known point and a slot along the way to a known pin.
 bool PlanarTurning::orient_by_way(LinkIndex link) {
   for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j)
-    if (auto own = by_way(link, static_cast<JointIndex>(j))) {
-      orientations_[static_cast<std::size_t>(link)] = std::move(own);
+    if (auto found = by_way(link, static_cast<JointIndex>(j))) {
+      orientations_[static_cast<std::size_t>(link)] = std::move(found);
       return true;
     }
   return false;
@@ -234,45 +234,46 @@ std::optional<Orientation> PlanarTurning::by_way(LinkIndex link, JointIndex inde
   if (!shape(link).is_drawn() || (!in_slot && !shape(other_of(joint, link)).is_drawn())) return std::nullopt;
   const auto axis = drawn_axis(index);
   if (!axis || !d_.at(here[0]).is_exact || !d_.at(there[0]).is_exact) return std::nullopt;
-  Orientation own;
-  own.from = handle(here[0]);
-  own.to = handle(there[0]);
-  own.means = Means::way;
-  own.reference = own.drawn = d_.at(there[0]).at - d_.at(here[0]).at;
-  const double beside = mechanism::cross(*axis, own.reference)[2].value() / length(*axis).value();
-  if (std::abs(beside) * core::to_double(d_.unit) <= 1e-12 * d_.size) return own;
-  return beside_way(own, joint, *axis);
+  Orientation found;
+  found.from = handle(here[0]);
+  found.to = handle(there[0]);
+  found.means = Means::way;
+  found.reference = found.drawn = d_.at(there[0]).at - d_.at(here[0]).at;
+  const double beside = mechanism::cross(*axis, found.reference)[2].value() / length(*axis).value();
+  if (std::abs(beside) * core::to_double(d_.unit) <= 1e-12 * d_.size) return found;
+  return beside_way(found, joint, *axis);
 }
 
 /// The guide passes beside the pins: its foot F below the first one has a right angle in it. The link turns with the
 /// way to the foot, or, where that is short, with the way from there along the guide.
 Orientation PlanarTurning::beside_way(const Orientation& along, const Joint& joint, const Amounts& axis) {
-  Orientation own = along;
+  Orientation orientation = along;
   const Amount part = mechanism::cross(axis, along.reference)[2] / dot(axis, axis);
   const Amounts foot = part * left(axis);
-  std::array<double, 3> place = known(own.from).posture;
+  std::array<double, 3> place = known(orientation.from).posture;
   for (std::size_t i = 0; i < 2; ++i) place[i] += foot[i].value() * core::to_double(d_.unit);
-  const auto &p = known(own.from).posture, &q = known(own.to).posture;
+  const auto &p = known(orientation.from).posture, &q = known(orientation.to).posture;
   const double turn = (q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0]);
-  own.to = put_extra(
+  orientation.to = put_extra(
       joint.name + "_foot",
-      map({{"foot", list({known(own.from).name, known(own.to).name})},
+      map({{"foot", list({known(orientation.from).name, known(orientation.to).name})},
            {"length", text(length(foot).text())},
            {"side", text(turn > 0 ? "left" : "right")}}),
-      place, "the guide of " + joint.name + " passes " + length(foot).text() + " beside " + known(own.from).name);
+      place,
+      "the guide of " + joint.name + " passes " + length(foot).text() + " beside " + known(orientation.from).name);
   // A direction read off two points loses as many digits as they are nearer to each other than the mechanism is large.
   constexpr double near = 0.01;
   const Amounts rest = along.reference - foot;
   if (length(foot).value() < near * length(rest).value()) {
-    own.from = own.to;
-    own.to = along.to;
-    own.means = Means::way;
-    own.reference = own.drawn = rest;
-    return own;
+    orientation.from = orientation.to;
+    orientation.to = along.to;
+    orientation.means = Means::way;
+    orientation.reference = orientation.drawn = rest;
+    return orientation;
   }
-  own.means = Means::points;
-  own.reference = own.drawn = foot;
-  return own;
+  orientation.means = Means::points;
+  orientation.reference = orientation.drawn = foot;
+  return orientation;
 }
 
 bool PlanarTurning::orient_by_wheels(LinkIndex link) {
@@ -288,32 +289,32 @@ bool PlanarTurning::orient_by_teeth(LinkIndex link, const DrawnMesh& mesh) {
       {{mesh.joint.from, teeth[0]}, {mesh.joint.to, teeth[1]}, {mesh.carrier, -teeth[0] - teeth[1]}}};
   const auto own_part = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return part.first == link; });
   if (own_part == parts.end() || own_part->second == 0) return false;
-  Orientation own;
-  own.angle.emplace();
-  own.drawn = Amounts{one_, {}, {}};
+  Orientation turn;
+  turn.angle.emplace();
+  turn.drawn = Amounts{one_, {}, {}};
   for (const auto& [other, weight] : parts) {
     if (other == link || other == ground || weight == 0) continue;
     const Orientation* base = orientation(other);
     if (base == nullptr || !base->angle || base->means != Means::vectors) return false;
     const Rational ratio = -weight / own_part->second;
-    for (const auto& [name, times] : *base->angle) add_angle(*own.angle, name, ratio * times);
-    own.drawn = turned_product(own.drawn, complex_power(base->drawn, ratio));
+    for (const auto& [name, times] : *base->angle) add_angle(*turn.angle, name, ratio * times);
+    turn.drawn = turned_product(turn.drawn, complex_power(base->drawn, ratio));
   }
-  own.reference = own.drawn;
+  turn.reference = turn.drawn;
   if (!shape(link).is_drawn()) {
     const Amounts was = drawn_pointer(link);
-    own.reference = turned_product(turned_product(own.drawn, *pointer(link)), {was[0], -was[1], {}});
+    turn.reference = turned_product(turned_product(turn.drawn, *pointer(link)), {was[0], -was[1], {}});
   }
-  point_along_angle(own);
-  orientations_[static_cast<std::size_t>(link)] = std::move(own);
+  point_along_angle(turn);
+  orientations_[static_cast<std::size_t>(link)] = std::move(turn);
   return true;
 }
 
 /// Only whole multiples of an angle have a cosine and a sine that are polynomials in its own.
 void PlanarTurning::refuse_part_of_angle(LinkIndex link) const {
-  const Orientation& own = *orientation(link);
-  if (!own.angle) return;
-  for (const auto& [name, times] : *own.angle) {
+  const Orientation& turn = *orientation(link);
+  if (!turn.angle) return;
+  for (const auto& [name, times] : *turn.angle) {
     if (times.get_den() == 1) continue;
     const bool is_slow = abs(times.get_num()) == 1;
     const auto c = std::find_if(d_.coordinates.begin(), d_.coordinates.end(),

@@ -52,8 +52,8 @@ class PlanarTurning : public PartByPart {
   static std::array<Amount, 2> parts(const Amounts& v, const Amounts& reference, bool over_square);
 
  private:
-  WrittenVector image(const Orientation& own, const Amounts& v, const Amounts& reference);
-  std::string extra(const Orientation& own, const std::string& suffix, std::size_t which);
+  WrittenVector image(const Orientation& orientation, const Amounts& v, const Amounts& reference);
+  std::string extra(const Orientation& orientation, const std::string& suffix, std::size_t which);
   std::optional<Amounts> pointer(LinkIndex link) const;
   Amounts drawn_pointer(LinkIndex link) const;
   bool orient_by_angle(LinkIndex link, const DrawnCoordinate& c);

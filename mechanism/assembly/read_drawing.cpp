@@ -140,9 +140,9 @@ class DrawingReader {
       form.coordinates.push_back(number.expression);
       point.at[i] = amount(number, parts[i]);
     }
-    if (const auto own = built.find(entry.key); own != built.end()) {
+    if (const auto construction = built.find(entry.key); construction != built.end()) {
       point.built = true;
-      point.form = own->second.value.node;
+      point.form = construction->second.value.node;
     }
     result_.mechanism.points.push_back({entry.key, std::move(form), false, entry.where});
     result_.points.push_back(std::move(point));
@@ -194,10 +194,11 @@ class DrawingReader {
       for (const Entry& frame : entries(*frames))
         if (words.contains(frame.key)) add_words(frame.value.node, words);
     const auto& points = result_.mechanism.points;
-    std::size_t own = 0;
-    while (points[own].name != entry.key) ++own;
+    std::size_t index = 0;
+    while (points[index].name != entry.key) ++index;
     for (std::size_t p = 0; p < points.size(); ++p)
-      if (p != own && words.contains(points[p].name)) result_.points[own].uses.push_back(static_cast<PointIndex>(p));
+      if (p != index && words.contains(points[p].name))
+        result_.points[index].uses.push_back(static_cast<PointIndex>(p));
   }
 
   /// Where constructions put their points, the others being drawn.
@@ -267,8 +268,8 @@ class DrawingReader {
     for (const Entry& entry : entries(*several)) {
       const std::size_t dash = entry.key.find('-');
       const auto point = [&](const std::string& name) {
-        for (const PointIndex own : link.points)
-          if (result_.name(own) == name) return own;
+        for (const PointIndex candidate : link.points)
+          if (result_.name(candidate) == name) return candidate;
         throw InputError(entry.where,
                          "the lengths of link " + link.name + ": '" + entry.key + "' is no pair of its points",
                          "write such as " + result_.name(link.points[0]) + "-" + result_.name(link.points.back()));
@@ -320,13 +321,13 @@ class DrawingReader {
     const std::vector<Entry> joints = entries(required("joints"));
     for (const std::size_t place : result_.written) {
       const Entry& entry = joints[place];
-      std::vector<Node> own;
+      std::vector<Node> nodes;
       for (const Entry& part : entries(entry.value)) {
-        if (part.key == "axis") own.push_back(part.value.node);
+        if (part.key == "axis") nodes.push_back(part.value.node);
         if (part.key == "axes")
-          for (const Value& axis : elements(part.value)) own.push_back(axis.node);
+          for (const Value& axis : elements(part.value)) nodes.push_back(axis.node);
       }
-      result_.axes.push_back(std::move(own));
+      result_.axes.push_back(std::move(nodes));
     }
   }
 

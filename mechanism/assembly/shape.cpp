@@ -7,8 +7,8 @@ namespace clearloci::mechanism {
 namespace {
 
 const GivenLength* given_between(const std::vector<GivenLength>& given, PointIndex a, PointIndex b) {
-  const auto found = std::find_if(given.begin(), given.end(), [&](const GivenLength& own) {
-    return std::minmax(own.first, own.second) == std::minmax(a, b);
+  const auto found = std::find_if(given.begin(), given.end(), [&](const GivenLength& length) {
+    return std::minmax(length.first, length.second) == std::minmax(a, b);
   });
   return found == given.end() ? nullptr : &*found;
 }
@@ -53,8 +53,8 @@ void Shape::place_by_lengths(const Drawing& d, LinkIndex index) {
     for (const PointIndex point : link.points) {
       if (at_.contains(point)) continue;
       std::vector<PointIndex> bases;
-      for (const PointIndex known : link.points)
-        if (at_.contains(known) && given_between(given_, known, point) != nullptr) bases.push_back(known);
+      for (const PointIndex other : link.points)
+        if (at_.contains(other) && given_between(given_, other, point) != nullptr) bases.push_back(other);
       if (const auto place = place_from(d, link, point, bases)) {
         at_.emplace(point, *place);
         more = true;
@@ -69,8 +69,9 @@ void Shape::place_by_lengths(const Drawing& d, LinkIndex index) {
 /// By two points in the plane; in space by three, but for the first that is off the line of two.
 std::optional<Amounts> Shape::place_from(const Drawing& d, const Link& link, PointIndex point,
                                          std::vector<PointIndex> bases) const {
-  const bool is_first = !d.is_spatial() || std::all_of(at_.begin(), at_.end(), [](const auto& own) {
-    return std::hypot(own.second[1].value(), own.second[2].value()) <= 1e-9 * std::abs(own.second[0].value());
+  const bool is_first = !d.is_spatial() || std::all_of(at_.begin(), at_.end(), [](const auto& candidate) {
+    return std::hypot(candidate.second[1].value(), candidate.second[2].value()) <=
+           1e-9 * std::abs(candidate.second[0].value());
   });
   if (bases.size() < (is_first ? 2U : 3U)) return std::nullopt;
   if (is_first) bases.resize(2);
@@ -124,7 +125,7 @@ void Shape::refuse(const Drawing& d, const Link& link, const std::string& proble
 }
 
 Amount Shape::distance(PointIndex a, PointIndex b) const {
-  if (const GivenLength* own = given_between(given_, a, b)) return own->length;
+  if (const GivenLength* length = given_between(given_, a, b)) return length->length;
   return mechanism::length(way(a, b));
 }
 

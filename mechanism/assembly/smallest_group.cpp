@@ -23,11 +23,11 @@ class Matching {
     std::vector<std::size_t> open = {point};
     in[point] = true;
     while (!open.empty()) {
-      const std::size_t own = open.back();
+      const std::size_t next = open.back();
       open.pop_back();
-      if (matched_[own].size() < each_) return std::nullopt;
-      group.points.push_back(own);
-      for (const std::size_t e : matched_[own]) {
+      if (matched_[next].size() < each_) return std::nullopt;
+      group.points.push_back(next);
+      for (const std::size_t e : matched_[next]) {
         group.equations.push_back(e);
         for (const std::size_t other : equations_[e])
           if (!in[other]) {
@@ -72,8 +72,9 @@ SmallestGroup smallest_group(std::size_t points, std::size_t each,
   const Matching matching(points, each, equations);
   SmallestGroup smallest;
   for (std::size_t p = 0; p < points; ++p)
-    if (auto own = matching.closure(p); own && (smallest.points.empty() || own->points.size() < smallest.points.size()))
-      smallest = std::move(*own);
+    if (auto closure = matching.closure(p);
+        closure && (smallest.points.empty() || closure->points.size() < smallest.points.size()))
+      smallest = std::move(*closure);
   return smallest;
 }
 

@@ -54,15 +54,15 @@ class SpatialConstruction : public SpatialTurning {
         }
       }
       if (!is_turned(link) || bases.empty()) continue;
-      const Attitude& own = attitude(link);
-      if (own.triad && !own.by_shape && !shape(link).is_drawn()) {
+      const Attitude& orientation = attitude(link);
+      if (orientation.triad && !orientation.by_shape && !shape(link).is_drawn()) {
         if (put_about_axis(link, point)) return true;
         refuse_about_axis(link, point);
       }
-      if (!own.frame.empty()) {
+      if (!orientation.frame.empty()) {
         for (const PointIndex base : bases)
-          if (handle(base) == own.origin) {
-            put(point, frame_form(own, shape(link).way(base, point)), comment);
+          if (handle(base) == orientation.origin) {
+            put(point, frame_form(orientation, shape(link).way(base, point)), comment);
             return true;
           }
       }
@@ -113,12 +113,13 @@ class SpatialConstruction : public SpatialTurning {
       }
       if (!add_circle(link, point, all)) add_sphere(link, point, all);
     }
-    for (const Stroke& own : strokes_at(point))
-      if (own.origin && !is_turned(own.base) && is_parallel(own.axis, d_.at(point).at - d_.at(*own.origin).at)) {
+    for (const Stroke& stroke : strokes_at(point))
+      if (stroke.origin && !is_turned(stroke.base) &&
+          is_parallel(stroke.axis, d_.at(point).at - d_.at(*stroke.origin).at)) {
         SpaceLocus leg;
-        leg.base = [this, origin = *own.origin] { return handle(origin); };
-        leg.radius = own.coordinate->name;
-        leg.source = own.coordinate->name;
+        leg.base = [this, origin = *stroke.origin] { return handle(origin); };
+        leg.radius = stroke.coordinate->name;
+        leg.source = stroke.coordinate->name;
         all.push_back(std::move(leg));
       }
     return all;
@@ -127,13 +128,13 @@ class SpatialConstruction : public SpatialTurning {
   void add_sphere(LinkIndex link, PointIndex point, std::vector<SpaceLocus>& all) {
     const std::vector<PointIndex> bases = known_points(link);
     if (bases.empty() || !is_apart(bases[0], point)) return;
-    SpaceLocus own;
-    own.base = [this, base = bases[0]] { return handle(base); };
-    own.radius = shape(link).distance(bases[0], point).text();
-    own.source = d_.link(link).name;
-    own.centre = bases[0];
-    own.length = shape(link).distance(bases[0], point);
-    all.push_back(std::move(own));
+    SpaceLocus locus;
+    locus.base = [this, base = bases[0]] { return handle(base); };
+    locus.radius = shape(link).distance(bases[0], point).text();
+    locus.source = d_.link(link).name;
+    locus.centre = bases[0];
+    locus.length = shape(link).distance(bases[0], point);
+    all.push_back(std::move(locus));
   }
 
   /// Of two points that keep their distance: it, and nothing of others.
@@ -154,9 +155,9 @@ class SpatialConstruction : public SpatialTurning {
     const PointIndex a = *first.centre, b = *second.centre;
     const auto distance = constant_distance(a, b);
     if (!distance) return std::nullopt;
-    const Amount square = *distance * *distance, own = first.length * first.length;
-    const Amount t = (own - second.length * second.length + square) / (square + square);
-    const Amount left = own - t * t * square;
+    const Amount square = *distance * *distance, amount = first.length * first.length;
+    const Amount t = (amount - second.length * second.length + square) / (square + square);
+    const Amount left = amount - t * t * square;
     if (!(left.value() > close * square.value())) return std::nullopt;
     const std::string p = known(handle(a)).name, q = known(handle(b)).name;
     SpaceLocus circle;
@@ -173,35 +174,35 @@ class SpatialConstruction : public SpatialTurning {
 
   /// About the axis of a hinge on a known link, or about two known points of the link.
   bool add_circle(LinkIndex link, PointIndex point, std::vector<SpaceLocus>& all) {
-    SpaceLocus own;
-    own.kind = Kind::circle;
-    own.source = d_.link(link).name;
+    SpaceLocus locus;
+    locus.kind = Kind::circle;
+    locus.source = d_.link(link).name;
     const std::vector<PointIndex> bases = known_points(link);
     if (const auto hinge = hinge_of(link);
         hinge && is_known(d_.joint(*hinge).at) && turns_with_drawing(link, *hinge, point)) {
       const PointIndex at = d_.joint(*hinge).at;
-      own.direction = *drawn_axis(*hinge);
+      locus.direction = *drawn_axis(*hinge);
       const LinkIndex base = other_of(d_.joint(*hinge), link);
-      own.axis = base == ground ? written_axis(*hinge) : direction_text(base, own.direction);
+      locus.axis = base == ground ? written_axis(*hinge) : direction_text(base, locus.direction);
       if (!shape(link).is_drawn()) {
-        set_circle_by_length(own, link, at, point, base);
+        set_circle_by_length(locus, link, at, point, base);
       } else {
-        set_circle(own, at, d_.at(point).at - d_.at(at).at,
+        set_circle(locus, at, d_.at(point).at - d_.at(at).at,
                    [this, base, at](const Amounts& along) { return shifted(at, image(base, along), along); });
       }
     } else if (bases.size() > 1) {
       const std::string p = known(handle(bases[0])).name, q = known(handle(bases[1])).name;
-      own.direction = shape(link).way(bases[0], bases[1]);
-      own.axis = q + " - " + p;
-      set_circle(own, bases[0], shape(link).way(bases[0], point),
-                 [this, p, q, at = bases[0], axis = own.direction](const Amounts& along) {
+      locus.direction = shape(link).way(bases[0], bases[1]);
+      locus.axis = q + " - " + p;
+      set_circle(locus, bases[0], shape(link).way(bases[0], point),
+                 [this, p, q, at = bases[0], axis = locus.direction](const Amounts& along) {
                    const Amount part = dot(along, axis) / dot(axis, axis);
                    return shifted(at, part * way_between(p, q), along);
                  });
     } else {
       return false;
     }
-    all.push_back(std::move(own));
+    all.push_back(std::move(locus));
     return true;
   }
 
@@ -213,21 +214,21 @@ class SpatialConstruction : public SpatialTurning {
   }
 
   /// The length that is given, and along the axis what is drawn, tell the radius.
-  void set_circle_by_length(SpaceLocus& own, LinkIndex link, PointIndex at, PointIndex point, LinkIndex base) {
-    const Amounts along = part_along(d_.at(point).at - d_.at(at).at, own.direction);
-    own.radius = beside(link, at, point, along).text();
+  void set_circle_by_length(SpaceLocus& locus, LinkIndex link, PointIndex at, PointIndex point, LinkIndex base) {
+    const Amounts along = part_along(d_.at(point).at - d_.at(at).at, locus.direction);
+    locus.radius = beside(link, at, point, along).text();
     if (size_of(along) == 0)
-      own.base = [this, at] { return handle(at); };
+      locus.base = [this, at] { return handle(at); };
     else
-      own.base = [this, at, base, along] { return shifted(at, image(base, along), along); };
+      locus.base = [this, at, base, along] { return shifted(at, image(base, along), along); };
   }
 
   template <typename Shift>
-  void set_circle(SpaceLocus& own, PointIndex at, const Amounts& way, const Shift& shift) {
-    const Amounts along = (dot(way, own.direction) / dot(own.direction, own.direction)) * own.direction;
-    own.radius = length(way - along).text();
+  void set_circle(SpaceLocus& locus, PointIndex at, const Amounts& way, const Shift& shift) {
+    const Amounts along = (dot(way, locus.direction) / dot(locus.direction, locus.direction)) * locus.direction;
+    locus.radius = length(way - along).text();
     const bool in_plane = size_of(along) <= close * size_of(way);
-    own.base = [this, at, along, shift, in_plane] { return in_plane ? handle(at) : shift(along); };
+    locus.base = [this, at, along, shift, in_plane] { return in_plane ? handle(at) : shift(along); };
   }
 
   /// The foot of a circle's plane on its axis.
@@ -325,12 +326,12 @@ class SpatialConstruction : public SpatialTurning {
 
   /// Two points between which a link, or the leg that it is a part of, goes.
   std::optional<std::array<PointIndex, 2>> way_of(LinkIndex link) const {
-    const std::vector<PointIndex> own = known_points(link);
-    if (own.size() > 1) return std::array<PointIndex, 2>{own[0], own[1]};
+    const std::vector<PointIndex> points = known_points(link);
+    if (points.size() > 1) return std::array<PointIndex, 2>{points[0], points[1]};
     for (const Joint& joint : d_.mechanism.joints) {
-      if (!traits(joint).slides || !joins(joint, link) || own.empty()) continue;
+      if (!traits(joint).slides || !joins(joint, link) || points.empty()) continue;
       const std::vector<PointIndex> there = known_points(other_of(joint, link));
-      if (!there.empty() && is_apart(own[0], there[0])) return std::array<PointIndex, 2>{own[0], there[0]};
+      if (!there.empty() && is_apart(points[0], there[0])) return std::array<PointIndex, 2>{points[0], there[0]};
     }
     return std::nullopt;
   }
@@ -339,7 +340,7 @@ class SpatialConstruction : public SpatialTurning {
     const Joint& joint = d_.joint(index);
     std::vector<std::string> written(joint.axes.size());
     for (std::size_t which = 0; which < joint.axes.size(); ++which) written[which] = axis_in_all_poses(index, which);
-    if (std::any_of(written.begin(), written.end(), [](const std::string& own) { return !own.empty(); }))
+    if (std::any_of(written.begin(), written.end(), [](const std::string& candidate) { return !candidate.empty(); }))
       found_.axes[index] = std::move(written);
   }
 
@@ -392,8 +393,8 @@ class SpatialConstruction : public SpatialTurning {
   bool keeps_constructions(LinkIndex link) const {
     if (link == ground) return false;
     const auto is_told = [&](PointIndex point) {
-      return std::any_of(d_.coordinates.begin(), d_.coordinates.end(), [&](const DrawnCoordinate& own) {
-        return own.kind == DrawnCoordinate::Kind::place && own.point == point;
+      return std::any_of(d_.coordinates.begin(), d_.coordinates.end(), [&](const DrawnCoordinate& coordinate) {
+        return coordinate.kind == DrawnCoordinate::Kind::place && coordinate.point == point;
       });
     };
     const auto is_built = [&](PointIndex point) { return d_.at(point).built && d_.at(point).moves; };

@@ -40,15 +40,15 @@ bool SpatialTurning::is_turned(LinkIndex link) const {
 
 WrittenVector SpatialTurning::image(LinkIndex link, const Amounts& v) {
   if (link == ground) return constant_vector(v);
-  const Attitude& own = *attitudes_[static_cast<std::size_t>(link)];
-  if (own.triad) {
-    const std::array<Amount, 3> part = parts(v, own.triad->drawn);
+  const Attitude& attitude = *attitudes_[static_cast<std::size_t>(link)];
+  if (attitude.triad) {
+    const std::array<Amount, 3> part = parts(v, attitude.triad->drawn);
     WrittenVector result;
-    for (std::size_t i = 0; i < 3; ++i) result += part[i] * own.triad->written[i];
+    for (std::size_t i = 0; i < 3; ++i) result += part[i] * attitude.triad->written[i];
     return result;
   }
-  if (own.frame.empty()) return constant_vector(v);
-  return way_between(known(own.origin).name, in_frame(own, v));
+  if (attitude.frame.empty()) return constant_vector(v);
+  return way_between(known(attitude.origin).name, in_frame(attitude, v));
 }
 
 std::string SpatialTurning::direction_text(LinkIndex link, const Amounts& v) {
@@ -56,7 +56,7 @@ std::string SpatialTurning::direction_text(LinkIndex link, const Amounts& v) {
   const bool mixed =
       !std::all_of(vector.components.begin(), vector.components.end(), [](const Terms& t) { return t.empty(); });
   const bool crossed = std::any_of(vector.ways.begin(), vector.ways.end(),
-                                   [](const Term& own) { return own.factor.find("cross") != std::string::npos; });
+                                   [](const Term& term) { return term.factor.find("cross") != std::string::npos; });
   if (vector.ways.empty() || (!mixed && !crossed)) return text_of(vector, 3);
   const PointIndex base = known_points(link).front();
   const std::string key = std::to_string(link) + " " + v[0].text() + " " + v[1].text() + " " + v[2].text();
@@ -73,17 +73,18 @@ std::string SpatialTurning::direction_text(LinkIndex link, const Amounts& v) {
   return found->second + " - " + known(handle(base)).name;
 }
 
-std::string SpatialTurning::in_frame(const Attitude& own, const Amounts& way) {
-  const std::string key = own.frame + " " + way[0].text() + " " + way[1].text() + " " + way[2].text();
+std::string SpatialTurning::in_frame(const Attitude& attitude, const Amounts& way) {
+  const std::string key = attitude.frame + " " + way[0].text() + " " + way[1].text() + " " + way[2].text();
   const auto found = extras_.find(key);
   if (found != extras_.end()) return found->second;
-  std::array<double, 3> posture = known(own.origin).posture;
+  std::array<double, 3> posture = known(attitude.origin).posture;
   for (std::size_t i = 0; i < 3; ++i) posture[i] += way[i].value() * core::to_double(d_.unit);
-  const Handle handle = put_extra(own.frame + "_to", frame_form(own, way), posture, "a direction of " + own.frame);
+  const Handle handle =
+      put_extra(attitude.frame + "_to", frame_form(attitude, way), posture, "a direction of " + attitude.frame);
   return extras_.emplace(key, known(handle).name).first->second;
 }
-Node SpatialTurning::frame_form(const Attitude& own, const Amounts& way) const {
-  return map({{"in", text(own.frame)}, {"place", list({way[0].text(), way[1].text(), way[2].text()})}});
+Node SpatialTurning::frame_form(const Attitude& attitude, const Amounts& way) const {
+  return map({{"in", text(attitude.frame)}, {"place", list({way[0].text(), way[1].text(), way[2].text()})}});
 }
 
 bool SpatialTurning::turn(LinkIndex link) {
@@ -94,8 +95,9 @@ bool SpatialTurning::turn(LinkIndex link) {
 /// Its angles in some order, at a point whose coordinates are written out.
 bool SpatialTurning::turn_by_frame(LinkIndex link) {
   std::array<const DrawnCoordinate*, 3> angles{};
-  for (const DrawnCoordinate& own : d_.coordinates)
-    if (own.kind == DrawnCoordinate::Kind::turn && own.link == link) angles[own.axis] = &own;
+  for (const DrawnCoordinate& coordinate : d_.coordinates)
+    if (coordinate.kind == DrawnCoordinate::Kind::turn && coordinate.link == link)
+      angles[coordinate.axis] = &coordinate;
   if (angles[0] == nullptr && angles[1] == nullptr && angles[2] == nullptr) return false;
   const std::vector<PointIndex> points = known_points(link);
   const auto origin =
@@ -106,15 +108,15 @@ bool SpatialTurning::turn_by_frame(LinkIndex link) {
   for (std::size_t i = 0; i < 3; ++i)
     if (angles[i] != nullptr) order = angles[i]->order;
   for (std::size_t i = 0; i < 3; ++i) by_axis[order[i]] = angles[i] != nullptr ? angles[i]->name : "0";
-  Attitude own;
-  own.frame = new_name(d_.link(link).name + "_frame");
-  own.origin = handle(*origin);
-  found_.frames.push_back({own.frame,
-                           map({{"at", text(known(own.origin).name)},
+  Attitude attitude;
+  attitude.frame = new_name(d_.link(link).name + "_frame");
+  attitude.origin = handle(*origin);
+  found_.frames.push_back({attitude.frame,
+                           map({{"at", text(known(attitude.origin).name)},
                                 {"turned", list({by_axis['x'], by_axis['y'], by_axis['z']})},
                                 {"order", text(order)}}),
                            ""});
-  set(link, std::move(own));
+  set(link, std::move(attitude));
   return true;
 }
 
@@ -123,10 +125,10 @@ bool SpatialTurning::turn_by_guide(LinkIndex link) {
     if (joint.type != JointType::prismatic || !joins(joint, link)) continue;
     const LinkIndex guide = other_of(joint, link);
     if (!is_turned(guide) || !shape(link).is_drawn()) continue;
-    Attitude own;
-    if (guide != ground) own = *attitudes_[static_cast<std::size_t>(guide)];
-    if (own.by_shape) continue;
-    set(link, std::move(own));
+    Attitude attitude;
+    if (guide != ground) attitude = *attitudes_[static_cast<std::size_t>(guide)];
+    if (attitude.by_shape) continue;
+    set(link, std::move(attitude));
     return true;
   }
   return false;
@@ -166,9 +168,9 @@ bool SpatialTurning::turn_by_angle(LinkIndex link) {
         triad.written[i] = image(base, along) + times("cos(" + c.name + ")", image(base, beside)) +
                            times("sin(" + c.name + ")", image(base, across));
       }
-      Attitude own;
-      own.triad = std::move(triad);
-      set(link, std::move(own));
+      Attitude attitude;
+      attitude.triad = std::move(triad);
+      set(link, std::move(attitude));
       return true;
     }
   }
@@ -186,10 +188,10 @@ bool SpatialTurning::turn_by_points(LinkIndex link) {
     triad.drawn = {a, b, cross(a, b)};
     triad.written = {way_between(p, q), way_between(p, r), WrittenVector{}};
     triad.written[2].ways.push_back({per_length(), "cross(" + q + " - " + p + ", " + r + " - " + p + ")"});
-    Attitude own;
-    own.triad = std::move(triad);
-    own.by_shape = !shape(link).is_drawn();
-    set(link, std::move(own));
+    Attitude attitude;
+    attitude.triad = std::move(triad);
+    attitude.by_shape = !shape(link).is_drawn();
+    set(link, std::move(attitude));
     return true;
   }
   return false;
@@ -239,9 +241,9 @@ bool SpatialTurning::turn_by_axis(LinkIndex link) {
     else
       triad.written[0].ways.push_back({one_, "(" + axis + ")"});
     triad.written[2].ways.push_back({drawn_part * per_length(), "cross(" + axis + ", " + q + " - " + p + ")"});
-    Attitude own;
-    own.triad = std::move(triad);
-    set(link, std::move(own));
+    Attitude attitude;
+    attitude.triad = std::move(triad);
+    set(link, std::move(attitude));
     return true;
   }
   return false;

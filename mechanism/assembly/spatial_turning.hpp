@@ -41,7 +41,7 @@ class SpatialTurning : public PartByPart {
 
   /// A vector as an axis: components, a sum of ways, or else the way to a point that is put at it.
   std::string direction_text(LinkIndex link, const Amounts& v);
-  Node frame_form(const Attitude& own, const Amounts& way) const;
+  Node frame_form(const Attitude& attitude, const Amounts& way) const;
   /// The revolute joint by which a link turns about a known one.
   std::optional<JointIndex> hinge_of(LinkIndex link) const;
   /// What is left of the length between two points beside its part along an axis.
@@ -49,7 +49,7 @@ class SpatialTurning : public PartByPart {
 
  private:
   /// A point of the frame at a way from its origin.
-  std::string in_frame(const Attitude& own, const Amounts& way);
+  std::string in_frame(const Attitude& attitude, const Amounts& way);
   /// A cross product of two ways is a length more than a way: over one, in the file's units.
   Amount per_length() const { return Amount(1 / d_.unit); }
 

@@ -7,9 +7,9 @@ namespace {
 
 void add_term(Terms& terms, const Term& term) {
   if (term.amount.is_zero()) return;
-  for (Term& own : terms)
-    if (own.factor == term.factor) {
-      own.amount = own.amount + term.amount;
+  for (Term& entry : terms)
+    if (entry.factor == term.factor) {
+      entry.amount = entry.amount + term.amount;
       std::erase_if(terms, [](const Term& one) { return one.amount.is_zero(); });
       return;
     }
@@ -33,16 +33,16 @@ WrittenVector changed(WrittenVector vector, const Change& change) {
 
 std::string text_of(const Terms& terms) {
   std::string text;
-  for (const Term& own : terms) {
-    const bool negative = own.amount.is_exact() && own.amount.value() < 0;
-    const Amount size = negative ? -own.amount : own.amount;
+  for (const Term& entry : terms) {
+    const bool negative = entry.amount.is_exact() && entry.amount.value() < 0;
+    const Amount size = negative ? -entry.amount : entry.amount;
     std::string term;
-    if (own.factor.empty())
+    if (entry.factor.empty())
       term = size.text(!size.is_exact() && !text.empty());
     else if (size.is_rational() && size.rational() == 1)
-      term = own.factor;
+      term = entry.factor;
     else
-      term = size.text(true) + "*" + own.factor;
+      term = size.text(true) + "*" + entry.factor;
     text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
     text += term;
   }
@@ -51,7 +51,7 @@ std::string text_of(const Terms& terms) {
 
 bool WrittenVector::is_constant() const {
   return ways.empty() && std::all_of(components.begin(), components.end(), [](const Terms& terms) {
-           return std::all_of(terms.begin(), terms.end(), [](const Term& own) { return own.factor.empty(); });
+           return std::all_of(terms.begin(), terms.end(), [](const Term& term) { return term.factor.empty(); });
          });
 }
 

@@ -52,12 +52,12 @@ struct Section {
 
 /// What stands between [NAME] and the next one.
 Section section_of(const std::string& text, const std::string& name) {
-  Section own;
+  Section section;
   const std::string small = lower(text);
   std::size_t at = small.find("[" + name);
-  if (at == std::string::npos) return own;
+  if (at == std::string::npos) return section;
   at = small.find(']', at);
-  if (at == std::string::npos) return own;
+  if (at == std::string::npos) return section;
   // A bracket at the beginning of a line opens the next section; others belong to ranges.
   std::size_t end = text.size();
   for (std::size_t i = text.find('\n', at); i != std::string::npos; i = text.find('\n', i + 1)) {
@@ -69,10 +69,10 @@ Section section_of(const std::string& text, const std::string& name) {
       break;
     }
   }
-  own.text = text.substr(at + 1, end - at - 1);
-  own.line = static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
-  own.found = true;
-  return own;
+  section.text = text.substr(at + 1, end - at - 1);
+  section.line = static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
+  section.found = true;
+  return section;
 }
 
 class Parser {
@@ -111,9 +111,9 @@ class Parser {
     std::size_t end = at_;
     while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_'))
       ++end;
-    std::string own = text_.substr(at_, end - at_);
+    std::string word = text_.substr(at_, end - at_);
     at_ = end;
-    return own;
+    return word;
   }
   std::size_t place() const { return at_; }
   void back_to(std::size_t place) { at_ = place; }
@@ -285,14 +285,14 @@ class Reader {
   };
   /// (p) (q), or (p)+(v).
   static Axis axis(Parser& p, const std::string& where) {
-    Axis own;
-    own.at = p.point(where);
+    Axis axis;
+    axis.at = p.point(where);
     if (p.eat('+'))
-      own.along = p.point(where);
+      axis.along = p.point(where);
     else
-      own.along = p.point(where) - own.at;
-    if (!(norm(own.along) > 0)) p.refuse("the axis of " + where + " has no direction", "write two points apart");
-    return own;
+      axis.along = p.point(where) - axis.at;
+    if (!(norm(axis.along) > 0)) p.refuse("the axis of " + where + " has no direction", "write two points apart");
+    return axis;
   }
 
   void read_joints(const Section& section) {
@@ -320,15 +320,15 @@ class Reader {
   }
 
   SourceJoint& add(SourceKind kind, const std::string& name, int line, int from, int to, const Axis& a, const Axis& b) {
-    SourceJoint own;
-    own.name = name;
-    own.line = line;
-    own.kind = kind;
-    own.from = from;
-    own.to = to;
-    own.on_from = {a.at, frame_along(unit(a.along))};
-    own.on_to = {b.at, frame_along(unit(b.along))};
-    s_.joints.push_back(std::move(own));
+    SourceJoint joint;
+    joint.name = name;
+    joint.line = line;
+    joint.kind = kind;
+    joint.from = from;
+    joint.to = to;
+    joint.on_from = {a.at, frame_along(unit(a.along))};
+    joint.on_to = {b.at, frame_along(unit(b.along))};
+    s_.joints.push_back(std::move(joint));
     return s_.joints.back();
   }
 
@@ -345,9 +345,9 @@ class Reader {
     if (type == "fix") {
       const int to = link_named(p);
       const Pose pose = transform(p, where);
-      SourceJoint& own = add(SourceKind::fixed, name, line, from, to, a, b);
-      own.on_from = {pose.at, pose.turned};
-      own.on_to = {{}, {}};
+      SourceJoint& joint = add(SourceKind::fixed, name, line, from, to, a, b);
+      joint.on_from = {pose.at, pose.turned};
+      joint.on_to = {{}, {}};
       return;
     }
     const bool axes = type == "revolute" || type == "prismatic" || type == "universal";
@@ -382,11 +382,11 @@ class Reader {
 
   /// A rod of a length between two balls.
   void add_rod(double length) {
-    const Rod own = *rod_;
+    const Rod rod = *rod_;
     rod_.reset();
-    const int link = new_link(own.name, own.line);
-    add(SourceKind::spherical, own.name + "_a", own.line, own.from, link, {own.at_from, {0, 0, 1}}, {{}, {0, 0, 1}});
-    add(SourceKind::spherical, own.name + "_b", own.line, own.to, link, {own.at_to, {0, 0, 1}},
+    const int link = new_link(rod.name, rod.line);
+    add(SourceKind::spherical, rod.name + "_a", rod.line, rod.from, link, {rod.at_from, {0, 0, 1}}, {{}, {0, 0, 1}});
+    add(SourceKind::spherical, rod.name + "_b", rod.line, rod.to, link, {rod.at_to, {0, 0, 1}},
         {{length, 0, 0}, {0, 0, 1}});
   }
 
@@ -451,11 +451,11 @@ class Reader {
         p.expect(',', "the range of joint " + name);
         const double high = p.expression(1);
         p.expect(']', "the range of joint " + name);
-        SourceJoint& own = s_.joints.back();
-        if (!s_.joints.empty() && own.kind == SourceKind::prismatic && low < high && std::isfinite(low) &&
+        SourceJoint& joint = s_.joints.back();
+        if (!s_.joints.empty() && joint.kind == SourceKind::prismatic && low < high && std::isfinite(low) &&
             std::isfinite(high)) {
-          own.range = std::array<double, 2>{low, high};
-          own.range_is_distance = true;
+          joint.range = std::array<double, 2>{low, high};
+          joint.range_is_distance = true;
         } else {
           ++left_["range"];
         }

@@ -42,7 +42,7 @@ std::optional<PlaceIndex> Drawing::found(int link, const Vec& at) const {
 }
 
 PlaceIndex Drawing::place_of(int link, const Vec& at, const std::string& name) {
-  if (const auto own = found(link, at)) return *own;
+  if (const auto existing = found(link, at)) return *existing;
   DrawnPlace place;
   place.name = unused(plain_name(name, "P"), point_names_);
   place.at = at;
@@ -64,12 +64,12 @@ PlaceIndex Drawing::pin(const SourceJoint& joint) {
     std::replace(at_.begin(), at_.end(), *b, *a);
     return *a;
   }
-  const PlaceIndex own = a   ? *a
-                         : b ? *b
-                             : place_of(joint.from, joint.at(), joint.point.empty() ? joint.name : joint.point);
+  const PlaceIndex place = a   ? *a
+                           : b ? *b
+                               : place_of(joint.from, joint.at(), joint.point.empty() ? joint.name : joint.point);
   for (const int link : {joint.from, joint.to})
-    if (places_[own].links.insert(link).second && link != ground_link) order_[link].push_back(own);
-  return own;
+    if (places_[place].links.insert(link).second && link != ground_link) order_[link].push_back(place);
+  return place;
 }
 
 void Drawing::make_places() {
@@ -115,28 +115,29 @@ void Drawing::give_direction(int link, const SourceJoint& joint) {
   const auto points = order_.find(link);
   if (link == ground_link || points == order_.end() || points->second.size() != 1) return;
   Vec way = {1, 0, 0};
-  for (const SourceJoint& own : s_.joints)
-    if (!own.dropped && slides(own) && (own.from == link || own.to == link)) way = own.axis();
-  const SourceLink& own = s_.links[static_cast<std::size_t>(link)];
+  for (const SourceJoint& source_joint : s_.joints)
+    if (!source_joint.dropped && slides(source_joint) && (source_joint.from == link || source_joint.to == link))
+      way = source_joint.axis();
+  const SourceLink& source_link = s_.links[static_cast<std::size_t>(link)];
   const PlaceIndex first = points->second.front();
-  if (own.mass > 0 && !own.centre) centres_[link] = first;  // otherwise the middle of the first two
+  if (source_link.mass > 0 && !source_link.centre) centres_[link] = first;  // otherwise the middle of the first two
   place_of(link, places_[first].at + (0.1 * size_) * way, joint.name + "_way");
 }
 
 PlaceIndex Drawing::slider_place(const SourceJoint& joint) {
   if (joint.half_length || joint.kind == SourceKind::slot)
     return place_of(joint.to, joint.at(), joint.point.empty() ? joint.name : joint.point);
-  const auto& own = order_[joint.to];
-  if (own.empty()) return place_of(joint.to, joint.at(), joint.name);
-  return *std::min_element(own.begin(), own.end(), [&](PlaceIndex p, PlaceIndex q) {
+  const auto& places = order_[joint.to];
+  if (places.empty()) return place_of(joint.to, joint.at(), joint.name);
+  return *std::min_element(places.begin(), places.end(), [&](PlaceIndex p, PlaceIndex q) {
     return distance(places_[p].at, joint.at()) < distance(places_[q].at, joint.at());
   });
 }
 
 std::optional<PlaceIndex> Drawing::centre_place(int link) {
   const Vec& centre = *s_.links[static_cast<std::size_t>(link)].centre;
-  const auto& own = order_[link];
-  if (own.size() > 1 && same(centre, 0.5 * (places_[own[0]].at + places_[own[1]].at))) return std::nullopt;
+  const auto& places = order_[link];
+  if (places.size() > 1 && same(centre, 0.5 * (places_[places[0]].at + places_[places[1]].at))) return std::nullopt;
   return place_of(link, centre, "G_" + link_name(link));
 }
 

@@ -62,11 +62,11 @@ class Reader {
     if (text.starts_with(binary_start)) refuse(0, "the DXF file is a binary one", "write it as text: ASCII DXF");
     int line = 0;
     std::size_t at = 0;
-    const auto next = [&](std::string_view& own) {
+    const auto next = [&](std::string_view& part) {
       if (at >= text.size()) return false;
       std::size_t end = text.find('\n', at);
       if (end == std::string::npos) end = text.size();
-      own = trimmed(std::string_view(text).substr(at, end - at));
+      part = trimmed(std::string_view(text).substr(at, end - at));
       at = end + 1;
       ++line;
       return true;
@@ -84,10 +84,10 @@ class Reader {
     }
   }
 
-  double number(const Pair& own) const {
+  double number(const Pair& pair) const {
     double value = 0;
-    if (!number_of(own.value, value) || std::abs(value) > 1e12)
-      refuse(own.line, "'" + own.value.substr(0, 30) + "' is no number", "write the DXF file again");
+    if (!number_of(pair.value, value) || std::abs(value) > 1e12)
+      refuse(pair.line, "'" + pair.value.substr(0, 30) + "' is no number", "write the DXF file again");
     return value;
   }
 
@@ -108,8 +108,8 @@ class Reader {
   }
 
   Layer& layer(const std::string& name) {
-    for (Layer& own : layers_)
-      if (lower(own.name) == lower(name)) return own;
+    for (Layer& layer : layers_)
+      if (lower(layer.name) == lower(name)) return layer;
     layers_.push_back({name, {}});
     return layers_.back();
   }
@@ -118,15 +118,15 @@ class Reader {
     std::size_t i = 0;
     bool inside = false;
     while (i < pairs_.size()) {
-      const Pair& own = pairs_[i];
-      if (own.code != 0) {
+      const Pair& pair = pairs_[i];
+      if (pair.code != 0) {
         ++i;
         continue;
       }
-      if (own.value == "SECTION")
+      if (pair.value == "SECTION")
         inside = i + 1 < pairs_.size() && pairs_[i + 1].code == 2 && pairs_[i + 1].value == "ENTITIES";
-      if (own.value == "ENDSEC") inside = false;
-      if (!inside || own.value == "SECTION") {
+      if (pair.value == "ENDSEC") inside = false;
+      if (!inside || pair.value == "SECTION") {
         ++i;
         continue;
       }
@@ -152,14 +152,14 @@ class Reader {
     std::map<int, double> values;
     bool bulges = false;
     for (std::size_t i = start + 1; i < end; ++i) {
-      const Pair& own = pairs_[i];
-      if (own.code == 8) name = own.value;
-      if (type == "LWPOLYLINE" && own.code == 10) vertices.push_back({scale_ * number(own), 0, 0});
-      if (type == "LWPOLYLINE" && own.code == 20 && !vertices.empty()) vertices.back()[1] = scale_ * number(own);
-      if (own.code == 42 && number(own) != 0) bulges = true;
-      if (own.code == 10 || own.code == 20 || own.code == 30 || own.code == 11 || own.code == 21 || own.code == 31 ||
-          own.code == 40 || own.code == 70)
-        values[own.code] = number(own);
+      const Pair& pair = pairs_[i];
+      if (pair.code == 8) name = pair.value;
+      if (type == "LWPOLYLINE" && pair.code == 10) vertices.push_back({scale_ * number(pair), 0, 0});
+      if (type == "LWPOLYLINE" && pair.code == 20 && !vertices.empty()) vertices.back()[1] = scale_ * number(pair);
+      if (pair.code == 42 && number(pair) != 0) bulges = true;
+      if (pair.code == 10 || pair.code == 20 || pair.code == 30 || pair.code == 11 || pair.code == 21 ||
+          pair.code == 31 || pair.code == 40 || pair.code == 70)
+        values[pair.code] = number(pair);
     }
     const auto at = [&](int code) { return values.contains(code) ? values.at(code) : 0; };
     const bool closed = (static_cast<int>(std::clamp(at(70), 0.0, 1e6)) & 1) != 0;
@@ -190,9 +190,9 @@ class Reader {
       ++others_["lines on Defpoints"];
       return end;
     }
-    Layer& own = layer(name);
-    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) own.pieces.emplace_back(vertices[i], vertices[i + 1]);
-    if (closed && vertices.size() > 2) own.pieces.emplace_back(vertices.back(), vertices.front());
+    Layer& found = layer(name);
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) found.pieces.emplace_back(vertices[i], vertices[i + 1]);
+    if (closed && vertices.size() > 2) found.pieces.emplace_back(vertices.back(), vertices.front());
     return end;
   }
 
@@ -206,42 +206,42 @@ class Reader {
   void connect() {
     constexpr std::size_t most = 2000;
     std::size_t pieces = 0;
-    for (const Layer& own : layers_) pieces += own.pieces.size();
+    for (const Layer& layer : layers_) pieces += layer.pieces.size();
     if (pieces > most || circles_.size() > most)
       refuse(0,
              "the drawing has " + std::to_string(pieces) + " lines and " + std::to_string(circles_.size()) + " circles",
              "draw a line or two a link, and a circle a pin");
     std::map<std::string, int> index;
-    for (const Layer& own : layers_) {
-      if (lower(own.name) == "ground") continue;
-      index[own.name] = static_cast<int>(s_.links.size());
-      s_.links.push_back({own.name, 0, 0, {}, {}, false, false});
+    for (const Layer& layer : layers_) {
+      if (lower(layer.name) == "ground") continue;
+      index[layer.name] = static_cast<int>(s_.links.size());
+      s_.links.push_back({layer.name, 0, 0, {}, {}, false, false});
     }
     double size = 0;
     for (const Circle& a : circles_)
       for (const Circle& b : circles_) size = std::max(size, distance(a.at, b.at));
     std::vector<Vec> motors;
     std::vector<const Circle*> pins;
-    for (const Circle& own : circles_) {
-      if (lower(own.layer) == "motor") motors.push_back(own.at);
-      const bool doubled = std::any_of(pins.begin(), pins.end(),
-                                       [&](const Circle* other) { return distance(other->at, own.at) <= 1e-6 * size; });
-      if (!doubled) pins.push_back(&own);
+    for (const Circle& circle : circles_) {
+      if (lower(circle.layer) == "motor") motors.push_back(circle.at);
+      const bool doubled = std::any_of(
+          pins.begin(), pins.end(), [&](const Circle* other) { return distance(other->at, circle.at) <= 1e-6 * size; });
+      if (!doubled) pins.push_back(&circle);
     }
     std::vector<std::string> shared, off, alone;
     int count = 0;
-    for (const Circle* own : pins) {
+    for (const Circle* pin : pins) {
       const std::string name = "P" + std::to_string(++count);
-      const double tolerance = std::max(1e-6 * size, 0.05 * own->radius);
+      const double tolerance = std::max(1e-6 * size, 0.05 * pin->radius);
       std::vector<int> links;
       std::set<std::string> marks;  // layers of circles here
       for (const Circle& circle : circles_)
-        if (distance(circle.at, own->at) <= 1e-6 * size) marks.insert(lower(circle.layer));
+        if (distance(circle.at, pin->at) <= 1e-6 * size) marks.insert(lower(circle.layer));
       bool grounded = marks.contains("ground");
       for (const Layer& layer : layers_) {
         double least = -1;
         for (const auto& piece : layer.pieces) {
-          const double d = from_piece(own->at, piece);
+          const double d = from_piece(pin->at, piece);
           if (least < 0 || d < least) least = d;
         }
         const bool on_layer = marks.contains(lower(layer.name));
@@ -253,19 +253,19 @@ class Reader {
           links.push_back(index.at(layer.name));
       }
       const bool motor = std::any_of(motors.begin(), motors.end(),
-                                     [&](const Vec& at) { return distance(at, own->at) <= 1e-6 * size; });
+                                     [&](const Vec& at) { return distance(at, pin->at) <= 1e-6 * size; });
       if (links.size() + (grounded ? 1 : 0) < 2) {
         if (links.empty())
-          alone.push_back(name + " (line " + std::to_string(own->line) + ")");
+          alone.push_back(name + " (line " + std::to_string(pin->line) + ")");
         else
-          s_.points.push_back({name, links.front(), own->at, true});
+          s_.points.push_back({name, links.front(), pin->at, true});
         continue;
       }
       const int base = grounded ? ground_link : links.front();
       bool driven = false;
       for (const int link : links) {
         if (link == base) continue;
-        SourceJoint& joint = add_joint(s_, name, own->line, SourceKind::revolute, base, link, own->at, {0, 0, 1});
+        SourceJoint& joint = add_joint(s_, name, pin->line, SourceKind::revolute, base, link, pin->at, {0, 0, 1});
         joint.actuated = motor && !driven;
         driven = driven || joint.actuated;
       }

@@ -39,11 +39,11 @@ class Reader {
     root_.read = true;
     s_.planar = true;
     program();
-    for (const XmlElement* own : root_.all("connector")) connector(*own);
+    for (const XmlElement* element : root_.all("connector")) connector(*element);
     for (const char* name : {"Link", "link", "element"})
-      for (const XmlElement* own : root_.all(name)) link(*own);
-    for (const XmlElement* own : root_.all("ratios")) ratios(*own);
-    for (const XmlElement* own : root_.all("selected")) own->take_whole();
+      for (const XmlElement* element : root_.all(name)) link(*element);
+    for (const XmlElement* element : root_.all("ratios")) ratios(*element);
+    for (const XmlElement* element : root_.all("selected")) element->take_whole();
     connect();
     fasten();
     if (!lone_.empty()) s_.note("left out, because they have only one connector: links " + enumerated(lone_));
@@ -81,10 +81,10 @@ class Reader {
   void program() {
     scale_ = 25.4 / 96;
     s_.unit = "mm";
-    for (const XmlElement* own : root_.all("program")) {
-      for (const char* view : {"zoom", "xoffset", "yoffset", "viewlayers", "editlayers"}) (void)own->get(view);
-      const bool inches = own->get("units", "").starts_with("Inch");
-      const double factor = number(*own, "scalefactor", 1);
+    for (const XmlElement* element : root_.all("program")) {
+      for (const char* view : {"zoom", "xoffset", "yoffset", "viewlayers", "editlayers"}) (void)element->get(view);
+      const bool inches = element->get("units", "").starts_with("Inch");
+      const double factor = number(*element, "scalefactor", 1);
       s_.unit = inches ? "in" : "mm";
       scale_ = (inches ? 1.0 : 25.4) / 96 * (factor > 0 ? factor : 1);
     }
@@ -126,8 +126,8 @@ class Reader {
     const int id = whole(at, "id", 0);
     const std::string name = name_of(at, "L", id);
     const bool drawing = is_drawing(whole(at, "layer", 16)) || flag(at, "measurementelement");
-    std::vector<int> own, fastened;
-    for (const XmlElement* child : at.all("connector")) own.push_back(connector_named(*child));
+    std::vector<int> connectors, fastened;
+    for (const XmlElement* child : at.all("connector")) connectors.push_back(connector_named(*child));
     for (const XmlElement* child : at.all("fastenconnector")) fastened.push_back(connector_named(*child));
     const bool gear = flag(at, "gear"), actuator = flag(at, "actuator");
     const double stroke = number(at, "throw", 0), cpm = number(at, "cpm", 15);
@@ -137,21 +137,21 @@ class Reader {
       drawings_.push_back("link " + name);
       return;
     }
-    if (own.empty()) {
+    if (connectors.empty()) {
       s_.note("link " + name + " has no connectors and was left out");
       return;
     }
     if (actuator) {
-      add_actuator(at, name, own, stroke, cpm);
+      add_actuator(at, name, connectors, stroke, cpm);
       return;
     }
-    if (own.size() == 1 && fastened.empty() && to_link == -2 && to_connector == -2 && !gear) {
+    if (connectors.size() == 1 && fastened.empty() && to_link == -2 && to_connector == -2 && !gear) {
       lone_.push_back(name);
       return;
     }
-    const int index = add_link(name, at.line, own);
+    const int index = add_link(name, at.line, connectors);
     by_id_.emplace(id, index);
-    if (gear) wheels_.push_back({id, index, at.line, connectors_[static_cast<std::size_t>(own.front())].at});
+    if (gear) wheels_.push_back({id, index, at.line, connectors_[static_cast<std::size_t>(connectors.front())].at});
     for (const int c : fastened)
       if (!connectors_[static_cast<std::size_t>(c)].drawing) attach(index, c);
     if (to_link != -2) fastened_links_.emplace_back(index, to_link);
@@ -167,10 +167,10 @@ class Reader {
     return static_cast<int>(found->second);
   }
 
-  int add_link(const std::string& name, int line, const std::vector<int>& own) {
+  int add_link(const std::string& name, int line, const std::vector<int>& connectors) {
     s_.links.push_back({name, line, 0, {}, {}, false, false});
     const int index = static_cast<int>(s_.links.size()) - 1;
-    for (const int c : own) attach(index, c);
+    for (const int c : connectors) attach(index, c);
     return index;
   }
   void attach(int link, int c) {
@@ -178,16 +178,17 @@ class Reader {
     if (std::find(links.begin(), links.end(), link) == links.end()) links.push_back(link);
   }
 
-  void add_actuator(const XmlElement& at, const std::string& name, const std::vector<int>& own, double stroke,
+  void add_actuator(const XmlElement& at, const std::string& name, const std::vector<int>& connectors, double stroke,
                     double cpm) {
-    if (own.size() != 2)
-      throw InputError({file_, at.line}, "actuator " + name + " has " + std::to_string(own.size()) + " connectors",
-                       "give it two");
+    if (connectors.size() != 2)
+      throw InputError({file_, at.line},
+                       "actuator " + name + " has " + std::to_string(connectors.size()) + " connectors", "give it two");
     if (!(stroke > 0))
       throw InputError({file_, at.line}, "actuator " + name + " has no throw", "give it one in Linkage");
-    const int body = add_link(name + "_body", at.line, {own[0]}), rod = add_link(name + "_rod", at.line, {own[1]});
-    const Vec a = connectors_[static_cast<std::size_t>(own[0])].at,
-              b = connectors_[static_cast<std::size_t>(own[1])].at;
+    const int body = add_link(name + "_body", at.line, {connectors[0]}),
+              rod = add_link(name + "_rod", at.line, {connectors[1]});
+    const Vec a = connectors_[static_cast<std::size_t>(connectors[0])].at,
+              b = connectors_[static_cast<std::size_t>(connectors[1])].at;
     const double length = distance(a, b), reach = scale_ * stroke;
     if (!(length > 0))
       throw InputError({file_, at.line}, "actuator " + name + " has no length", "draw it longer in Linkage");
@@ -301,22 +302,22 @@ class Reader {
     s_.note("connectors " + p.pin->name + " and " + q.pin->name + " run in one slot: one guide, which bears at both");
   }
 
-  void slot(const Slot& own) {
-    const Connector& c = *own.pin;
-    if (own.carrier == own.follower) {
+  void slot(const Slot& at) {
+    const Connector& c = *at.pin;
+    if (at.carrier == at.follower) {
       s_.note("the slot of connector " + c.name + " is on the ground, as its pin is: it was left out");
       return;
     }
-    SourceJoint& slot = add_joint(c, SourceKind::slot, own.carrier, own.follower, own.b->at - own.a->at);
+    SourceJoint& slot = add_joint(c, SourceKind::slot, at.carrier, at.follower, at.b->at - at.a->at);
     slot.name = c.name + "_slot";
     slot.point = c.name;
-    slot.along = std::pair{own.a->at, own.b->at};
+    slot.along = std::pair{at.a->at, at.b->at};
   }
 
   // --- gears and chains
 
   void ratios(const XmlElement& at) {
-    for (const XmlElement* own : at.all("ratio")) ratio(*own);
+    for (const XmlElement* element : at.all("ratio")) ratio(*element);
     for (const Wheel& wheel : wheels_)
       if (!wheel.turns)
         s_.note("gear " + s_.links[static_cast<std::size_t>(wheel.link)].name + " has no other one and is a link here");
@@ -336,11 +337,11 @@ class Reader {
       throw InputError({file_, at.line}, "a ratio is of " + std::to_string(both.size()) + " links", "name two gears");
     std::array<double, 2> sizes{};
     for (std::size_t i = 0; i < 2; ++i) {
-      Wheel& own = wheel_named(*both[i]);
+      Wheel& wheel = wheel_named(*both[i]);
       sizes[i] = number(*both[i], "size", 1);
-      mesh.links[i] = own.link;
-      mesh.at[i] = own.centre;
-      own.turns = true;
+      mesh.links[i] = wheel.link;
+      mesh.at[i] = wheel.centre;
+      wheel.turns = true;
     }
     mesh.name = what + "_" + s_.links[static_cast<std::size_t>(mesh.links[0])].name + "_" +
                 s_.links[static_cast<std::size_t>(mesh.links[1])].name;
@@ -358,7 +359,7 @@ class Reader {
   };
   Wheel& wheel_named(const XmlElement& at) {
     const int id = whole(at, "id", -1);
-    const auto found = std::find_if(wheels_.begin(), wheels_.end(), [&](const Wheel& own) { return own.id == id; });
+    const auto found = std::find_if(wheels_.begin(), wheels_.end(), [&](const Wheel& wheel) { return wheel.id == id; });
     if (found == wheels_.end())
       throw InputError({file_, at.line}, "a ratio is of link " + std::to_string(id) + ", which is no gear",
                        "save the file in Linkage again");
@@ -377,18 +378,19 @@ class Reader {
       return found->second;
     };
     for (const auto& [link, id] : fastened_links_) {
-      const SourceLink& own = s_.links[static_cast<std::size_t>(link)];
-      weld(link, linked(id, "link " + own.name, own.line), "fastening_" + own.name, own.line, {});
+      const SourceLink& source_link = s_.links[static_cast<std::size_t>(link)];
+      weld(link, linked(id, "link " + source_link.name, source_link.line), "fastening_" + source_link.name,
+           source_link.line, {});
     }
     for (const auto& [link, id] : fastened_connectors_) {
-      const SourceLink& own = s_.links[static_cast<std::size_t>(link)];
+      const SourceLink& source_link = s_.links[static_cast<std::size_t>(link)];
       const auto found = index_.find(id);
       if (found == index_.end() || !connectors_[found->second].anchor)
         throw InputError(
-            {file_, own.line},
-            "link " + own.name + " is fastened to connector " + std::to_string(id) + ", which is no anchor",
+            {file_, source_link.line},
+            "link " + source_link.name + " is fastened to connector " + std::to_string(id) + ", which is no anchor",
             "fasten it to a link");
-      weld(link, ground_link, "fastening_" + own.name, own.line, {});
+      weld(link, ground_link, "fastening_" + source_link.name, source_link.line, {});
     }
     for (const Connector& c : connectors_)
       if (!c.drawing && c.fastened_to != -2 && !c.links.empty())

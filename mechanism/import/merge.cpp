@@ -22,13 +22,13 @@ bool join_the_same(const SourceJoint& a, const SourceJoint& b) {
 
 /// A link without a centre of mass has it in the middle of its first two joints.
 void give_centre(Source& source, int link) {
-  SourceLink& own = source.links[static_cast<std::size_t>(link)];
-  if (own.centre || !(own.mass > 0)) return;
+  SourceLink& source_link = source.links[static_cast<std::size_t>(link)];
+  if (source_link.centre || !(source_link.mass > 0)) return;
   std::vector<Vec> places;
   for (const SourceJoint& joint : source.joints)
     if (!joint.dropped && (joint.from == link || joint.to == link)) places.push_back(joint.at());
   if (places.empty()) return;
-  own.centre = places.size() == 1 ? places[0] : 0.5 * (places[0] + places[1]);
+  source_link.centre = places.size() == 1 ? places[0] : 0.5 * (places[0] + places[1]);
 }
 
 void add_mass(Source& source, int into, int from) {
@@ -110,8 +110,8 @@ double from_line(const Vec& point, const Vec& on, const Vec& axis) { return norm
 /// What two joints between the same two links are together. True where something changed.
 bool join_pair(Source& source, std::size_t i, std::size_t j, double size) {
   SourceJoint &a = source.joints[i], &b = source.joints[j];
-  const auto words = [&](const SourceJoint& own) {
-    return link_words(source, own.from) + " and " + link_words(source, own.to);
+  const auto words = [&](const SourceJoint& joint) {
+    return link_words(source, joint.from) + " and " + link_words(source, joint.to);
   };
   const auto weld = [&](const std::string& why) {
     const int from = a.from, to = a.to;
@@ -171,21 +171,21 @@ std::vector<Meeting> meetings(const Source& source, double size) {
   std::vector<Meeting> found;
   for (const SourceJoint& joint : source.joints) {
     if (!is_pin(joint)) continue;
-    Meeting own{joint.at(), joint.axis(), {joint.from, joint.to}, joint.name};
+    Meeting meeting{joint.at(), joint.axis(), {joint.from, joint.to}, joint.name};
     for (auto other = found.begin(); other != found.end();) {
       const bool shares =
-          std::any_of(other->links.begin(), other->links.end(), [&](int l) { return own.links.contains(l); });
-      if (shares && norm(cross(other->axis, own.axis)) <= parallel &&
-          norm(cross(own.axis, other->at - own.at)) <= near * size) {
-        own.links.insert(other->links.begin(), other->links.end());
-        own.name = other->name;
-        own.at = other->at;
+          std::any_of(other->links.begin(), other->links.end(), [&](int l) { return meeting.links.contains(l); });
+      if (shares && norm(cross(other->axis, meeting.axis)) <= parallel &&
+          norm(cross(meeting.axis, other->at - meeting.at)) <= near * size) {
+        meeting.links.insert(other->links.begin(), other->links.end());
+        meeting.name = other->name;
+        meeting.at = other->at;
         other = found.erase(other);
       } else {
         ++other;
       }
     }
-    found.push_back(std::move(own));
+    found.push_back(std::move(meeting));
   }
   return found;
 }
@@ -241,7 +241,7 @@ bool is_meshed(const Source& source, int link) {
   return std::any_of(source.meshes.begin(), source.meshes.end(),
                      [&](const SourceMesh& mesh) { return mesh.links[0] == link || mesh.links[1] == link; }) ||
          std::any_of(source.followers.begin(), source.followers.end(),
-                     [&](const SourceFollower& own) { return joins(own.joint) || joins(own.leader); });
+                     [&](const SourceFollower& follower) { return joins(follower.joint) || joins(follower.leader); });
 }
 
 /// A link between two pins of one axis that has nothing else, such as a bush: its own turn changes nothing, and it is
@@ -249,12 +249,12 @@ bool is_meshed(const Source& source, int link) {
 bool join_idle(Source& source, double size) {
   for (std::size_t l = 0; l < source.links.size(); ++l) {
     const int link = static_cast<int>(l);
-    const auto on_it = [&](const auto& own) { return own.link == link; };
-    std::vector<const SourceJoint*> own;
+    const auto on_it = [&](const auto& candidate) { return candidate.link == link; };
+    std::vector<const SourceJoint*> joints;
     for (const SourceJoint& joint : source.joints)
-      if (!joint.dropped && (joint.from == link || joint.to == link)) own.push_back(&joint);
-    if (own.size() != 2 || !is_pin(*own[0]) || !is_pin(*own[1])) continue;
-    const SourceJoint &a = *own[0], &b = *own[1];
+      if (!joint.dropped && (joint.from == link || joint.to == link)) joints.push_back(&joint);
+    if (joints.size() != 2 || !is_pin(*joints[0]) || !is_pin(*joints[1])) continue;
+    const SourceJoint &a = *joints[0], &b = *joints[1];
     const std::optional<Vec>& centre = source.links[l].centre;
     const bool on_axis = norm(cross(a.axis(), b.axis())) <= parallel &&
                          from_line(b.at(), a.at(), a.axis()) <= near * size &&

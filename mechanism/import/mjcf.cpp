@@ -46,20 +46,20 @@ class Reader : private MjcfSettings {
     s_.name = root_.get("model", "");
     if (const XmlElement* include = find(root_, "include"))
       refuse(*include, "the model includes another file", "put it in its place");
-    for (const XmlElement* own : root_.all("compiler")) compiler(*own);
-    for (const XmlElement* own : root_.all("option")) option(*own);
+    for (const XmlElement* element : root_.all("compiler")) compiler(*element);
+    for (const XmlElement* element : root_.all("option")) option(*element);
     s_.gravity = gravity_;
-    for (const XmlElement* own : root_.all("default")) defaults(*own, "main", {});
+    for (const XmlElement* element : root_.all("default")) defaults(*element, "main", {});
     bodies_.push_back({"world", ground_link, -1, {}});
-    for (const XmlElement* own : root_.all("worldbody")) contents(*own, 0, {}, "main", 0);
+    for (const XmlElement* element : root_.all("worldbody")) contents(*element, 0, {}, "main", 0);
     if (s_.links.empty()) refuse(root_, "the model has no bodies", "name an MJCF file of a mechanism");
-    for (const XmlElement* own : root_.all("equality")) equality(*own);
-    for (const XmlElement* own : root_.all("actuator")) actuators(*own);
+    for (const XmlElement* element : root_.all("equality")) equality(*element);
+    for (const XmlElement* element : root_.all("actuator")) actuators(*element);
     for (const auto& [name, site] : sites_)
       if (!used_sites_.contains(name) && bodies_[static_cast<std::size_t>(site.first)].link != ground_link)
         s_.points.push_back({name, bodies_[static_cast<std::size_t>(site.first)].link, site.second.at, true});
-    for (const XmlElement* own : root_.all("keyframe")) keyframe(*own);
-    for (const TreeFollower& own : followers_) follow(own);
+    for (const XmlElement* element : root_.all("keyframe")) keyframe(*element);
+    for (const TreeFollower& follower : followers_) follow(follower);
     if (const auto left = unread(root_); !left.empty()) {
       std::string text;
       for (const std::string& word : left) text += (text.empty() ? "" : ", ") + word;
@@ -90,49 +90,49 @@ class Reader : private MjcfSettings {
 
   void contents(const XmlElement& at, int body, const Pose& pose, const std::string& childclass, int depth) {
     for (const char* unknown : {"composite", "flexcomp", "replicate", "attach", "include"})
-      if (const XmlElement* own = at.first(unknown))
-        refuse(*own, "<" + own->name + "> makes bodies that are not written", "write the bodies themselves");
-    if (const XmlElement* own = at.first("freejoint"))
-      refuse(*own, "body " + bodies_[static_cast<std::size_t>(body)].name + " is free (freejoint)",
+      if (const XmlElement* element = at.first(unknown))
+        refuse(*element, "<" + element->name + "> makes bodies that are not written", "write the bodies themselves");
+    if (const XmlElement* element = at.first("freejoint"))
+      refuse(*element, "body " + bodies_[static_cast<std::size_t>(body)].name + " is free (freejoint)",
              "fix its base: take the free joint out");
-    for (const XmlElement* own : at.all("site")) {
-      const std::string name = own->get("name", "");
-      if (!name.empty()) sites_[name] = {body, pose * pose_of(*own, childclass)};
+    for (const XmlElement* element : at.all("site")) {
+      const std::string name = element->get("name", "");
+      if (!name.empty()) sites_[name] = {body, pose * pose_of(*element, childclass)};
     }
-    for (const XmlElement* own : at.all("frame"))
-      contents(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
-    for (const XmlElement* own : at.all("body"))
-      body_of(*own, body, pose * pose_of(*own, childclass), own->get("childclass", childclass), depth + 1);
+    for (const XmlElement* element : at.all("frame"))
+      contents(*element, body, pose * pose_of(*element, childclass), element->get("childclass", childclass), depth + 1);
+    for (const XmlElement* element : at.all("body"))
+      body_of(*element, body, pose * pose_of(*element, childclass), element->get("childclass", childclass), depth + 1);
   }
 
   void body_of(const XmlElement& at, int parent, const Pose& pose, const std::string& childclass, int depth) {
-    Body own;
-    own.name = at.get("name", "body" + std::to_string(bodies_.size()));
-    own.parent = parent;
-    own.pose = pose;
+    Body body;
+    body.name = at.get("name", "body" + std::to_string(bodies_.size()));
+    body.parent = parent;
+    body.pose = pose;
     if (at.get("mocap", "false") == "true")
-      s_.note("body " + own.name + " is moved from outside (mocap); it stands still here");
-    s_.links.push_back({own.name, at.line, 0, {}, {}, false, false});
-    own.link = static_cast<int>(s_.links.size()) - 1;
+      s_.note("body " + body.name + " is moved from outside (mocap); it stands still here");
+    s_.links.push_back({body.name, at.line, 0, {}, {}, false, false});
+    body.link = static_cast<int>(s_.links.size()) - 1;
     const int index = static_cast<int>(bodies_.size());
-    bodies_.push_back(own);
+    bodies_.push_back(body);
     // Joints and masses of this body come before those of its children.
     Parts parts;
     gather(at, pose, childclass, parts, depth);
-    join(at, own, parts);
-    weigh(at, own, parts);
+    join(at, body, parts);
+    weigh(at, body, parts);
     contents(at, index, pose, childclass, depth);
   }
 
   void gather(const XmlElement& at, const Pose& pose, const std::string& childclass, Parts& parts, int depth) {
-    for (const XmlElement* own : at.all("joint")) parts.joints.push_back({own, {pose, childclass}});
-    for (const XmlElement* own : at.all("geom")) parts.shapes.push_back({own, {pose, childclass}});
-    if (const XmlElement* own = at.first("inertial")) {
-      parts.inertial = own;
+    for (const XmlElement* element : at.all("joint")) parts.joints.push_back({element, {pose, childclass}});
+    for (const XmlElement* element : at.all("geom")) parts.shapes.push_back({element, {pose, childclass}});
+    if (const XmlElement* element = at.first("inertial")) {
+      parts.inertial = element;
       parts.inertial_frame = pose;
     }
-    for (const XmlElement* own : at.all("frame"))
-      gather(*own, pose * pose_of(*own, childclass), own->get("childclass", childclass), parts, depth + 1);
+    for (const XmlElement* element : at.all("frame"))
+      gather(*element, pose * pose_of(*element, childclass), element->get("childclass", childclass), parts, depth + 1);
   }
 
   struct Single {
@@ -144,51 +144,51 @@ class Reader : private MjcfSettings {
   };
 
   Single single(const XmlElement& at, const Pose& pose, const std::string& childclass) const {
-    Single own;
-    own.type = value(at, "type", childclass).value_or("hinge");
-    own.name = at.get("name", "");
-    own.line = at.line;
-    own.at = pose * vector(at, "pos", {}, childclass);
+    Single single;
+    single.type = value(at, "type", childclass).value_or("hinge");
+    single.name = at.get("name", "");
+    single.line = at.line;
+    single.at = pose * vector(at, "pos", {}, childclass);
     const Vec axis = vector(at, "axis", {0, 0, 1}, childclass);
     if (!(norm(axis) > 1e-9)) refuse(at, "the axis of a joint has no direction", "write such as axis=\"0 0 1\"");
-    own.axis = pose.turned * unit(axis);
-    const std::string called = own.name.empty() ? "a joint without a name" : "joint " + own.name;
-    if (own.type == "free") refuse(at, called + " leaves its body free", "fix its base: take the free joint out");
-    if (own.type != "hinge" && own.type != "slide" && own.type != "ball")
-      refuse(at, called + " is of type '" + own.type + "'", "use hinge, slide or ball");
-    const bool turns = own.type == "hinge";
+    single.axis = pose.turned * unit(axis);
+    const std::string called = single.name.empty() ? "a joint without a name" : "joint " + single.name;
+    if (single.type == "free") refuse(at, called + " leaves its body free", "fix its base: take the free joint out");
+    if (single.type != "hinge" && single.type != "slide" && single.type != "ball")
+      refuse(at, called + " is of type '" + single.type + "'", "use hinge, slide or ball");
+    const bool turns = single.type == "hinge";
     if (const auto text = value(at, "ref", childclass))
-      own.reference = numbers(at, "ref", *text, 1, 1).front() * (turns ? angle(1) : 1);
+      single.reference = numbers(at, "ref", *text, 1, 1).front() * (turns ? angle(1) : 1);
     const std::string limited = value(at, "limited", childclass).value_or("auto");
-    if (const auto text = value(at, "range", childclass); text && own.type != "ball") {
+    if (const auto text = value(at, "range", childclass); text && single.type != "ball") {
       const auto v = numbers(at, "range", *text, 2, 2);
       const double unit = turns ? angle(1) : 1;
       if (v[0] < v[1] && (limited == "true" || (limited == "auto" && limits_by_range_)))
-        own.range = std::array<double, 2>{unit * v[0] - own.reference, unit * v[1] - own.reference};
+        single.range = std::array<double, 2>{unit * v[0] - single.reference, unit * v[1] - single.reference};
     }
-    return own;
+    return single;
   }
 
-  int add(SourceKind kind, const Single& own, int from, int to) {
-    add_joint(s_, own.name, own.line, kind, from, to, own.at, own.axis).range = own.range;
+  int add(SourceKind kind, const Single& single, int from, int to) {
+    add_joint(s_, single.name, single.line, kind, from, to, single.at, single.axis).range = single.range;
     return static_cast<int>(s_.joints.size()) - 1;
   }
 
-  void join(const XmlElement& at, const Body& own, const Parts& parts) {
-    const int parent = bodies_[static_cast<std::size_t>(own.parent)].link;
+  void join(const XmlElement& at, const Body& body, const Parts& parts) {
+    const int parent = bodies_[static_cast<std::size_t>(body.parent)].link;
     std::vector<Single> list;
     for (const auto& [element, frame] : parts.joints) {
       list.push_back(single(*element, frame.first, frame.second));
       if (list.back().name.empty())
-        list.back().name = own.name + (parts.joints.size() > 1 ? "_" + std::to_string(list.size()) : "");
+        list.back().name = body.name + (parts.joints.size() > 1 ? "_" + std::to_string(list.size()) : "");
     }
     if (list.empty()) {
       Single weld;
-      weld.name = own.name + "_weld";
+      weld.name = body.name + "_weld";
       weld.line = at.line;
-      weld.at = own.pose.at;
+      weld.at = body.pose.at;
       weld.axis = {0, 0, 1};
-      add(SourceKind::fixed, weld, parent, own.link);
+      add(SourceKind::fixed, weld, parent, body.link);
       return;
     }
     const auto across = [&](std::size_t i, std::size_t j) {
@@ -196,25 +196,25 @@ class Reader : private MjcfSettings {
     };
     const bool hinges = std::all_of(list.begin(), list.end(), [](const Single& one) { return one.type == "hinge"; });
     if (hinges && list.size() == 2 && across(0, 1)) {
-      const int joint = add(SourceKind::universal, list[0], parent, own.link);
+      const int joint = add(SourceKind::universal, list[0], parent, body.link);
       s_.joints.back().on_to.frame = frame_along(list[1].axis);
       s_.joints.back().range.reset();
-      s_.note("hinges " + list[0].name + " and " + list[1].name + " of body " + own.name + " are one universal joint");
+      s_.note("hinges " + list[0].name + " and " + list[1].name + " of body " + body.name + " are one universal joint");
       for (const Single& one : list) tree_.push_back({one.name, one.type, {joint}, one.reference});
       return;
     }
     if (hinges && list.size() == 3 && across(0, 1) && across(0, 2) && across(1, 2)) {
-      const int joint = add(SourceKind::spherical, list[0], parent, own.link);
+      const int joint = add(SourceKind::spherical, list[0], parent, body.link);
       s_.joints.back().range.reset();
-      s_.note("the three hinges of body " + own.name + " are one ball");
+      s_.note("the three hinges of body " + body.name + " are one ball");
       for (const Single& one : list) tree_.push_back({one.name, one.type, {joint}, one.reference});
       return;
     }
     int from = parent;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      int to = own.link;
+      int to = body.link;
       if (i + 1 < list.size()) {
-        s_.links.push_back({own.name + "_part" + std::to_string(i + 1), at.line, 0, {}, {}, false, true});
+        s_.links.push_back({body.name + "_part" + std::to_string(i + 1), at.line, 0, {}, {}, false, true});
         to = static_cast<int>(s_.links.size()) - 1;
       }
       const SourceKind kind = list[i].type == "hinge"   ? SourceKind::revolute
@@ -223,21 +223,21 @@ class Reader : private MjcfSettings {
       tree_.push_back({list[i].name, list[i].type, {add(kind, list[i], from, to)}, list[i].reference});
       // The axes of a ball are those of its body, for a posture that turns it.
       if (kind == SourceKind::spherical)
-        s_.joints.back().on_from.frame = s_.joints.back().on_to.frame = own.pose.turned;
+        s_.joints.back().on_from.frame = s_.joints.back().on_to.frame = body.pose.turned;
       from = to;
     }
   }
 
   // --- masses
 
-  void weigh(const XmlElement& at, const Body& own, const Parts& parts) {
-    SourceLink& link = s_.links[static_cast<std::size_t>(own.link)];
+  void weigh(const XmlElement& at, const Body& body, const Parts& parts) {
+    SourceLink& link = s_.links[static_cast<std::size_t>(body.link)];
     if (parts.inertial != nullptr && from_shapes_ != "true") {
       const XmlElement& inertial = *parts.inertial;
       const Pose frame =
           parts.inertial_frame * Pose{orientation(inertial, "main"), vector(inertial, "pos", {}, "main")};
       link.mass = numbers(inertial, "mass", inertial.get("mass", "0"), 1, 1).front();
-      if (link.mass < 0) refuse(inertial, "the mass of body " + own.name + " is negative", "write 0 or more");
+      if (link.mass < 0) refuse(inertial, "the mass of body " + body.name + " is negative", "write 0 or more");
       link.centre = frame.at;
       Tensor tensor;
       if (const auto text = inertial.get("fullinertia")) {
@@ -251,17 +251,18 @@ class Reader : private MjcfSettings {
       return;
     }
     if (from_shapes_ == "false") return;
-    bool known = false;
-    for (const auto& [element, frame] : parts.shapes) known = shape(*element, frame.first, frame.second, link) || known;
-    if (!known) without_mass_.push_back(own.name);
+    bool is_named = false;
+    for (const auto& [element, frame] : parts.shapes)
+      is_named = shape(*element, frame.first, frame.second, link) || is_named;
+    if (!is_named) without_mass_.push_back(body.name);
     (void)at;
   }
 
   // --- loops, motors, posture
 
   const Body& body_named(const XmlElement& at, const std::string& name) const {
-    for (const Body& own : bodies_)
-      if (own.name == name) return own;
+    for (const Body& body : bodies_)
+      if (body.name == name) return body;
     refuse(at, "<" + at.name + "> names body '" + name + "', which is not there", "correct the name");
   }
 
@@ -325,7 +326,8 @@ class Reader : private MjcfSettings {
   }
 
   std::size_t hinge_named(const XmlElement& at, const std::string& equality, const std::string& name) const {
-    const auto found = std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& own) { return own.name == name; });
+    const auto found =
+        std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& joint) { return joint.name == name; });
     if (found == tree_.end())
       refuse(at, "equality " + equality + " names joint '" + name + "', which is not there", "correct the name");
     if (s_.joints[static_cast<std::size_t>(found->joints.front())].kind != SourceKind::revolute)
@@ -349,24 +351,25 @@ class Reader : private MjcfSettings {
   }
 
   /// Turns what follows to where it has to be in the posture.
-  void follow(const TreeFollower& own) {
-    TreeJoint& joint = tree_[own.joint];
+  void follow(const TreeFollower& follower) {
+    TreeJoint& joint = tree_[follower.joint];
     const auto index = static_cast<std::size_t>(joint.joints.front());
-    const double off = own.constant + own.slope * tree_[own.leader].value - joint.value;
+    const double off = follower.constant + follower.slope * tree_[follower.leader].value - joint.value;
     if (std::abs(off) > 1e-12) {
       const SourceJoint pin = s_.joints[index];
       for (const int link : below(pin.to)) move_link(s_, link, pin.at(), {}, turn(pin.axis(), off));
       joint.value += off;
       s_.note("joint " + joint.name + " was turned by " + shortest_decimal(off, 1e-9) + " rad to where it follows");
     }
-    if (own.joint == own.leader) {
+    if (follower.joint == follower.leader) {
       SourceJoint& held = s_.joints[index];
       held.kind = SourceKind::fixed;
       held.actuated = false;
       held.on_to.frame = held.on_from.frame;
       return;
     }
-    s_.followers.push_back({index, static_cast<std::size_t>(tree_[own.leader].joints.front()), own.slope, own.line});
+    s_.followers.push_back(
+        {index, static_cast<std::size_t>(tree_[follower.leader].joints.front()), follower.slope, follower.line});
   }
 
   void actuators(const XmlElement& at) {
@@ -380,7 +383,7 @@ class Reader : private MjcfSettings {
         continue;
       }
       const auto found =
-          std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& own) { return own.name == target; });
+          std::find_if(tree_.begin(), tree_.end(), [&](const TreeJoint& joint) { return joint.name == target; });
       if (found == tree_.end())
         refuse(child, "actuator " + name + " drives joint '" + target + "', which is not there", "correct the name");
       SourceJoint& joint = s_.joints[static_cast<std::size_t>(found->joints.front())];
@@ -399,28 +402,28 @@ class Reader : private MjcfSettings {
     const auto text = key->get("qpos");
     if (!text) return;
     std::size_t wanted = 0;
-    for (const TreeJoint& own : tree_) wanted += own.type == "ball" ? 4 : 1;
+    for (const TreeJoint& joint : tree_) wanted += joint.type == "ball" ? 4 : 1;
     const auto q = numbers(*key, "qpos", *text, wanted, wanted);
     s_.note("the posture is that of keyframe " + key->get("name", "1"));
     std::size_t at_q = 0;
-    for (TreeJoint& own : tree_) {
-      const SourceJoint joint = s_.joints[static_cast<std::size_t>(own.joints.front())];
+    for (TreeJoint& tree_joint : tree_) {
+      const SourceJoint joint = s_.joints[static_cast<std::size_t>(tree_joint.joints.front())];
       Rotation r;
       Vec shift{};
-      if (own.type == "ball") {
+      if (tree_joint.type == "ball") {
         const Rotation& frame = joint.on_from.frame;
         r = frame * quaternion(q[at_q], q[at_q + 1], q[at_q + 2], q[at_q + 3]) * frame.transposed();
         at_q += 4;
       } else {
-        const double value = q[at_q++] - own.reference;
-        own.value = value;
-        if (own.type == "slide")
+        const double value = q[at_q++] - tree_joint.reference;
+        tree_joint.value = value;
+        if (tree_joint.type == "slide")
           shift = value * joint.axis();
         else
           r = turn(joint.axis(), value);
       }
-      if (joint.kind == SourceKind::universal || (joint.kind == SourceKind::spherical && own.type == "hinge")) {
-        s_.note("the keyframe's value of " + own.name + " was left out: it is part of a joint of several axes");
+      if (joint.kind == SourceKind::universal || (joint.kind == SourceKind::spherical && tree_joint.type == "hinge")) {
+        s_.note("the keyframe's value of " + tree_joint.name + " was left out: it is part of a joint of several axes");
         continue;
       }
       for (const int link : below(joint.to)) move_link(s_, link, joint.at(), shift, r);
@@ -432,8 +435,8 @@ class Reader : private MjcfSettings {
   std::vector<int> below(int link) const {
     std::vector<int> found = {link};
     for (std::size_t i = 0; i < found.size(); ++i) {
-      for (const TreeJoint& own : tree_)
-        for (const int j : own.joints)
+      for (const TreeJoint& joint : tree_)
+        for (const int j : joint.joints)
           if (s_.joints[static_cast<std::size_t>(j)].from == found[i])
             found.push_back(s_.joints[static_cast<std::size_t>(j)].to);
       for (const SourceJoint& joint : s_.joints)

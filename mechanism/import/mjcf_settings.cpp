@@ -32,20 +32,20 @@ void MjcfSettings::option(const XmlElement& at) {
 
 void MjcfSettings::defaults(const XmlElement& at, const std::string& name,
                             std::map<std::string, std::vector<const XmlElement*>> outer) {
-  const std::string own = at.get("class", name);
+  const std::string class_name = at.get("class", name);
   for (const XmlElement& child : at.children) {
     if (child.name == "default") continue;
     child.read = true;
     auto& chain = outer[child.name];
     chain.insert(chain.begin(), &child);
   }
-  classes_[own] = outer;
+  classes_[class_name] = outer;
   for (const XmlElement* child : at.all("default")) defaults(*child, "", outer);
 }
 
 std::optional<std::string> MjcfSettings::value(const XmlElement& at, const std::string& attribute,
                                                const std::string& childclass) const {
-  if (auto own = at.get(attribute)) return own;
+  if (auto written = at.get(attribute)) return written;
   const std::string name = at.get("class", childclass);
   auto found = classes_.find(name);
   if (found == classes_.end()) {
@@ -55,8 +55,8 @@ std::optional<std::string> MjcfSettings::value(const XmlElement& at, const std::
   }
   const auto chain = found->second.find(at.name);
   if (chain == found->second.end()) return std::nullopt;
-  for (const XmlElement* own : chain->second)
-    if (auto text = own->get(attribute)) return text;
+  for (const XmlElement* written : chain->second)
+    if (auto text = written->get(attribute)) return text;
   return std::nullopt;
 }
 
@@ -165,12 +165,12 @@ bool MjcfSettings::shape(const XmlElement& at, const Pose& pose, const std::stri
   else
     mass = volume * numbers(at, "density", value(at, "density", childclass).value_or("1000"), 1, 1).front();
   if (!(mass > 0)) return mass == 0;
-  Tensor own = turned(frame.turned, unit_inertia);
-  own = {mass * own.xx, mass * own.yy, mass * own.zz, mass * own.xy, mass * own.xz, mass * own.yz};
+  Tensor tensor = turned(frame.turned, unit_inertia);
+  tensor = {mass * tensor.xx, mass * tensor.yy, mass * tensor.zz, mass * tensor.xy, mass * tensor.xz, mass * tensor.yz};
   const Vec before = link.centre.value_or(frame.at);
   const double sum = link.mass + mass;
   const Vec centre = (1 / sum) * (link.mass * before + mass * frame.at);
-  link.inertia = link.inertia.value_or(Tensor{}) + point_inertia(link.mass, before - centre) + own +
+  link.inertia = link.inertia.value_or(Tensor{}) + point_inertia(link.mass, before - centre) + tensor +
                  point_inertia(mass, frame.at - centre);
   link.mass = sum;
   link.centre = centre;

@@ -105,16 +105,16 @@ class Reader {
   }
   static Section word(Section& rest) {
     const std::size_t comma = rest.text.find(',');
-    Section own{rest.text.substr(0, comma), rest.place};
+    Section section{rest.text.substr(0, comma), rest.place};
     if (comma == std::string_view::npos) {
       rest = {{}, rest.place + rest.text.size()};
     } else {
       rest = {rest.text.substr(comma + 1), rest.place + comma + 1};
     }
-    return own;
+    return section;
   }
-  double integer(const Section& own, const std::string& what) const {
-    std::string_view word = own.text;
+  double integer(const Section& section, const std::string& what) const {
+    std::string_view word = section.text;
     bool minus = false;
     if (!word.empty() && word.front() == '0') {
       minus = true;
@@ -123,17 +123,18 @@ class Reader {
     double value = 0;
     constexpr std::size_t longest = 8;  // 48 bits: exact in a double
     if (word.size() > longest)
-      refuse(own.place, what + " '" + std::string(own.text) + "' has more than 8 digits", "correct it in PMKS+");
+      refuse(section.place, what + " '" + std::string(section.text) + "' has more than 8 digits",
+             "correct it in PMKS+");
     for (std::size_t i = 0; i < word.size(); ++i) {
       const std::size_t digit = digits.find(word[i]);
       if (digit == std::string_view::npos)
-        refuse(own.place + i, what + " '" + std::string(own.text) + "' is no number to base 64",
+        refuse(section.place + i, what + " '" + std::string(section.text) + "' is no number to base 64",
                "copy the address from PMKS+ again");
       value = value * 64 + static_cast<double>(digit);
     }
     return minus ? -value : value;
   }
-  double decimal(const Section& own, const std::string& what) const { return integer(own, what) / 1000; }
+  double decimal(const Section& section, const std::string& what) const { return integer(section, what) / 1000; }
   unsigned flags(std::string_view letters, std::size_t place, const std::string& what) const {
     unsigned value = 0;
     for (const char letter : letters) {
@@ -190,13 +191,13 @@ class Reader {
   }
 
   void joint(Section rest) {
-    const Section own = rest;
+    const Section section = rest;
     if (rest.text.size() < 2)
-      refuse(own.place, "a joint of the PMKS+ text has no name", "copy the address from PMKS+ again");
+      refuse(section.place, "a joint of the PMKS+ text has no name", "copy the address from PMKS+ again");
     const unsigned flag = flags(rest.text.substr(0, 1), rest.place, "a joint");
     rest = {rest.text.substr(1), rest.place + 1};
     Joint j;
-    j.place = static_cast<int>(own.place);
+    j.place = static_cast<int>(section.place);
     j.slides = (flag & 1U) != 0;
     j.input = (flag & 2U) != 0;
     j.grounded = (flag & 4U) != 0;
@@ -215,23 +216,24 @@ class Reader {
       refuse(rest.place, what + " has more words than are known: '" + std::string(rest.text) + "'",
              "open it in PMKS+ and share it again");
     if (!index_.emplace(j.id, joints_.size()).second)
-      refuse(own.place, "two joints are called " + j.id, "copy the address from PMKS+ again");
+      refuse(section.place, "two joints are called " + j.id, "copy the address from PMKS+ again");
     if (!j.carrier.empty() && !j.slides)
-      refuse(own.place, what + " does not slide but has a slot", "copy the address from PMKS+ again");
+      refuse(section.place, what + " does not slide but has a slot", "copy the address from PMKS+ again");
     joints_.push_back(std::move(j));
   }
 
   void link(Section rest) {
-    const Section own = rest;
+    const Section section = rest;
     if (rest.text.size() < 3)
-      refuse(own.place, "a link of the PMKS+ text is cut short", "copy the address from PMKS+ again");
+      refuse(section.place, "a link of the PMKS+ text is cut short", "copy the address from PMKS+ again");
     static constexpr std::string_view roots = "YAMG0123", others = "Namg4567";
     const char root = rest.text[0], type = rest.text[1];
     if (roots.find(root) == std::string_view::npos && others.find(root) == std::string_view::npos)
-      refuse(own.place, "'" + std::string(1, root) + "' begins no link that is known",
+      refuse(section.place, "'" + std::string(1, root) + "' begins no link that is known",
              "open it in PMKS+ and share it again");
     if (type != 'R' && type != 'P')
-      refuse(own.place + 1, "'" + std::string(1, type) + "' is no type of link", "open it in PMKS+ and share it again");
+      refuse(section.place + 1, "'" + std::string(1, type) + "' is no type of link",
+             "open it in PMKS+ and share it again");
     rest = {rest.text.substr(2), rest.place + 2};
     Link l;
     SourceLink link;
@@ -245,7 +247,7 @@ class Reader {
     centre[0] = decimal(word(rest), "x of the centre of mass of " + what);
     centre[1] = decimal(word(rest), "y of the centre of mass of " + what);
     if (link.mass < 0 || inertia < 0)
-      refuse(own.place, what + " has a negative mass or moment of inertia", "correct it in PMKS+");
+      refuse(section.place, what + " has a negative mass or moment of inertia", "correct it in PMKS+");
     (void)word(rest);  // its colour
     while (true) {
       const Section id = word(rest);
@@ -256,7 +258,7 @@ class Reader {
       l.joints.emplace_back(id.text);
     }
     if (roots.find(root) == std::string_view::npos) return;  // a part of a welded link
-    if (l.joints.empty()) refuse(own.place, what + " has no joints", "correct it in PMKS+");
+    if (l.joints.empty()) refuse(section.place, what + " has no joints", "correct it in PMKS+");
     if (type == 'R') {
       link.centre = centre;
       Tensor tensor;
@@ -267,13 +269,13 @@ class Reader {
       link.inertia = Tensor{};
     }
     if (!link_index_.emplace(l.id, links_.size()).second)
-      refuse(own.place, "two links are called " + l.id, "copy the address from PMKS+ again");
+      refuse(section.place, "two links are called " + l.id, "copy the address from PMKS+ again");
     links_.push_back(std::move(l));
     s_.links.push_back(std::move(link));
   }
 
   void force(Section rest) {
-    const Section own = rest;
+    const Section section = rest;
     const unsigned flag = flags(rest.text.substr(0, 1), rest.place, "a force");
     rest = {rest.text.substr(std::min<std::size_t>(1, rest.text.size())), rest.place + 1};
     SourceLoad load;
@@ -292,7 +294,7 @@ class Reader {
       refuse(id.place, what + " acts on link '" + std::string(id.text) + "', which is not there",
              "correct it in PMKS+");
     if (size == 0) return s_.note(what + " is 0 and was left out");
-    if (!(distance(end, load.at) > 0)) refuse(own.place, what + " has no direction", "draw its arrow in PMKS+");
+    if (!(distance(end, load.at) > 0)) refuse(section.place, what + " has no direction", "draw its arrow in PMKS+");
     load.link = static_cast<int>(link->second);
     load.force = ((flag & 2U) != 0 ? size : -size) * unit(end - load.at);
     load.turns = (flag & 1U) != 0;
@@ -303,12 +305,13 @@ class Reader {
     Section rest{text_.substr(at_), at_};
     std::map<char, int> counts;
     while (!rest.text.empty()) {
-      const Section own = word(rest);
-      if (own.text.empty()) continue;
-      if (std::string_view("JLFCSKP").find(own.text.front()) == std::string_view::npos)
-        refuse(own.place, "'" + std::string(own.text.substr(0, 20)) + "' is no entry of a PMKS+ text that is known",
+      const Section section = word(rest);
+      if (section.text.empty()) continue;
+      if (std::string_view("JLFCSKP").find(section.text.front()) == std::string_view::npos)
+        refuse(section.place,
+               "'" + std::string(section.text.substr(0, 20)) + "' is no entry of a PMKS+ text that is known",
                "open it in PMKS+ and share it again");
-      ++counts[own.text.front()];
+      ++counts[section.text.front()];
     }
     const std::map<char, std::string> words = {{'J', "locks of joints"},          {'L', "locks of links"},
                                                {'F', "locks of forces"},          {'C', "anchors of centres of mass"},
@@ -324,14 +327,14 @@ class Reader {
   // --- what is connected
 
   std::vector<int> links_at(const std::string& id) const {
-    std::vector<int> own;
+    std::vector<int> links;
     for (std::size_t l = 0; l < links_.size(); ++l)
       for (const std::string& joint : links_[l].joints)
         if (joint == id) {
-          own.push_back(static_cast<int>(l));
+          links.push_back(static_cast<int>(l));
           break;
         }
-    return own;
+    return links;
   }
 
   SourceJoint& add(const Joint& j, SourceKind kind, int from, int to, const Vec& axis) {
@@ -349,34 +352,34 @@ class Reader {
   void connect() {
     std::vector<std::string> shared;
     for (const Joint& j : joints_) {
-      const std::vector<int> own = links_at(j.id);
-      if (own.empty()) {
+      const std::vector<int> links = links_at(j.id);
+      if (links.empty()) {
         s_.note("joint " + j.id + " belongs to no link and was left out");
         continue;
       }
       if (j.slides) {
-        slider(j, own);
+        slider(j, links);
         continue;
       }
-      const int base = j.grounded ? ground_link : own.front();
+      const int base = j.grounded ? ground_link : links.front();
       bool driven = false;
-      for (std::size_t i = j.grounded ? 0 : 1; i < own.size(); ++i) {
+      for (std::size_t i = j.grounded ? 0 : 1; i < links.size(); ++i) {
         SourceJoint& joint = add(j, j.welded && i > 0 ? SourceKind::fixed : SourceKind::revolute,
-                                 j.welded && i > 0 ? own.front() : base, own[i], {0, 0, 1});
+                                 j.welded && i > 0 ? links.front() : base, links[i], {0, 0, 1});
         if (j.input && !driven && joint.kind == SourceKind::revolute) drive(joint, j);
         driven = true;
       }
-      if (own.size() + (j.grounded ? 1 : 0) > 2) shared.push_back(j.id);
-      if (own.size() == 1 && !j.grounded)
-        s_.points.push_back({j.name.empty() ? j.id : j.name, own.front(), j.at, true});
+      if (links.size() + (j.grounded ? 1 : 0) > 2) shared.push_back(j.id);
+      if (links.size() == 1 && !j.grounded)
+        s_.points.push_back({j.name.empty() ? j.id : j.name, links.front(), j.at, true});
     }
     if (!shared.empty())
       s_.note("more than two links meet at " + enumerated(shared) + ": all are pinned to " +
               "the ground or to the first of them; other pairings share the forces differently");
   }
 
-  void slider(const Joint& j, const std::vector<int>& own) {
-    for (std::size_t i = 1; i < own.size(); ++i) add(j, SourceKind::fixed, own.front(), own[i], {0, 0, 1});
+  void slider(const Joint& j, const std::vector<int>& links) {
+    for (std::size_t i = 1; i < links.size(); ++i) add(j, SourceKind::fixed, links.front(), links[i], {0, 0, 1});
     int from = ground_link;
     std::optional<std::pair<Vec, Vec>> along;
     Vec axis = guide_of(j);
@@ -397,7 +400,7 @@ class Reader {
       refuse(static_cast<std::size_t>(j.place), "joint " + j.id + " slides on nothing",
              "ground it in PMKS+, or give it a slot");
     }
-    SourceJoint& joint = add(j, SourceKind::prismatic, from, own.front(), axis);
+    SourceJoint& joint = add(j, SourceKind::prismatic, from, links.front(), axis);
     joint.along = along;
     if (j.input) drive(joint, j);
   }

@@ -99,13 +99,13 @@ class Reader {
     return found->second;
   }
 
-  SourceJoint& add(const std::string& own, SourceKind kind, int from, int to, const Vec& at, const Vec& axis) {
-    return add_joint(s_, own, 1, kind, from, to, at, axis);
+  SourceJoint& add(const std::string& label, SourceKind kind, int from, int to, const Vec& at, const Vec& axis) {
+    return add_joint(s_, label, 1, kind, from, to, at, axis);
   }
 
   void joint() {
     expect("J[");
-    const std::string own = "P" + std::to_string(count_++);
+    const std::string label = "P" + std::to_string(count_++);
     const std::string type = name();
     if (type != "R" && type != "P" && type != "RP")
       refuse("'" + type + "' is no type of joint of Pyslvs", "write R, P or RP");
@@ -132,7 +132,7 @@ class Reader {
         while (!eat("]")) {
           const int link = link_named(name());
           if (std::find(links.begin(), links.end(), link) != links.end())
-            refuse("joint " + own + " names a link twice", "name each once");
+            refuse("joint " + label + " names a link twice", "name each once");
           links.push_back(link);
           (void)eat(",");
         }
@@ -142,46 +142,46 @@ class Reader {
       }
     }
     expect("]");
-    if (!placed || !linked) refuse("joint " + own + " has no place P[..] or no links L[..]", "write both");
+    if (!placed || !linked) refuse("joint " + label + " has no place P[..] or no links L[..]", "write both");
     if (type != "R" && !turned)
-      refuse("joint " + own + " slides, but has no direction A[..]", "write its angle in degrees");
+      refuse("joint " + label + " slides, but has no direction A[..]", "write its angle in degrees");
     if (links.empty()) {
-      s_.note("joint " + own + " has no links and was left out");
+      s_.note("joint " + label + " has no links and was left out");
       return;
     }
     if (links.size() == 1 && type != "R")
-      refuse("joint " + own + " slides, but has one link", "name what it slides on first");
+      refuse("joint " + label + " slides, but has one link", "name what it slides on first");
     if (type == "R")
-      pins(own, links, at);
+      pins(label, links, at);
     else
-      slider(own, links, at, angle, type == "RP");
+      slider(label, links, at, angle, type == "RP");
   }
 
-  void pins(const std::string& own, const std::vector<int>& links, const Vec& at) {
+  void pins(const std::string& label, const std::vector<int>& links, const Vec& at) {
     if (links.size() == 1) {
-      if (links.front() != ground_link) s_.points.push_back({own, links.front(), at, true});
+      if (links.front() != ground_link) s_.points.push_back({label, links.front(), at, true});
       return;
     }
     const bool grounded = std::find(links.begin(), links.end(), ground_link) != links.end();
     const int base = grounded ? ground_link : links.front();
     for (const int link : links)
-      if (link != base) add(own, SourceKind::revolute, base, link, at, {0, 0, 1});
-    if (links.size() > 2) shared_.push_back(own);
+      if (link != base) add(label, SourceKind::revolute, base, link, at, {0, 0, 1});
+    if (links.size() > 2) shared_.push_back(label);
   }
 
-  void slider(const std::string& own, const std::vector<int>& links, const Vec& at, double angle, bool pin) {
+  void slider(const std::string& label, const std::vector<int>& links, const Vec& at, double angle, bool pin) {
     const double turn = angle * std::numbers::pi / 180;
     const auto whole = [](double v) { return std::abs(v) < 1e-15 ? 0 : v; };
     const Vec axis = {whole(std::cos(turn)), whole(std::sin(turn)), 0};
     const int base = links.front();
     if (!pin) {
-      for (std::size_t i = 1; i < links.size(); ++i) add(own, SourceKind::prismatic, base, links[i], at, axis);
+      for (std::size_t i = 1; i < links.size(); ++i) add(label, SourceKind::prismatic, base, links[i], at, axis);
       return;
     }
     for (std::size_t i = 2; i < links.size(); ++i)
-      add(own + "_pin", SourceKind::revolute, links[1], links[i], at, {0, 0, 1}).point = own;
-    add(own + "_slot", SourceKind::slot, base, links[1], at, axis).point = own;
-    if (links.size() > 2) shared_.push_back(own);
+      add(label + "_pin", SourceKind::revolute, links[1], links[i], at, {0, 0, 1}).point = label;
+    add(label + "_slot", SourceKind::slot, base, links[1], at, axis).point = label;
+    if (links.size() > 2) shared_.push_back(label);
   }
 
   const std::string& file_;

@@ -26,14 +26,15 @@ class Reader {
     const XmlElement& model = the_model();
     s_.name = model.get("name", "");
     refuse_others(model);
-    for (const XmlElement* own : model.all("link")) add(*own, "link");
-    for (const XmlElement* own : model.all("frame")) add(*own, "frame");
-    for (const XmlElement* own : model.all("joint")) add(*own, "joint");
+    for (const XmlElement* element : model.all("link")) add(*element, "link");
+    for (const XmlElement* element : model.all("frame")) add(*element, "frame");
+    for (const XmlElement* element : model.all("joint")) add(*element, "joint");
     motors(model);
-    for (const XmlElement* own : model.all("link")) link(*own);
+    for (const XmlElement* element : model.all("link")) link(*element);
     if (s_.links.empty())
       throw InputError({file_, model.line}, "the model has no links", "name an SDF file of a mechanism");
-    for (const XmlElement* own : model.all("joint")) own->get("type", "") == "gearbox" ? gearbox(*own) : joint(*own);
+    for (const XmlElement* element : model.all("joint"))
+      element->get("type", "") == "gearbox" ? gearbox(*element) : joint(*element);
     couple();
     ground();
     if (const auto left = unread(root_); !left.empty()) {
@@ -71,14 +72,14 @@ class Reader {
       if (const XmlElement* gravity = world->first("gravity")) s_.gravity = vector(*gravity, gravity->text);
       if (const XmlElement* include = world->first("include"))
         refuse(*include, "the world includes another file", "name that file, or put its model in");
-      for (const XmlElement* own : world->all("model")) models.push_back(own);
+      for (const XmlElement* element : world->all("model")) models.push_back(element);
     }
-    std::erase_if(models, [&](const XmlElement* own) {
-      const XmlElement* fixed = own->first("static");
+    std::erase_if(models, [&](const XmlElement* element) {
+      const XmlElement* fixed = element->first("static");
       const bool still = fixed != nullptr && (trimmed(fixed->text) == "1" || trimmed(fixed->text) == "true");
       if (still) {
-        s_.note("model " + own->get("name", "") + " stands still and was left out");
-        own->take_whole();
+        s_.note("model " + element->get("name", "") + " stands still and was left out");
+        element->take_whole();
       }
       return still;
     });
@@ -94,15 +95,16 @@ class Reader {
   }
 
   void refuse_others(const XmlElement& model) const {
-    if (const XmlElement* own = model.first("include"))
-      refuse(*own, "model " + s_.name + " includes another file", "put what it includes in its place");
-    if (const XmlElement* own = model.first("model"))
-      refuse(*own, "model " + own->get("name", "") + " is nested in another one", "write its links into the outer one");
+    if (const XmlElement* element = model.first("include"))
+      refuse(*element, "model " + s_.name + " includes another file", "put what it includes in its place");
+    if (const XmlElement* element = model.first("model"))
+      refuse(*element, "model " + element->get("name", "") + " is nested in another one",
+             "write its links into the outer one");
     for (const char* loop : {"drake:linear_bushing_rpy", "drake:ball_constraint", "drake:joint"})
-      if (const XmlElement* own = model.first(loop))
-        refuse(*own, "<" + own->name + "> is an extension of one program that connects two links",
+      if (const XmlElement* element = model.first(loop))
+        refuse(*element, "<" + element->name + "> is an extension of one program that connects two links",
                "write a joint of SDF in its place");
-    if (const XmlElement* own = model.first("gripper")) own->take_whole();
+    if (const XmlElement* element = model.first("gripper")) element->take_whole();
   }
 
   Vec vector(const XmlElement& at, const std::string& text) const {
@@ -139,8 +141,8 @@ class Reader {
   }
 
   std::string word(const XmlElement& at, const char* child) const {
-    const XmlElement* own = at.first(child);
-    return own == nullptr ? "" : std::string(trimmed(own->text));
+    const XmlElement* element = at.first(child);
+    return element == nullptr ? "" : std::string(trimmed(element->text));
   }
 
   /// In the frame of the model.
@@ -153,13 +155,13 @@ class Reader {
     if (depth > deepest)
       refuse(where, "the poses of " + name + " and others refer to each other in a circle",
              "give one of them relative to the model");
-    const Entity& own = found->second;
-    const XmlElement* pose = own.at->first("pose");
+    const Entity& entity = found->second;
+    const XmlElement* pose = entity.at->first("pose");
     std::string base;
     if (pose != nullptr) base = pose->get("relative_to", pose->get("frame", ""));
-    if (base.empty() && own.kind == "frame") base = own.at->get("attached_to", "");
-    if (base.empty() && own.kind == "joint") base = word(*own.at, "child");
-    const Pose outer = pose_of(base, *own.at, depth + 1);
+    if (base.empty() && entity.kind == "frame") base = entity.at->get("attached_to", "");
+    if (base.empty() && entity.kind == "joint") base = word(*entity.at, "child");
+    const Pose outer = pose_of(base, *entity.at, depth + 1);
     return pose == nullptr ? outer : outer * pose_text(*pose);
   }
 
@@ -186,42 +188,42 @@ class Reader {
   // --- links and joints
 
   void link(const XmlElement& at) {
-    SourceLink own;
-    own.name = at.get("name", "");
-    own.line = at.line;
-    const Pose pose = pose_of(own.name, at);
+    SourceLink link;
+    link.name = at.get("name", "");
+    link.line = at.line;
+    const Pose pose = pose_of(link.name, at);
     if (const XmlElement* inertial = at.first("inertial")) {
       const XmlElement* offset = inertial->first("pose");
       const Pose centre = offset == nullptr ? pose : pose * pose_text(*offset);
-      own.mass = 1;
-      if (const XmlElement* mass = inertial->first("mass")) own.mass = number(*mass);
-      if (own.mass < 0) refuse(*inertial, "the mass of link " + own.name + " is negative", "write 0 or more");
-      own.centre = centre.at;
+      link.mass = 1;
+      if (const XmlElement* mass = inertial->first("mass")) link.mass = number(*mass);
+      if (link.mass < 0) refuse(*inertial, "the mass of link " + link.name + " is negative", "write 0 or more");
+      link.centre = centre.at;
       if (const XmlElement* i = inertial->first("inertia")) {
         const auto part = [&](const char* name, double otherwise) {
           const XmlElement* value = i->first(name);
           return value == nullptr ? otherwise : number(*value);
         };
-        own.inertia = turned(centre.turned, {part("ixx", 1), part("iyy", 1), part("izz", 1), part("ixy", 0),
-                                             part("ixz", 0), part("iyz", 0)});
+        link.inertia = turned(centre.turned, {part("ixx", 1), part("iyy", 1), part("izz", 1), part("ixy", 0),
+                                              part("ixz", 0), part("iyz", 0)});
       }
     }
-    index_.emplace(own.name, static_cast<int>(s_.links.size()));
-    s_.links.push_back(std::move(own));
+    index_.emplace(link.name, static_cast<int>(s_.links.size()));
+    s_.links.push_back(std::move(link));
   }
 
   void motors(const XmlElement& model) {
     for (const XmlElement* plugin : model.all("plugin")) {
       (void)plugin->get("name");
       (void)plugin->get("filename");
-      for (const XmlElement* own : plugin->all("joint_name")) motors_.insert(std::string(trimmed(own->text)));
+      for (const XmlElement* element : plugin->all("joint_name")) motors_.insert(std::string(trimmed(element->text)));
     }
   }
 
   int side_of(const XmlElement& at, const char* which) const {
-    const XmlElement* own = at.first(which);
-    if (own == nullptr) refuse(at, "joint " + at.get("name", "") + " has no <" + which + ">", "name both links");
-    const std::string link = link_of(std::string(trimmed(own->text)), *own);
+    const XmlElement* element = at.first(which);
+    if (element == nullptr) refuse(at, "joint " + at.get("name", "") + " has no <" + which + ">", "name both links");
+    const std::string link = link_of(std::string(trimmed(element->text)), *element);
     return link == "world" ? ground_link : index_.at(link);
   }
 
@@ -237,35 +239,36 @@ class Reader {
   }
 
   double number_in(const XmlElement& at, const char* child, double otherwise) const {
-    const XmlElement* own = at.first(child);
-    return own == nullptr ? otherwise : number(*own);
+    const XmlElement* element = at.first(child);
+    return element == nullptr ? otherwise : number(*element);
   }
 
   /// value = multiplier (value of the leader - reference) + offset, by which joints are placed at 0.
   void mimic(const XmlElement& at, const std::string& joint) {
     std::vector<const XmlElement*> places = {&at};
-    if (const XmlElement* own = at.first("axis")) places.push_back(own);
+    if (const XmlElement* element = at.first("axis")) places.push_back(element);
     for (const XmlElement* place : places)
       for (const char* word : {"mimic", "drake:mimic"}) {
-        const XmlElement* own = place->first(word);
-        if (own == nullptr) continue;
+        const XmlElement* element = place->first(word);
+        if (element == nullptr) continue;
         const auto attribute = [&](const char* name, double otherwise) {
-          const auto text = own->get(name);
-          return text ? numbers_of(*text, *own, name, file_, 1, 1).front() : otherwise;
+          const auto text = element->get(name);
+          return text ? numbers_of(*text, *element, name, file_, 1, 1).front() : otherwise;
         };
-        (void)own->get("axis");
-        const double multiplier = attribute("gear_ratio", number_in(*own, "multiplier", 1)),
-                     offset = attribute("offset", number_in(*own, "offset", 0)) -
-                              multiplier * number_in(*own, "reference", 0);
+        (void)element->get("axis");
+        const double multiplier = attribute("gear_ratio", number_in(*element, "multiplier", 1)),
+                     offset = attribute("offset", number_in(*element, "offset", 0)) -
+                              multiplier * number_in(*element, "reference", 0);
         if (multiplier == 0 || std::abs(offset) > 1e-12)
-          refuse(*own, "joint " + joint + " follows another one (mimic) by 0, or is not where it follows with all at 0",
+          refuse(*element,
+                 "joint " + joint + " follows another one (mimic) by 0, or is not where it follows with all at 0",
                  "place its links where they follow, with offset and reference 0");
-        followers_.push_back({own, s_.joints.size(), own->get("joint", ""), multiplier});
+        followers_.push_back({element, s_.joints.size(), element->get("joint", ""), multiplier});
       }
     if (const XmlElement* second = at.first("axis2"))
       for (const char* word : {"mimic", "drake:mimic"})
-        if (const XmlElement* own = second->first(word))
-          refuse(*own, "the second axis of joint " + joint + " follows another joint (mimic)", "take it out");
+        if (const XmlElement* element = second->first(word))
+          refuse(*element, "the second axis of joint " + joint + " follows another joint (mimic)", "take it out");
   }
 
   struct NamedFollower {
@@ -296,33 +299,35 @@ class Reader {
   }
 
   /// The pin of a wheel on the reference body, and whether it turns as the axis says.
-  std::pair<std::size_t, double> pin_of(const Gearbox& own, int wheel, const Vec& axis) const {
+  std::pair<std::size_t, double> pin_of(const Gearbox& gearbox, int wheel, const Vec& axis) const {
     for (std::size_t j = 0; j < s_.joints.size(); ++j) {
       const SourceJoint& joint = s_.joints[j];
-      const bool forward = joint.from == own.body && joint.to == wheel;
-      if (joint.kind != SourceKind::revolute || (!forward && (joint.to != own.body || joint.from != wheel))) continue;
+      const bool forward = joint.from == gearbox.body && joint.to == wheel;
+      if (joint.kind != SourceKind::revolute || (!forward && (joint.to != gearbox.body || joint.from != wheel)))
+        continue;
       return {j, (forward ? 1.0 : -1.0) * (dot(joint.axis(), axis) < 0 ? -1 : 1)};
     }
-    refuse(*own.at,
-           "gearbox " + own.at->get("name", "") + " joins " + link_words(s_, wheel) +
-               ", which has no revolute joint with " + link_words(s_, own.body) + ", its reference body",
+    refuse(*gearbox.at,
+           "gearbox " + gearbox.at->get("name", "") + " joins " + link_words(s_, wheel) +
+               ", which has no revolute joint with " + link_words(s_, gearbox.body) + ", its reference body",
            "add that joint");
   }
 
   void couple() {
-    for (const NamedFollower& own : followers_) {
+    for (const NamedFollower& follower : followers_) {
       const auto leader = std::find_if(s_.joints.begin(), s_.joints.end(),
-                                       [&](const SourceJoint& joint) { return joint.name == own.leader; });
+                                       [&](const SourceJoint& joint) { return joint.name == follower.leader; });
       if (leader == s_.joints.end())
-        refuse(*own.at, "<mimic> names joint '" + own.leader + "', which is not there", "correct the name");
-      s_.followers.push_back(
-          {own.joint, static_cast<std::size_t>(leader - s_.joints.begin()), own.multiplier, own.at->line});
+        refuse(*follower.at, "<mimic> names joint '" + follower.leader + "', which is not there", "correct the name");
+      s_.followers.push_back({follower.joint, static_cast<std::size_t>(leader - s_.joints.begin()), follower.multiplier,
+                              follower.at->line});
     }
-    for (const Gearbox& own : gearboxes_) {
-      if (own.ratio == 0) refuse(*own.at, "gearbox " + own.at->get("name", "") + " has a ratio of 0", "correct it");
-      const auto [leader, sense] = pin_of(own, own.parent, own.first);
-      const auto [follower, other] = pin_of(own, own.child, own.second);
-      s_.followers.push_back({follower, leader, -own.ratio * sense * other, own.at->line});
+    for (const Gearbox& gearbox : gearboxes_) {
+      if (gearbox.ratio == 0)
+        refuse(*gearbox.at, "gearbox " + gearbox.at->get("name", "") + " has a ratio of 0", "correct it");
+      const auto [leader, sense] = pin_of(gearbox, gearbox.parent, gearbox.first);
+      const auto [follower, other] = pin_of(gearbox, gearbox.child, gearbox.second);
+      s_.followers.push_back({follower, leader, -gearbox.ratio * sense * other, gearbox.at->line});
     }
   }
 
@@ -330,29 +335,29 @@ class Reader {
     static const std::map<std::string, SourceKind> kinds = {
         {"revolute", SourceKind::revolute}, {"continuous", SourceKind::revolute}, {"prismatic", SourceKind::prismatic},
         {"ball", SourceKind::spherical},    {"universal", SourceKind::universal}, {"fixed", SourceKind::fixed}};
-    SourceJoint own;
-    own.name = at.get("name", "");
-    own.line = at.line;
+    SourceJoint joint;
+    joint.name = at.get("name", "");
+    joint.line = at.line;
     const std::string type = at.get("type", "");
     const auto kind = kinds.find(type);
     if (kind == kinds.end())
-      refuse(at, "joint " + own.name + " is of type '" + type + "'",
+      refuse(at, "joint " + joint.name + " is of type '" + type + "'",
              "use revolute, continuous, prismatic, ball, universal or fixed");
-    own.kind = kind->second;
-    mimic(at, own.name);
-    own.from = side_of(at, "parent");
-    own.to = side_of(at, "child");
-    if (own.from == own.to) refuse(at, "joint " + own.name + " joins a link to itself", "name two links");
-    const Pose pose = pose_of(own.name, at);
-    place(own, pose.at, {0, 0, 1});
+    joint.kind = kind->second;
+    mimic(at, joint.name);
+    joint.from = side_of(at, "parent");
+    joint.to = side_of(at, "child");
+    if (joint.from == joint.to) refuse(at, "joint " + joint.name + " joins a link to itself", "name two links");
+    const Pose pose = pose_of(joint.name, at);
+    place(joint, pose.at, {0, 0, 1});
     const XmlElement *axis = at.first("axis"), *second = at.first("axis2");
-    const bool turns =
-        own.kind == SourceKind::revolute || own.kind == SourceKind::prismatic || own.kind == SourceKind::universal;
-    if (turns && axis == nullptr) refuse(at, "joint " + own.name + " has no <axis>", "write one");
-    if (turns) place(own, pose.at, axis_of(*axis, pose));
-    if (own.kind == SourceKind::universal) {
-      if (second == nullptr) refuse(at, "joint " + own.name + " has no <axis2>", "write one");
-      own.on_to.frame = frame_along(unit(axis_of(*second, pose)));
+    const bool turns = joint.kind == SourceKind::revolute || joint.kind == SourceKind::prismatic ||
+                       joint.kind == SourceKind::universal;
+    if (turns && axis == nullptr) refuse(at, "joint " + joint.name + " has no <axis>", "write one");
+    if (turns) place(joint, pose.at, axis_of(*axis, pose));
+    if (joint.kind == SourceKind::universal) {
+      if (second == nullptr) refuse(at, "joint " + joint.name + " has no <axis2>", "write one");
+      joint.on_to.frame = frame_along(unit(axis_of(*second, pose)));
     }
     if (axis != nullptr)
       if (const XmlElement* limit = axis->first("limit")) {
@@ -360,12 +365,12 @@ class Reader {
         constexpr double endless = 1e6;
         if (lower != nullptr && upper != nullptr && type != "continuous") {
           const double low = bound(*lower), high = bound(*upper);
-          if (low < high && high - low < endless) own.range = std::array<double, 2>{low, high};
+          if (low < high && high - low < endless) joint.range = std::array<double, 2>{low, high};
         }
       }
-    own.actuated = motors_.contains(own.name) && own.kind != SourceKind::fixed && own.kind != SourceKind::spherical &&
-                   own.kind != SourceKind::universal;
-    s_.joints.push_back(std::move(own));
+    joint.actuated = motors_.contains(joint.name) && joint.kind != SourceKind::fixed &&
+                     joint.kind != SourceKind::spherical && joint.kind != SourceKind::universal;
+    s_.joints.push_back(std::move(joint));
   }
 
   /// 1e16 and inf say that there is none.

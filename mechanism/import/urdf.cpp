@@ -39,14 +39,14 @@ class Reader {
     root_.read = true;
     s_.name = root_.get("name", "");
     refuse_macros(root_);
-    for (const XmlElement* own : root_.all("link")) link(*own);
-    for (const XmlElement* own : root_.all("joint")) joint(*own);
+    for (const XmlElement* element : root_.all("link")) link(*element);
+    for (const XmlElement* element : root_.all("joint")) joint(*element);
     if (s_.links.empty()) throw InputError({given_.file, root_.line}, "the robot has no links", "name a URDF file");
-    for (const XmlElement* own : root_.all("transmission")) transmission(*own);
+    for (const XmlElement* element : root_.all("transmission")) transmission(*element);
     place_links();
     add_joints();
     for (const XmlElement* extension : root_.all("gazebo"))
-      for (const XmlElement* own : extension->all("joint")) sdf_joint(*own);
+      for (const XmlElement* element : extension->all("joint")) sdf_joint(*element);
     if (!given_.side.empty()) loops();
     tools();
     constexpr double g = 9.81;
@@ -96,65 +96,67 @@ class Reader {
   }
 
   void link(const XmlElement& at) {
-    SourceLink own;
-    own.name = name_of(at);
-    own.line = at.line;
+    SourceLink link;
+    link.name = name_of(at);
+    link.line = at.line;
     if (const XmlElement* inertial = at.first("inertial")) {
       const Pose origin = origin_of(*inertial);
-      if (const XmlElement* mass = inertial->first("mass")) own.mass = number(*mass, "value", 0);
-      if (own.mass < 0)
-        throw InputError({given_.file, inertial->line}, "the mass of link " + own.name + " is negative",
+      if (const XmlElement* mass = inertial->first("mass")) link.mass = number(*mass, "value", 0);
+      if (link.mass < 0)
+        throw InputError({given_.file, inertial->line}, "the mass of link " + link.name + " is negative",
                          "write 0 or more");
-      own.centre = origin.at;
+      link.centre = origin.at;
       if (const XmlElement* i = inertial->first("inertia"))
-        own.inertia = turned(origin.turned, {number(*i, "ixx", 0), number(*i, "iyy", 0), number(*i, "izz", 0),
-                                             number(*i, "ixy", 0), number(*i, "ixz", 0), number(*i, "iyz", 0)});
+        link.inertia = turned(origin.turned, {number(*i, "ixx", 0), number(*i, "iyy", 0), number(*i, "izz", 0),
+                                              number(*i, "ixy", 0), number(*i, "ixz", 0), number(*i, "iyz", 0)});
     }
-    if (!index_.emplace(own.name, static_cast<int>(s_.links.size())).second)
-      throw InputError({given_.file, at.line}, "two links are called " + own.name, "rename one of them");
-    s_.links.push_back(std::move(own));
+    if (!index_.emplace(link.name, static_cast<int>(s_.links.size())).second)
+      throw InputError({given_.file, at.line}, "two links are called " + link.name, "rename one of them");
+    s_.links.push_back(std::move(link));
   }
 
   void joint(const XmlElement& at) {
-    Branch own;
-    own.name = name_of(at);
-    own.line = at.line;
-    own.type = at.get("type", "");
+    Branch branch;
+    branch.name = name_of(at);
+    branch.line = at.line;
+    branch.type = at.get("type", "");
     static const std::vector<std::string> types = {"revolute", "continuous", "prismatic", "fixed"};
-    if (std::find(types.begin(), types.end(), own.type) == types.end())
-      throw InputError({given_.file, at.line}, "joint " + own.name + " is of type '" + own.type + "'",
+    if (std::find(types.begin(), types.end(), branch.type) == types.end())
+      throw InputError({given_.file, at.line}, "joint " + branch.name + " is of type '" + branch.type + "'",
                        "use revolute, continuous, prismatic or fixed");
-    if (const XmlElement* mimic = at.first("mimic"); mimic != nullptr && own.type != "fixed") {
-      own.leader = mimic->get("joint", "");
-      own.multiplier = number(*mimic, "multiplier", 1);
-      own.offset = number(*mimic, "offset", 0);
+    if (const XmlElement* mimic = at.first("mimic"); mimic != nullptr && branch.type != "fixed") {
+      branch.leader = mimic->get("joint", "");
+      branch.multiplier = number(*mimic, "multiplier", 1);
+      branch.offset = number(*mimic, "offset", 0);
     }
     const XmlElement *parent = at.first("parent"), *child = at.first("child");
     if (parent == nullptr || child == nullptr)
-      throw InputError({given_.file, at.line}, "joint " + own.name + " has no parent or no child", "name both links");
-    own.parent = parent->get("link", "");
-    own.child = child->get("link", "");
-    for (const std::string& name : {own.parent, own.child})
+      throw InputError({given_.file, at.line}, "joint " + branch.name + " has no parent or no child",
+                       "name both links");
+    branch.parent = parent->get("link", "");
+    branch.child = child->get("link", "");
+    for (const std::string& name : {branch.parent, branch.child})
       if (!index_.contains(name))
-        throw InputError({given_.file, at.line}, "joint " + own.name + " names link '" + name + "', which is not there",
+        throw InputError({given_.file, at.line},
+                         "joint " + branch.name + " names link '" + name + "', which is not there",
                          "add the link, or correct the name");
-    own.origin = origin_of(at);
-    if (const XmlElement* axis = at.first("axis")) own.axis = vector(*axis, "xyz", {1, 0, 0});
-    if (own.type != "fixed" && !(norm(own.axis) > 1e-9))
-      throw InputError({given_.file, at.line}, "the axis of joint " + own.name + " has no direction",
+    branch.origin = origin_of(at);
+    if (const XmlElement* axis = at.first("axis")) branch.axis = vector(*axis, "xyz", {1, 0, 0});
+    if (branch.type != "fixed" && !(norm(branch.axis) > 1e-9))
+      throw InputError({given_.file, at.line}, "the axis of joint " + branch.name + " has no direction",
                        "write such as xyz=\"0 0 1\"");
-    if (const XmlElement* limit = at.first("limit"); limit != nullptr && own.type != "continuous") {
+    if (const XmlElement* limit = at.first("limit"); limit != nullptr && branch.type != "continuous") {
       const double lower = number(*limit, "lower", 0), upper = number(*limit, "upper", 0);
-      if (lower < upper) own.limits = std::array<double, 2>{lower, upper};
+      if (lower < upper) branch.limits = std::array<double, 2>{lower, upper};
     }
-    branches_.push_back(std::move(own));
+    branches_.push_back(std::move(branch));
   }
 
   void transmission(const XmlElement& at) {
     for (const XmlElement* joint : at.all("joint")) {
       const std::string name = joint->get("name", "");
       const auto found =
-          std::find_if(branches_.begin(), branches_.end(), [&](const Branch& own) { return own.name == name; });
+          std::find_if(branches_.begin(), branches_.end(), [&](const Branch& branch) { return branch.name == name; });
       if (found == branches_.end())
         throw InputError({given_.file, joint->line}, "a transmission drives joint '" + name + "', which is not there",
                          "correct the name");
@@ -162,11 +164,11 @@ class Reader {
     }
   }
 
-  static bool turns(const Branch& own) { return own.type == "revolute" || own.type == "continuous"; }
+  static bool turns(const Branch& branch) { return branch.type == "revolute" || branch.type == "continuous"; }
 
   std::size_t branch_named(const std::string& name, const Branch& follower) const {
     const auto found =
-        std::find_if(branches_.begin(), branches_.end(), [&](const Branch& own) { return own.name == name; });
+        std::find_if(branches_.begin(), branches_.end(), [&](const Branch& branch) { return branch.name == name; });
     if (found == branches_.end() || found->type == "fixed")
       throw InputError({given_.file, follower.line},
                        "joint " + follower.name + " follows joint '" + name + "' (mimic), which is no joint that moves",
@@ -175,19 +177,20 @@ class Reader {
   }
 
   /// In the posture: 0 but for what follows with an offset.
-  double value_of(const Branch& own, std::size_t depth = 0) const {
-    if (own.leader.empty()) return 0;
+  double value_of(const Branch& branch, std::size_t depth = 0) const {
+    if (branch.leader.empty()) return 0;
     if (depth > branches_.size())
-      throw InputError({given_.file, own.line}, "joint " + own.name + " follows itself (mimic)", "name another joint");
-    return own.multiplier * value_of(branches_[branch_named(own.leader, own)], depth + 1) + own.offset;
+      throw InputError({given_.file, branch.line}, "joint " + branch.name + " follows itself (mimic)",
+                       "name another joint");
+    return branch.multiplier * value_of(branches_[branch_named(branch.leader, branch)], depth + 1) + branch.offset;
   }
 
   void place_links() {
     std::vector<bool> is_child(s_.links.size());
-    for (const Branch& own : branches_) {
-      const auto child = static_cast<std::size_t>(index_.at(own.child));
+    for (const Branch& branch : branches_) {
+      const auto child = static_cast<std::size_t>(index_.at(branch.child));
       if (is_child[child])
-        throw InputError({given_.file, own.line}, "link " + own.child + " is the child of two joints",
+        throw InputError({given_.file, branch.line}, "link " + branch.child + " is the child of two joints",
                          "close loops by a file of loops (closed_loop:), not by the tree");
       is_child[child] = true;
     }
@@ -206,13 +209,13 @@ class Reader {
     placed[static_cast<std::size_t>(base_)] = true;
     for (bool more = true; more;) {
       more = false;
-      for (const Branch& own : branches_) {
-        const auto parent = static_cast<std::size_t>(index_.at(own.parent)),
-                   child = static_cast<std::size_t>(index_.at(own.child));
+      for (const Branch& branch : branches_) {
+        const auto parent = static_cast<std::size_t>(index_.at(branch.parent)),
+                   child = static_cast<std::size_t>(index_.at(branch.child));
         if (!placed[parent] || placed[child]) continue;
-        poses_[child] = poses_[parent] * own.origin;
-        if (const double value = value_of(own); value != 0 && turns(own))
-          poses_[child] = poses_[child] * Pose{turn(unit(own.axis), value), {}};
+        poses_[child] = poses_[parent] * branch.origin;
+        if (const double value = value_of(branch); value != 0 && turns(branch))
+          poses_[child] = poses_[child] * Pose{turn(unit(branch.axis), value), {}};
         placed[child] = more = true;
       }
     }
@@ -221,15 +224,15 @@ class Reader {
         throw InputError({given_.file, s_.links[l].line}, "link " + s_.links[l].name + " hangs in a circle of joints",
                          "write a tree with one base link");
     for (std::size_t l = 0; l < s_.links.size(); ++l) {
-      SourceLink& own = s_.links[l];
-      if (own.centre) own.centre = poses_[l] * *own.centre;
-      if (own.inertia) own.inertia = turned(poses_[l].turned, *own.inertia);
+      SourceLink& link = s_.links[l];
+      if (link.centre) link.centre = poses_[l] * *link.centre;
+      if (link.inertia) link.inertia = turned(poses_[l].turned, *link.inertia);
     }
   }
 
   int source_link(const std::string& name) const {
-    const int own = index_.at(name);
-    return own == base_ ? ground_link : own;
+    const int index = index_.at(name);
+    return index == base_ ? ground_link : index;
   }
 
   void add_joints() {
@@ -237,21 +240,21 @@ class Reader {
                                                             {"continuous", SourceKind::revolute},
                                                             {"prismatic", SourceKind::prismatic},
                                                             {"fixed", SourceKind::fixed}};
-    for (const Branch& own : branches_) {
-      const Pose& pose = poses_[static_cast<std::size_t>(index_.at(own.child))];
-      SourceJoint& joint = add_joint(s_, own.name, own.line, kinds.at(own.type), source_link(own.parent),
-                                     source_link(own.child), pose.at, pose.turned * own.axis);
-      joint.range = own.limits;
-      if (const double value = value_of(own); joint.range && value != 0)
+    for (const Branch& branch : branches_) {
+      const Pose& pose = poses_[static_cast<std::size_t>(index_.at(branch.child))];
+      SourceJoint& joint = add_joint(s_, branch.name, branch.line, kinds.at(branch.type), source_link(branch.parent),
+                                     source_link(branch.child), pose.at, pose.turned * branch.axis);
+      joint.range = branch.limits;
+      if (const double value = value_of(branch); joint.range && value != 0)
         joint.range = std::array<double, 2>{(*joint.range)[0] - value, (*joint.range)[1] - value};
-      joint.actuated = own.motor && joint.kind != SourceKind::fixed;
+      joint.actuated = branch.motor && joint.kind != SourceKind::fixed;
     }
     for (std::size_t j = 0; j < branches_.size(); ++j)
-      if (const Branch& own = branches_[j]; !own.leader.empty()) {
-        if (own.multiplier == 0)
-          throw InputError({given_.file, own.line}, "joint " + own.name + " follows another one by 0 (mimic)",
+      if (const Branch& branch = branches_[j]; !branch.leader.empty()) {
+        if (branch.multiplier == 0)
+          throw InputError({given_.file, branch.line}, "joint " + branch.name + " follows another one by 0 (mimic)",
                            "fix the joint");
-        s_.followers.push_back({j, branch_named(own.leader, own), own.multiplier, own.line});
+        s_.followers.push_back({j, branch_named(branch.leader, branch), branch.multiplier, branch.line});
       }
     s_.links[static_cast<std::size_t>(base_)].dropped = true;
   }
@@ -260,8 +263,8 @@ class Reader {
 
   /// What stands in an element of a joint of SDF: a link.
   int link_in(const XmlElement& at, const char* side) const {
-    const XmlElement* own = at.first(side);
-    const std::string name(own == nullptr ? std::string_view() : trimmed(own->text));
+    const XmlElement* element = at.first(side);
+    const std::string name(element == nullptr ? std::string_view() : trimmed(element->text));
     if (!index_.contains(name))
       throw InputError({given_.file, at.line},
                        "a joint in <gazebo> names link '" + name + "' as its " + side + ", which is not there",
@@ -287,17 +290,17 @@ class Reader {
     const int parent = link_in(at, "parent"), child = link_in(at, "child");
     joint.from = parent == base_ ? ground_link : parent;
     joint.to = child == base_ ? ground_link : child;
-    const auto six = [&](const XmlElement& own, std::size_t count) {
-      return numbers_of(own.text, own, "<" + own.name + ">", given_.file, count, count);
+    const auto six = [&](const XmlElement& element, std::size_t count) {
+      return numbers_of(element.text, element, "<" + element.name + ">", given_.file, count, count);
     };
     Pose pose = poses_[static_cast<std::size_t>(child)];
-    if (const XmlElement* own = at.first("pose")) {
-      const auto v = six(*own, 6);
+    if (const XmlElement* element = at.first("pose")) {
+      const auto v = six(*element, 6);
       pose = pose * Pose{roll_pitch_yaw(v[3], v[4], v[5]), {v[0], v[1], v[2]}};
     }
     Vec axis = {0, 0, 1};
-    if (const XmlElement* own = at.first("axis"))
-      if (const XmlElement* xyz = own->first("xyz")) {
+    if (const XmlElement* element = at.first("axis"))
+      if (const XmlElement* xyz = element->first("xyz")) {
         const auto v = six(*xyz, 3);
         axis = {v[0], v[1], v[2]};
       }
@@ -313,10 +316,11 @@ class Reader {
     Pose pose;
   };
   Frame frame_named(const std::string& name, const Value& where) const {
-    if (const auto own = index_.find(name); own != index_.end())
-      return {source_link(name), poses_[static_cast<std::size_t>(own->second)]};
-    for (const Branch& own : branches_)
-      if (own.name == name) return {source_link(own.child), poses_[static_cast<std::size_t>(index_.at(own.child))]};
+    if (const auto link = index_.find(name); link != index_.end())
+      return {source_link(name), poses_[static_cast<std::size_t>(link->second)]};
+    for (const Branch& branch : branches_)
+      if (branch.name == name)
+        return {source_link(branch.child), poses_[static_cast<std::size_t>(index_.at(branch.child))]};
     throw InputError(where.where, "closed_loop names frame '" + name + "', which is no link and no joint of the robot",
                      "correct the name");
   }
@@ -370,7 +374,7 @@ class Reader {
     if (!motors || motors->node.IsNull()) return;
     std::vector<std::string> words;
     if (motors->is_sequence())
-      for (const Value& own : elements(*motors)) words.push_back(text_of(own));
+      for (const Value& element : elements(*motors)) words.push_back(text_of(element));
     else
       words.push_back(text_of(*motors));
     for (SourceJoint& joint : s_.joints)
@@ -389,28 +393,28 @@ class Reader {
                        "write a list of types, such as [SPHERICAL]");
     const std::vector<Value> list = elements(*types, static_cast<int>(names.size()));
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto own = std::find_if(s_.joints.begin(), s_.joints.end(),
-                                    [&](const SourceJoint& joint) { return joint.name == text_of(names[i]); });
-      if (own == s_.joints.end())
+      const auto found = std::find_if(s_.joints.begin(), s_.joints.end(),
+                                      [&](const SourceJoint& joint) { return joint.name == text_of(names[i]); });
+      if (found == s_.joints.end())
         throw InputError(names[i].where, "joint_name names '" + text_of(names[i]) + "', which is no joint of the robot",
                          "correct the name");
       if (text_of(list[i]) != "SPHERICAL")
-        throw InputError(list[i].where, "the type of joint " + own->name + " is '" + text_of(list[i]) + "'",
+        throw InputError(list[i].where, "the type of joint " + found->name + " is '" + text_of(list[i]) + "'",
                          "write SPHERICAL, or the type in the URDF");
-      own->kind = SourceKind::spherical;
-      own->actuated = false;
-      own->range.reset();
+      found->kind = SourceKind::spherical;
+      found->actuated = false;
+      found->range.reset();
     }
   }
 
   /// Links welded to the end of a branch are frames that people put there: tools.
   void tools() {
-    for (const Branch& own : branches_) {
+    for (const Branch& branch : branches_) {
       const bool leaf = std::none_of(branches_.begin(), branches_.end(),
-                                     [&](const Branch& other) { return other.parent == own.child; });
-      if (own.type == "fixed" && leaf && !looped_.contains(own.child) && !looped_.contains(own.name))
-        s_.points.push_back(
-            {own.child, source_link(own.child), poses_[static_cast<std::size_t>(index_.at(own.child))].at, true});
+                                     [&](const Branch& other) { return other.parent == branch.child; });
+      if (branch.type == "fixed" && leaf && !looped_.contains(branch.child) && !looped_.contains(branch.name))
+        s_.points.push_back({branch.child, source_link(branch.child),
+                             poses_[static_cast<std::size_t>(index_.at(branch.child))].at, true});
     }
   }
 

@@ -50,15 +50,15 @@ std::optional<std::pair<Side, Side>> sides_of(const Source& source, const Source
   return std::nullopt;
 }
 
-[[noreturn]] void refuse(const Source& source, const SourceFollower& own, const std::string& file) {
-  const SourceJoint &joint = source.joints[own.joint], &leader = source.joints[own.leader];
+[[noreturn]] void refuse(const Source& source, const SourceFollower& follower, const std::string& file) {
+  const SourceJoint &joint = source.joints[follower.joint], &leader = source.joints[follower.leader];
   const bool shares = side_of(leader, joint.from).has_value() || side_of(leader, joint.to).has_value();
   std::string why = shares ? "but both turn about one axis" : "but no link has both of them";
   if (joint.kind != SourceKind::revolute || leader.kind != SourceKind::revolute)
     why = "but not both of them are pins";
   else if (!source.planar)
     why = "but the mechanism is not in one plane, and gears are planar here";
-  throw InputError({file, own.line}, "joint " + joint.name + " follows joint " + leader.name + ", " + why,
+  throw InputError({file, follower.line}, "joint " + joint.name + " follows joint " + leader.name + ", " + why,
                    "write the linkage that makes it follow, or fix the joint");
 }
 
@@ -90,35 +90,36 @@ struct Followers {
 
 std::map<std::size_t, Followers> by_leaders(const Source& source) {
   std::map<std::size_t, SourceFollower> followers;
-  for (const SourceFollower& own : source.followers) followers.emplace(own.joint, own);
+  for (const SourceFollower& follower : source.followers) followers.emplace(follower.joint, follower);
   std::map<std::size_t, Followers> all;
-  for (const auto& [joint, own] : followers) {
-    double ratio = own.ratio;
-    std::size_t leader = own.leader;
+  for (const auto& [joint, follower] : followers) {
+    double ratio = follower.ratio;
+    std::size_t leader = follower.leader;
     for (std::size_t depth = 0; followers.contains(leader) && depth < followers.size(); ++depth) {
       ratio *= followers.at(leader).ratio;
       leader = followers.at(leader).leader;
     }
     all[leader].turns = {{leader, 1}};
-    all[leader].left.emplace_back(own, ratio);
+    all[leader].left.emplace_back(follower, ratio);
   }
   return all;
 }
 
 /// Meshes one joint with one that is meshed already, its own leader or another one of the same; false where none can
 /// be.
-bool mesh_one(Source& source, Followers& own, const std::string& file) {
-  for (auto next = own.left.begin(); next != own.left.end(); ++next) {
+bool mesh_one(Source& source, Followers& followers, const std::string& file) {
+  for (auto next = followers.left.begin(); next != followers.left.end(); ++next) {
     const SourceJoint& joint = source.joints[next->first.joint];
     std::vector<std::size_t> leaders;
-    if (own.turns.contains(next->first.leader)) leaders.push_back(next->first.leader);
-    for (const auto& other : own.turns) leaders.push_back(other.first);
+    if (followers.turns.contains(next->first.leader)) leaders.push_back(next->first.leader);
+    for (const auto& other : followers.turns) leaders.push_back(other.first);
     for (const std::size_t leader : leaders) {
       const SourceJoint& to = source.joints[leader];
       const bool pins = joint.kind == SourceKind::revolute && to.kind == SourceKind::revolute;
       const auto sides = pins && source.planar ? sides_of(source, joint, to) : std::nullopt;
       if (!sides) continue;
-      source.meshes.push_back(mesh_of(joint, *sides, next->second / own.turns.at(leader), next->first.line, file));
+      source.meshes.push_back(
+          mesh_of(joint, *sides, next->second / followers.turns.at(leader), next->first.line, file));
       const SourceMesh& mesh = source.meshes.back();
       source.note("joint " + joint.name + " follows joint " + to.name + ": " +
                   (mesh.belt           ? "a belt"
@@ -126,8 +127,8 @@ bool mesh_one(Source& source, Followers& own, const std::string& file) {
                                        : "a pair of gears") +
                   " stands for what joins " + link_words(source, mesh.links[0]) + " and " +
                   link_words(source, mesh.links[1]));
-      own.turns.emplace(next->first.joint, next->second);
-      own.left.erase(next);
+      followers.turns.emplace(next->first.joint, next->second);
+      followers.left.erase(next);
       return true;
     }
   }
@@ -163,18 +164,18 @@ std::array<long, 2> teeth_of(double first, double second, const std::string& wha
 }
 
 void mesh_followers(Source& source, const std::string& file) {
-  std::erase_if(source.followers, [&](const SourceFollower& own) {
-    const SourceJoint &joint = source.joints[own.joint], &leader = source.joints[own.leader];
+  std::erase_if(source.followers, [&](const SourceFollower& follower) {
+    const SourceJoint &joint = source.joints[follower.joint], &leader = source.joints[follower.leader];
     if (joint.dropped != leader.dropped)
-      throw InputError({file, own.line},
+      throw InputError({file, follower.line},
                        "joint " + joint.name + " follows joint " + leader.name + ", but one of them does not move",
                        "fix both joints, or none");
     return joint.dropped;
   });
-  for (auto& [leader, own] : by_leaders(source)) {
-    while (mesh_one(source, own, file)) {
+  for (auto& [leader, leaders] : by_leaders(source)) {
+    while (mesh_one(source, leaders, file)) {
     }
-    if (!own.left.empty()) refuse(source, own.left.front().first, file);
+    if (!leaders.left.empty()) refuse(source, leaders.left.front().first, file);
   }
 }
 

@@ -38,8 +38,8 @@ class Writer : private Drawing {
     if (!s_.planar) out += "space: spatial\n";
     out += "units: {length: " + s_.unit + "}\n";
     out += "workspace:\n" + workspace + "drawn:\n";
-    for (const DrawnPlace& own : places_)
-      if (!own.dropped) out += "  " + own.name + ": " + list_of(own.exact) + "\n";
+    for (const DrawnPlace& place : places_)
+      if (!place.dropped) out += "  " + place.name + ": " + list_of(place.exact) + "\n";
     out += "links:\n" + links + "joints:\n" + joints;
     out += "end_effector: " + effector + "\n";
     if (!springs.empty()) out += "springs:\n" + springs;
@@ -83,17 +83,17 @@ class Writer : private Drawing {
     for (std::size_t l = 0; l < s_.links.size(); ++l) {
       const SourceLink& link = s_.links[l];
       if (link.dropped) continue;
-      const auto& own = order_[static_cast<int>(l)];
+      const auto& places = order_[static_cast<int>(l)];
       text += "  " + link_names_[l] + ": {points: [";
       std::set<PlaceIndex> seen;
-      for (const PlaceIndex p : own)
+      for (const PlaceIndex p : places)
         if (seen.insert(p).second) text += (seen.size() > 1 ? ", " : "") + places_[p].name;
       text += "]";
       if (link.mass > 0) {
         text += ", mass: " + shortest_decimal(link.mass, 1e-12 * link.mass);
         const auto centre = centres_.find(static_cast<int>(l));
         if (centre != centres_.end() && centre->second) text += ", com: " + places_[*centre->second].name;
-        if (centre == centres_.end() && seen.size() == 1) text += ", com: " + places_[own.front()].name;
+        if (centre == centres_.end() && seen.size() == 1) text += ", com: " + places_[places.front()].name;
         if (link.inertia) {
           const Tensor& i = *link.inertia;
           const double mean = (i.xx + i.yy + i.zz) / 3, one = s_.planar ? i.zz : mean;
@@ -137,8 +137,8 @@ class Writer : private Drawing {
         if (std::string text = between(*a, *b); !text.empty()) return text;
     }
     if (joint.from != ground_link)
-      if (const auto own = order_.find(joint.from); own != order_.end())
-        for (const PlaceIndex p : own->second)
+      if (const auto places = order_.find(joint.from); places != order_.end())
+        for (const PlaceIndex p : places->second)
           if (std::string text = between(p, at); !text.empty()) return text;
     return direction_text(joint.axis(), written);
   }
@@ -243,9 +243,9 @@ class Writer : private Drawing {
   }
 
   double direction_of(int link) const {
-    const auto own = order_.find(link);
-    if (own == order_.end() || own->second.size() < 2) return 0;
-    const Vec way = places_[own->second[1]].at - places_[own->second[0]].at;
+    const auto places = order_.find(link);
+    if (places == order_.end() || places->second.size() < 2) return 0;
+    const Vec way = places_[places->second[1]].at - places_[places->second[0]].at;
     return std::atan2(way[1], way[0]);
   }
 
@@ -301,9 +301,9 @@ class Writer : private Drawing {
         const double forward =
             (mesh.belt ? 1 : -1) * static_cast<double>(mesh.teeth[0]) / static_cast<double>(mesh.teeth[1]);
         for (const std::size_t i : {0U, 1U}) {
-          const auto known = turns.find(mesh.links[i]);
-          if (known == turns.end() || turns.contains(mesh.links[1 - i])) continue;
-          turns[mesh.links[1 - i]] = known->second * (i == 0 ? forward : 1 / forward);
+          const auto found = turns.find(mesh.links[i]);
+          if (found == turns.end() || turns.contains(mesh.links[1 - i])) continue;
+          turns[mesh.links[1 - i]] = found->second * (i == 0 ? forward : 1 / forward);
           more = true;
         }
       }
@@ -315,8 +315,8 @@ class Writer : private Drawing {
   /// coordinate is the angle of one by which all that have a direction turn wholly.
   void slow_down(int& link, double& turned) {
     const std::map<int, double> turns = turns_with(link);
-    const auto has_direction = [&](int own) {
-      const auto points = order_.find(own);
+    const auto has_direction = [&](int link_index) {
+      const auto points = order_.find(link_index);
       return points != order_.end() && points->second.size() > 1;
     };
     const auto turns_all = [&](const std::pair<const int, double>& one) {
@@ -374,29 +374,29 @@ class Writer : private Drawing {
     int link = ground_link;
     std::optional<PlaceIndex> at;
     std::string why;
-    const auto take = [&](int own, const Vec& place, const char* reason) {
-      if (at || own == ground_link) return;
-      at = found(own, place);
-      link = own;
+    const auto take = [&](int link_index, const Vec& place, const char* reason) {
+      if (at || link_index == ground_link) return;
+      at = found(link_index, place);
+      link = link_index;
       why = reason;
     };
     for (const SourcePoint& point : s_.points)
       if (point.traced) take(point.link, point.at, "the source draws its path");
     for (const SourceLoad& load : s_.loads) take(load.link, load.at, "the source loads it");
     for (std::size_t l = s_.links.size(); l-- > 0 && !at;) {
-      const auto own = order_.find(static_cast<int>(l));
-      if (s_.links[l].dropped || s_.links[l].helper || own == order_.end()) continue;
+      const auto places = order_.find(static_cast<int>(l));
+      if (s_.links[l].dropped || s_.links[l].helper || places == order_.end()) continue;
       if (is_driven(static_cast<int>(l))) continue;
       // Where two legs meet rather than where one is driven.
       for (const bool far : {true, false})
-        for (const PlaceIndex p : own->second)
+        for (const PlaceIndex p : places->second)
           if (!at && !is_still(p) && !(far && has_driven(p)))
             take(static_cast<int>(l), places_[p].at, "the source says none");
     }
     for (std::size_t l = s_.links.size(); l-- > 0 && !at;)
-      if (const auto own = order_.find(static_cast<int>(l));
-          !s_.links[l].dropped && own != order_.end() && !own->second.empty())
-        take(static_cast<int>(l), places_[own->second.back()].at, "the source says none");
+      if (const auto places = order_.find(static_cast<int>(l));
+          !s_.links[l].dropped && places != order_.end() && !places->second.empty())
+        take(static_cast<int>(l), places_[places->second.back()].at, "the source says none");
     if (!at) throw InputError({file_}, "no link of the " + s_.format + " file moves", "name a file with a mechanism");
     effector_ = {link, *at};
     s_.note("the end effector is " + places_[*at].name + " of " + link_name(link) + ": " + why);

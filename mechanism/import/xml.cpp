@@ -61,18 +61,19 @@ class Builder {
   }
 
   XmlElement element(const pugi::xml_node& node, const std::string& file, int depth) {
-    XmlElement own;
-    own.name = node.name();
-    own.line = line_at(node.offset_debug());
+    XmlElement result;
+    result.name = node.name();
+    result.line = line_at(node.offset_debug());
     if (depth > deepest || ++count_ > most_elements)
-      throw InputError({file, own.line}, "the file is nested too deeply or has too many elements", "take a part of it");
+      throw InputError({file, result.line}, "the file is nested too deeply or has too many elements",
+                       "take a part of it");
     for (const pugi::xml_attribute& attribute : node.attributes())
-      own.attributes.push_back({attribute.name(), attribute.value()});
+      result.attributes.push_back({attribute.name(), attribute.value()});
     for (const pugi::xml_node& child : node.children()) {
-      if (child.type() == pugi::node_element) own.children.push_back(element(child, file, depth + 1));
-      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) own.text += child.value();
+      if (child.type() == pugi::node_element) result.children.push_back(element(child, file, depth + 1));
+      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) result.text += child.value();
     }
-    return own;
+    return result;
   }
 
  private:
@@ -102,11 +103,11 @@ XmlElement parse_xml(const std::string& text, const std::string& file) {
   constexpr int too_deep = 10000;
   if (depth_of(text) > too_deep)
     throw InputError({file}, "the file is nested too deeply", "name a file of a mechanism");
-  const std::string own = mended(text);
+  const std::string repaired = mended(text);
   pugi::xml_document document;
   const pugi::xml_parse_result result =
-      document.load_buffer(own.data(), own.size(), pugi::parse_default | pugi::parse_trim_pcdata);
-  Builder builder(own);
+      document.load_buffer(repaired.data(), repaired.size(), pugi::parse_default | pugi::parse_trim_pcdata);
+  Builder builder(repaired);
   if (!result)
     throw InputError({file, builder.line_at(result.offset)}, "the file is no XML: " + std::string(result.description()),
                      "correct it, or write it anew with the program that it is from");
@@ -116,10 +117,10 @@ XmlElement parse_xml(const std::string& text, const std::string& file) {
 }
 
 std::optional<std::string> XmlElement::get(std::string_view attribute) const {
-  for (const Attribute& own : attributes)
-    if (own.name == attribute) {
-      own.read = true;
-      return own.value;
+  for (const Attribute& entry : attributes)
+    if (entry.name == attribute) {
+      entry.read = true;
+      return entry.value;
     }
   return std::nullopt;
 }
@@ -129,39 +130,40 @@ std::string XmlElement::get(std::string_view attribute, const std::string& other
 }
 
 bool XmlElement::has(std::string_view attribute) const {
-  return std::any_of(attributes.begin(), attributes.end(), [&](const Attribute& own) { return own.name == attribute; });
+  return std::any_of(attributes.begin(), attributes.end(),
+                     [&](const Attribute& candidate) { return candidate.name == attribute; });
 }
 
 std::vector<const XmlElement*> XmlElement::all(std::string_view child) const {
   std::vector<const XmlElement*> found;
-  for (const XmlElement& own : children)
-    if (own.name == child) {
-      own.read = true;
-      found.push_back(&own);
+  for (const XmlElement& element : children)
+    if (element.name == child) {
+      element.read = true;
+      found.push_back(&element);
     }
   return found;
 }
 
 const XmlElement* XmlElement::first(std::string_view child) const {
-  for (const XmlElement& own : children)
-    if (own.name == child) {
-      own.read = true;
-      return &own;
+  for (const XmlElement& element : children)
+    if (element.name == child) {
+      element.read = true;
+      return &element;
     }
   return nullptr;
 }
 
 void XmlElement::take_whole() const {
   read = true;
-  for (const Attribute& own : attributes) own.read = true;
+  for (const Attribute& attribute : attributes) attribute.read = true;
   for (const XmlElement& child : children) child.take_whole();
 }
 
 namespace {
 
 void collect(const XmlElement& element, std::map<std::string, int>& counts) {
-  for (const XmlElement::Attribute& own : element.attributes)
-    if (!own.read) ++counts[own.name + " of <" + element.name + ">"];
+  for (const XmlElement::Attribute& attribute : element.attributes)
+    if (!attribute.read) ++counts[attribute.name + " of <" + element.name + ">"];
   for (const XmlElement& child : element.children) {
     if (child.read)
       collect(child, counts);

@@ -14,14 +14,15 @@ py::array_t<T> column(const StudyResult& result, const Get& get) {
 
 py::list cells_of(const StudyResult& result) {
   py::list cells;
-  for (const StudyCell& own : result.cells)
-    cells.append(py::make_tuple(own.lower, own.upper, to_string(own.status), own.reason));
+  for (const StudyCell& cell : result.cells)
+    cells.append(py::make_tuple(cell.lower, cell.upper, to_string(cell.status), cell.reason));
   return cells;
 }
 
 py::list ranges_of(const StudyResult& result) {
   py::list ranges;
-  for (const ProvenRange& own : result.ranges) ranges.append(py::make_tuple(own.from, own.to, own.below, own.above));
+  for (const ProvenRange& range : result.ranges)
+    ranges.append(py::make_tuple(range.from, range.to, range.below, range.above));
   return ranges;
 }
 
@@ -30,21 +31,22 @@ py::dict data_of(const Model& model, const StudyResult& result) {
   py::dict one, columns;
   for (std::size_t p = 0; p < result.parameters.size(); ++p)
     columns[py::str(result.parameters[p])] =
-        column<double>(result, [p](const StudyDesign& own) { return own.values[p]; });
+        column<double>(result, [p](const StudyDesign& design) { return design.values[p]; });
   for (std::size_t f = 0; f < result.figures.size(); ++f)
-    columns[py::str(to_string(result.figures[f]))] = column<double>(
-        result, [f](const StudyDesign& own) { return f < own.figures.size() ? own.figures[f] : std::nan(""); });
+    columns[py::str(to_string(result.figures[f]))] = column<double>(result, [f](const StudyDesign& design) {
+      return f < design.figures.size() ? design.figures[f] : std::nan("");
+    });
   py::list status, reason;
-  for (const StudyDesign& own : result.designs) {
-    status.append(to_string(own.status));
-    reason.append(own.reason);
+  for (const StudyDesign& design : result.designs) {
+    status.append(to_string(design.status));
+    reason.append(design.reason);
   }
   columns["status"] = status;
   columns["reason"] = reason;
   one["columns"] = columns;
   one["parameters"] = result.parameters;
   std::vector<std::string> figures;
-  for (const Figure own : result.figures) figures.push_back(to_string(own));
+  for (const Figure figure : result.figures) figures.push_back(to_string(figure));
   one["figures"] = figures;
   one["best"] = result.best ? py::cast(*result.best) : py::object(py::none());
   one["best_model"] =

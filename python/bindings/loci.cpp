@@ -181,11 +181,11 @@ void bind_loci(py::module_& module) {
               const std::set<std::string>& formats) { return names_of(export_to(model, map, folder, formats)); });
   module.def("trace_loci", [](const Model& model, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
-    return unlocked(request, [&](const LociRequest& own) { return trace_loci(model, own); });
+    return unlocked(request, [&](const LociRequest& loci_request) { return trace_loci(model, loci_request); });
   });
   module.def("carry_loci", [](const LocusMap& last, const Model& model, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
-    return unlocked(request, [&](const LociRequest& own) { return carry_loci(last, model, own); });
+    return unlocked(request, [&](const LociRequest& loci_request) { return carry_loci(last, model, loci_request); });
   });
   // Its values are those of its JSON.
   bind_answer<Validation>(module, "Validation", [](const Validation& validation) {
@@ -193,7 +193,9 @@ void bind_loci(py::module_& module) {
   });
   module.def("validate_loci", [](const Model& model, const std::vector<int>& nodes, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
-    return unlocked(request, [&](const LociRequest& own) { return validate_loci(model, {nodes, own}); });
+    return unlocked(request, [&](const LociRequest& loci_request) {
+      return validate_loci(model, {nodes, loci_request});
+    });
   });
 }
 

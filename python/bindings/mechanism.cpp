@@ -80,10 +80,10 @@ std::vector<Model::Value> values_of(const py::kwargs& values) {
   return list;
 }
 
-py::dict dict_of(const Model::Parameter& own) {
+py::dict dict_of(const Model::Parameter& parameter) {
   py::dict one;
-  one["exact"] = own.exact;
-  one["value"] = own.value;
+  one["exact"] = parameter.exact;
+  one["value"] = parameter.value;
   return one;
 }
 
@@ -100,13 +100,13 @@ py::object sketch_of(const Model& model, const std::optional<std::map<std::strin
   if (!pose) return py::none();
   const Sketch sketch = sketch_pose(model, *pose, sides);
   py::list links, slides, springs, joints;
-  for (const SketchLink& own : sketch.links) links.append(array_of(Polyline(own.points)));
-  for (const SketchSlide& own : sketch.slides) slides.append(array_of(Polyline{own.from, own.to}));
-  for (const SketchSpring& own : sketch.springs)
-    if (!own.torsion) springs.append(array_of(Polyline{own.from, own.to}));
-  for (const SketchJoint& own : sketch.joints)
-    joints.append(py::dict(py::arg("name") = own.name, py::arg("at") = place_of(own.at),
-                           py::arg("on_ground") = own.on_ground, py::arg("actuated") = own.actuated));
+  for (const SketchLink& link : sketch.links) links.append(array_of(Polyline(link.points)));
+  for (const SketchSlide& slide : sketch.slides) slides.append(array_of(Polyline{slide.from, slide.to}));
+  for (const SketchSpring& spring : sketch.springs)
+    if (!spring.torsion) springs.append(array_of(Polyline{spring.from, spring.to}));
+  for (const SketchJoint& joint : sketch.joints)
+    joints.append(py::dict(py::arg("name") = joint.name, py::arg("at") = place_of(joint.at),
+                           py::arg("on_ground") = joint.on_ground, py::arg("actuated") = joint.actuated));
   py::dict all(py::arg("links") = links, py::arg("slides") = slides, py::arg("springs") = springs,
                py::arg("joints") = joints);
   if (sketch.end_effector)
@@ -129,10 +129,10 @@ LociRequest request_of(const Model& model, const py::kwargs& options) {
     } else if (name == "quantity") {
       request.quantities.clear();
       for (const std::string& word : words_of(value)) {
-        const auto known = std::find_if(all_quantities.begin(), all_quantities.end(),
+        const auto found = std::find_if(all_quantities.begin(), all_quantities.end(),
                                         [&](Quantity quantity) { return to_string(quantity) == word; });
-        if (known == all_quantities.end()) refuse(name, "unknown quantity '" + word + "'", "f, M, F, N, T, fx to mz");
-        request.quantities.push_back(*known);
+        if (found == all_quantities.end()) refuse(name, "unknown quantity '" + word + "'", "f, M, F, N, T, fx to mz");
+        request.quantities.push_back(*found);
       }
     } else if (name == "joint") {
       request.joints = words_of(value);
@@ -208,7 +208,8 @@ void bind_mechanism(py::module_& module) {
           "parameters",
           [](const Model& model) {
             py::dict all;
-            for (const Model::Parameter& own : model.parameters()) all[py::str(own.name)] = dict_of(own);
+            for (const Model::Parameter& parameter : model.parameters())
+              all[py::str(parameter.name)] = dict_of(parameter);
             return all;
           },
           "name -> {'exact': str, 'value': float}, SI units")
@@ -216,21 +217,21 @@ void bind_mechanism(py::module_& module) {
           "coordinates",
           [](const Model& model) {
             py::dict all;
-            for (const Model::Coordinate& own : model.coordinates())
-              all[py::str(own.name)] = py::make_tuple(own.lower, own.upper);
+            for (const Model::Coordinate& coordinate : model.coordinates())
+              all[py::str(coordinate.name)] = py::make_tuple(coordinate.lower, coordinate.upper);
             return all;
           },
           "free coordinate -> (lower, upper), m or, of an angle, rad")
       .def_property_readonly(
           "units",
           [](const Model& model) {
-            const Units& own = model.units();
-            const bool degrees = !own.angle_declared;
+            const Units& units = model.units();
+            const bool degrees = !units.angle_declared;
             py::dict all;
-            all["length"] = py::make_tuple(own.length.name, own.length.size);
+            all["length"] = py::make_tuple(units.length.name, units.length.size);
             all["angle"] = degrees ? py::make_tuple("deg", std::numbers::pi / 180)
-                                   : py::make_tuple(own.angle.name, own.angle.size);
-            all["force"] = py::make_tuple(own.force.name, own.force.size);
+                                   : py::make_tuple(units.angle.name, units.angle.size);
+            all["force"] = py::make_tuple(units.force.name, units.force.size);
             return all;
           },
           "what tables and pictures speak in: (name, size in SI units)")
@@ -238,8 +239,8 @@ void bind_mechanism(py::module_& module) {
           "angles",
           [](const Model& model) {
             std::vector<std::string> names;
-            for (const Model::Coordinate& own : model.coordinates())
-              if (own.angle) names.push_back(own.name);
+            for (const Model::Coordinate& coordinate : model.coordinates())
+              if (coordinate.angle) names.push_back(coordinate.name);
             return names;
           },
           "the free coordinates that are angles")
@@ -247,14 +248,15 @@ void bind_mechanism(py::module_& module) {
       .def_property_readonly("joints",
                              [](const Model& model) {
                                std::vector<std::string> names;
-                               for (const Model::Joint& own : model.joints()) names.push_back(own.name);
+                               for (const Model::Joint& joint : model.joints()) names.push_back(joint.name);
                                return names;
                              })
       .def_property_readonly(
           "working_mode",
           [](const Model& model) {
             py::dict all;
-            for (const Model::Dyad& own : model.dyads()) all[py::str(own.point)] = own.side > 0 ? own.left : own.right;
+            for (const Model::Dyad& dyad : model.dyads())
+              all[py::str(dyad.point)] = dyad.side > 0 ? dyad.left : dyad.right;
             return all;
           },
           "the file's: point -> side")

@@ -16,13 +16,13 @@ void bind_errors(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const InputError& error) {
-      const py::object own = input_error(in_python(error.what()));
-      own.attr("file") = in_python(error.position().file);
-      own.attr("line") = error.position().line;
-      own.attr("column") = error.position().column;
-      own.attr("what") = in_python(error.problem());
-      own.attr("mend") = in_python(error.mend());
-      PyErr_SetObject(input_error.ptr(), own.ptr());
+      const py::object exception = input_error(in_python(error.what()));
+      exception.attr("file") = in_python(error.position().file);
+      exception.attr("line") = error.position().line;
+      exception.attr("column") = error.position().column;
+      exception.attr("what") = in_python(error.problem());
+      exception.attr("mend") = in_python(error.mend());
+      PyErr_SetObject(input_error.ptr(), exception.ptr());
     } catch (const py::cast_error& error) {  // of a value in an option, a dict or a list
       PyErr_SetObject(input_error.ptr(),
                       input_error(std::string("a value is of another type than is asked for: ") + error.what()).ptr());

@@ -38,24 +38,24 @@ py::dict dict_of(const PoseError& error) {
 
 py::dict dict_of(const std::vector<JointTakeUp>& all) {
   py::dict joints;
-  for (const JointTakeUp& own : all) {
+  for (const JointTakeUp& take_up : all) {
     py::dict one;
-    one["displacement"] = own.displacement;
-    one["beta"] = own.beta;
-    one["rotation"] = own.rotation;
-    one["normal"] = own.normal;
-    one["tilt"] = own.tilt;
-    one["axial"] = own.axial;
-    joints[py::str(own.joint)] = one;
+    one["displacement"] = take_up.displacement;
+    one["beta"] = take_up.beta;
+    one["rotation"] = take_up.rotation;
+    one["normal"] = take_up.normal;
+    one["tilt"] = take_up.tilt;
+    one["axial"] = take_up.axial;
+    joints[py::str(take_up.joint)] = one;
   }
   return joints;
 }
 
 py::dict dict_of(const std::vector<FeasibleEfforts>& all) {
   py::dict joints;
-  for (const FeasibleEfforts& own : all) {
+  for (const FeasibleEfforts& efforts : all) {
     py::list ranges;
-    for (const EffortRange& range : own.ranges) {
+    for (const EffortRange& range : efforts.ranges) {
       py::dict one;
       one["from"] = range.from;
       one["to"] = range.to;
@@ -64,12 +64,12 @@ py::dict dict_of(const std::vector<FeasibleEfforts>& all) {
       ranges.append(one);
     }
     py::dict one;
-    one["effort"] = own.effort;
-    one["given"] = own.given;
-    one["within"] = own.within;
+    one["effort"] = efforts.effort;
+    one["given"] = efforts.given;
+    one["within"] = efforts.within;
     one["ranges"] = ranges;
-    one["never"] = names_of(own.never);
-    joints[py::str(own.joint)] = one;
+    one["never"] = names_of(efforts.never);
+    joints[py::str(efforts.joint)] = one;
   }
   return joints;
 }
@@ -84,7 +84,7 @@ py::dict dict_of(const Pose& pose) {
     reactions[py::str(joint.joint)] = one;
   }
   const bool reached = pose.unreachable.empty() && pose.beyond_limit.empty();
-  const auto known = [&](const py::object& value) { return reached ? value : py::object(py::none()); };
+  const auto is_given = [&](const py::object& value) { return reached ? value : py::object(py::none()); };
   worst["displacement"] = pose.worst.displacement;
   worst["rotation"] = pose.worst.rotation;
   worst["distance"] = pose.worst.distance;
@@ -96,12 +96,12 @@ py::dict dict_of(const Pose& pose) {
                                                    : py::cast("beyond the limit of the " + pose.beyond_limit);
   all["points"] = points;
   all["reactions"] = reactions;
-  all["determinant"] = known(py::cast(pose.determinant));
-  all["condition"] = known(py::cast(pose.condition));
-  all["singular"] = known(py::cast(pose.singular));
+  all["determinant"] = is_given(py::cast(pose.determinant));
+  all["condition"] = is_given(py::cast(pose.condition));
+  all["singular"] = is_given(py::cast(pose.singular));
   all["take_up"] = dict_of(pose.take_up);
   all["error"] = pose.error ? py::object(dict_of(*pose.error)) : py::none();
-  all["worst"] = known(worst);
+  all["worst"] = is_given(worst);
   all["undefined"] = pose.undefined;
   all["vanishing"] = names_of(pose.vanishing);
   all["feasible_efforts"] = dict_of(pose.efforts);
@@ -222,8 +222,8 @@ py::dict dict_of(const TrajectoryResult& result) {
 
 py::list list_of(const PoseInModes& poses) {
   py::list all;
-  for (const ModePose& own : poses.modes)
-    if (own.pose) all.append(dict_of(*own.pose));
+  for (const ModePose& pose : poses.modes)
+    if (pose.pose) all.append(dict_of(*pose.pose));
   return all;
 }
 
@@ -254,10 +254,11 @@ void put_error(py::dict& to, const PoseError& error) {
 }
 
 void bind_motion(py::module_& module) {
-  bind_answer<Pose>(module, "Pose", [](const Pose& own) { return dict_of(own); });
-  bind_answer<PoseInModes>(module, "PoseInModes", [](const PoseInModes& own) { return list_of(own); });
-  bind_answer<Errors>(module, "Errors", [](const Errors& own) { return list_of(own); });
-  bind_answer<TrajectoryResult>(module, "TrajectoryResult", [](const TrajectoryResult& own) { return dict_of(own); });
+  bind_answer<Pose>(module, "Pose", [](const Pose& pose) { return dict_of(pose); });
+  bind_answer<PoseInModes>(module, "PoseInModes", [](const PoseInModes& modes) { return list_of(modes); });
+  bind_answer<Errors>(module, "Errors", [](const Errors& errors) { return list_of(errors); });
+  bind_answer<TrajectoryResult>(module, "TrajectoryResult",
+                                [](const TrajectoryResult& result) { return dict_of(result); });
   module.def("solve_pose",
              [](const Model& model, const std::vector<double>& at, bool iterate, const py::kwargs& options) {
                return solve_pose(model, at, pose_request(model, iterate, options));
@@ -269,11 +270,11 @@ void bind_motion(py::module_& module) {
   module.def("reactions", [](const Model& model, const PyPoses& poses, const py::kwargs& options) {
     const DyadSides sides = only_mode(model, options);
     const std::span<const double> values(poses.data(), static_cast<std::size_t>(poses.size()));
-    const Reactions own = [&] {
+    const Reactions found = [&] {
       const py::gil_scoped_release free;
       return reactions(model, values, sides);
     }();
-    return dict_of(own.table);
+    return dict_of(found.table);
   });
   module.def("find_errors", [](const Model& model, const std::vector<int>& grid, bool worst_case, bool loci, bool zones,
                                const py::kwargs& options) {
@@ -282,8 +283,8 @@ void bind_motion(py::module_& module) {
                          .with_loci = loci,
                          .with_zones = zones,
                          .loci = request_of(model, options)};
-    LociRequest own = request.loci;
-    return unlocked(own, [&](const LociRequest& with_signals) {
+    LociRequest loci_request = request.loci;
+    return unlocked(loci_request, [&](const LociRequest& with_signals) {
       request.loci = with_signals;
       return find_errors(model, request);
     });

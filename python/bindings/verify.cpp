@@ -44,9 +44,9 @@ py::object witness_of(const Verification& answer) {
   py::dict one, design;
   for (const auto& [name, value] : witness.design) design[py::str(name)] = value;
   py::list loads;
-  for (const WitnessLoad& own : witness.loads)
-    loads.append(py::dict(py::arg("load") = own.load + 1, py::arg("force") = place(own.force),
-                          py::arg("couple") = couple_of(own)));
+  for (const WitnessLoad& load : witness.loads)
+    loads.append(py::dict(py::arg("load") = load.load + 1, py::arg("force") = place(load.force),
+                          py::arg("couple") = couple_of(load)));
   one["at"] = place(witness.at);
   one["kind"] = name_of(witness.kind);
   one["vanishing"] = names_of(witness.vanishing);
@@ -102,11 +102,11 @@ py::object preload_of(const Verification& answer) {
     if (preload.value) value[py::str(preload.joints[i])] = (*preload.value)[i];
   }
   py::list ranges;
-  for (const ProvenRange& own : preload.ranges)
-    ranges.append(py::dict(py::arg("from") = own.from, py::arg("to") = own.to, py::arg("below") = own.below,
-                           py::arg("above") = own.above));
+  for (const ProvenRange& range : preload.ranges)
+    ranges.append(py::dict(py::arg("from") = range.from, py::arg("to") = range.to, py::arg("below") = range.below,
+                           py::arg("above") = range.above));
   py::list patterns;
-  for (const PreloadPattern& own : preload.patterns) patterns.append(pattern_of(own));
+  for (const PreloadPattern& pattern : preload.patterns) patterns.append(pattern_of(pattern));
   py::dict one;
   one["patterns"] = patterns;
   one["law"] = py::none();
@@ -125,9 +125,9 @@ py::object preload_of(const Verification& answer) {
 
 py::dict dict_of(const Verification& answer) {
   py::list least;
-  for (const LeastReaction& own : answer.least)
-    least.append(py::dict(py::arg("reaction") = python::name_of(own.reaction), py::arg("proven") = own.proven,
-                          py::arg("met") = own.met));
+  for (const LeastReaction& reaction : answer.least)
+    least.append(py::dict(py::arg("reaction") = python::name_of(reaction.reaction), py::arg("proven") = reaction.proven,
+                          py::arg("met") = reaction.met));
   py::dict one;
   one["verdict"] = to_string(answer.verdict);
   one["coordinates"] = answer.coordinates;
@@ -164,8 +164,8 @@ TaskFit fit_of(const std::string& word) {
 }  // namespace
 
 void bind_verify(py::module_& module) {
-  bind_answer<Verification>(module, "Verification", [](const Verification& own) {
-    return dict_of(own);
+  bind_answer<Verification>(module, "Verification", [](const Verification& verification) {
+    return dict_of(verification);
   }).def("svgs", [](const Verification& answer) { return std::vector<std::string>{to_svg(answer)}; });
   module.def("verify", [](const Model& model, const std::string& text, const std::string& file, const std::string& fit,
                           const py::kwargs& options) {

@@ -10,13 +10,13 @@ namespace {
 
 py::list borders_of(const Zones& map, const Zone& zone) {
   py::list borders;
-  for (const ZoneBorder& own : zone.borders) {
+  for (const ZoneBorder& border : zone.borders) {
     py::dict one;
-    if (!map.by_cells) one["curve"] = own.curve;
-    one["kind"] = own.kind ? to_string(*own.kind) : "box";
-    one["vanishing"] = names_of(own.vanishing);
-    if (!map.by_cells) one["length"] = own.length;
-    if (!own.beside.empty()) one["beside"] = own.beside;
+    if (!map.by_cells) one["curve"] = border.curve;
+    one["kind"] = border.kind ? to_string(*border.kind) : "box";
+    one["vanishing"] = names_of(border.vanishing);
+    if (!map.by_cells) one["length"] = border.length;
+    if (!border.beside.empty()) one["beside"] = border.beside;
     borders.append(one);
   }
   return borders;
@@ -24,12 +24,12 @@ py::list borders_of(const Zones& map, const Zone& zone) {
 
 py::list ends_of(const Zone& zone) {
   py::list ends;
-  for (const ZoneEnd& own : zone.ends) {
-    py::dict one(py::arg("at") = own.at, py::arg("kind") = to_string(own.kind),
-                 py::arg("vanishing") = names_of(own.vanishing), py::arg("jumps") = own.jump.has_value());
-    if (!own.limit.empty()) one["limit"] = own.limit;
-    if (!own.cause.empty()) one["cause"] = own.cause;
-    if (own.jump) put_error(one, *own.jump);
+  for (const ZoneEnd& end : zone.ends) {
+    py::dict one(py::arg("at") = end.at, py::arg("kind") = to_string(end.kind),
+                 py::arg("vanishing") = names_of(end.vanishing), py::arg("jumps") = end.jump.has_value());
+    if (!end.limit.empty()) one["limit"] = end.limit;
+    if (!end.cause.empty()) one["cause"] = end.cause;
+    if (end.jump) put_error(one, *end.jump);
     ends.append(one);
   }
   return ends;
@@ -37,10 +37,10 @@ py::list ends_of(const Zone& zone) {
 
 py::list faces_of(const Zone& zone) {
   py::list faces;
-  for (const auto& own : zone.faces) {
-    py::array_t<double> corners({static_cast<py::ssize_t>(own.size()), py::ssize_t{3}});
+  for (const auto& face : zone.faces) {
+    py::array_t<double> corners({static_cast<py::ssize_t>(face.size()), py::ssize_t{3}});
     double* to = corners.mutable_data();
-    for (const auto& corner : own) to = std::copy(corner.begin(), corner.end(), to);
+    for (const auto& corner : face) to = std::copy(corner.begin(), corner.end(), to);
     faces.append(corners);
   }
   return faces;
@@ -56,16 +56,17 @@ py::object preload_of(const Zone& zone) {
   if (!zone.preload) return py::none();
   const ZonePreload& preload = *zone.preload;
   py::dict efforts;
-  for (const FeasibleEfforts& own : preload.efforts) {
+  for (const FeasibleEfforts& feasible_efforts : preload.efforts) {
     py::list ranges;
-    for (std::size_t i = 0; i < own.ranges.size(); ++i) {
-      const EffortRange& range = own.ranges[i];
+    for (std::size_t i = 0; i < feasible_efforts.ranges.size(); ++i) {
+      const EffortRange& range = feasible_efforts.ranges[i];
       py::dict one(py::arg("from") = range.from, py::arg("to") = range.to, py::arg("below") = names_of(range.below),
                    py::arg("above") = names_of(range.above));
-      if (preload.efforts.size() == 1 && !own.cable) one["signs"] = signs_of(preload.patterns[i]);
+      if (preload.efforts.size() == 1 && !feasible_efforts.cable) one["signs"] = signs_of(preload.patterns[i]);
       ranges.append(one);
     }
-    efforts[py::str(own.joint)] = py::dict(py::arg("ranges") = ranges, py::arg("never") = names_of(own.never));
+    efforts[py::str(feasible_efforts.joint)] =
+        py::dict(py::arg("ranges") = ranges, py::arg("never") = names_of(feasible_efforts.never));
   }
   return py::dict(py::arg("feasible") = preload.feasible, py::arg("smallest") = preload.smallest,
                   py::arg("efforts") = efforts);
@@ -123,10 +124,10 @@ py::dict zones_dict(const Zones& map) {
   all["zones"] = zones;
   all["modes"] = modes;
   py::list regions;
-  for (const PreloadRegion& own : map.preload_regions)
-    regions.append(py::dict(py::arg("working_mode") = mode_of(map.loci.tower, own.mode),
-                            py::arg("signs") = signs_of(own.signs), py::arg("zones") = own.zones,
-                            py::arg("size") = own.size));
+  for (const PreloadRegion& region : map.preload_regions)
+    regions.append(py::dict(py::arg("working_mode") = mode_of(map.loci.tower, region.mode),
+                            py::arg("signs") = signs_of(region.signs), py::arg("zones") = region.zones,
+                            py::arg("size") = region.size));
   all["preload_regions"] = regions;
   all["by_cells"] = map.by_cells;
   all["loci"] = dict_of(map.loci);
@@ -136,7 +137,7 @@ py::dict zones_dict(const Zones& map) {
 }  // namespace
 
 void bind_zones(py::module_& module) {
-  auto answer = bind_answer<Zones>(module, "Zones", [](const Zones& own) { return zones_dict(own); });
+  auto answer = bind_answer<Zones>(module, "Zones", [](const Zones& zones) { return zones_dict(zones); });
   answer.def("svgs", [](const Zones& map) {
     std::vector<std::string> pictures;
     for (const WorkingMode& mode : modes_of(map)) pictures.push_back(to_svg(map, mode));
@@ -144,8 +145,8 @@ void bind_zones(py::module_& module) {
   });
   module.def("find_zones", [](const Model& model, long cells, bool by_cells, const py::kwargs& options) {
     LociRequest request = request_of(model, options);
-    return unlocked(request, [&](const LociRequest& own) {
-      return find_zones(model, {.loci = own, .cells = cells, .by_cells = by_cells});
+    return unlocked(request, [&](const LociRequest& loci_request) {
+      return find_zones(model, {.loci = loci_request, .cells = cells, .by_cells = by_cells});
     });
   });
 }

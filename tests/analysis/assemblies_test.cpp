@@ -46,10 +46,10 @@ VectorXd closure(const VectorXd& x, const std::vector<double>& lengths) {
   VectorXd g(unknowns);
   for (std::size_t i = 0; i < legs; ++i)
     g(static_cast<Eigen::Index>(i)) = (p + R * plate[i] - base[i]).squaredNorm() - lengths[i] * lengths[i];
-  const Matrix3d own = R.transpose() * R - Matrix3d::Identity();
+  const Matrix3d matrix3d = R.transpose() * R - Matrix3d::Identity();
   Eigen::Index k = legs;
   for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) g(k++) = own(i, j);
+    for (int j = i; j < 3; ++j) g(k++) = matrix3d(i, j);
   return g;
 }
 
@@ -83,7 +83,7 @@ std::vector<VectorXd> by_newton(const std::vector<double>& lengths, int places) 
       x -= std::min(1.0, 1 / moved) * step;
     }
     if (!(moved <= 1e-11) || Eigen::Map<const Matrix3d>(x.data() + 3).determinant() < 0) continue;
-    const auto same = [&](const VectorXd& own) { return (own - x).norm() < 1e-6; };
+    const auto same = [&](const VectorXd& vector) { return (vector - x).norm() < 1e-6; };
     if (std::none_of(found.begin(), found.end(), same)) found.push_back(x);
   }
   return found;
@@ -102,11 +102,11 @@ class Assemblies : public ::testing::Test {
   /// Holds every assembly of the answer against the lengths, and against those that Newton's iteration finds.
   std::size_t hold(const std::vector<double>& lengths) {
     const PoseInModes all = solve_pose_in_modes(model_, lengths);
-    for (const ModePose& own : all.modes) {
-      EXPECT_TRUE(own.pose) << own.why_not;
-      if (!own.pose) continue;
+    for (const ModePose& pose : all.modes) {
+      EXPECT_TRUE(pose.pose) << pose.why_not;
+      if (!pose.pose) continue;
       Six at;
-      for (std::size_t i = 0; i < legs; ++i) at[i] = place(*own.pose, "B" + std::to_string(i + 1));
+      for (std::size_t i = 0; i < legs; ++i) at[i] = place(*pose.pose, "B" + std::to_string(i + 1));
       for (std::size_t i = 0; i < legs; ++i) {
         EXPECT_NEAR((at[i] - base[i]).norm(), lengths[i], 1e-9);
         for (std::size_t j = 0; j < i; ++j)
@@ -119,8 +119,9 @@ class Assemblies : public ::testing::Test {
     for (const VectorXd& x : by_newton(lengths, 400)) {
       const Vector3d p = x.head<3>();
       const Vector3d other = p + Eigen::Map<const Matrix3d>(x.data() + 3) * plate[1];
-      EXPECT_TRUE(std::any_of(all.modes.begin(), all.modes.end(), [&](const ModePose& own) {
-        return own.pose && (place(*own.pose, "B1") - p).norm() < 1e-6 && (place(*own.pose, "B2") - other).norm() < 1e-6;
+      EXPECT_TRUE(std::any_of(all.modes.begin(), all.modes.end(), [&](const ModePose& pose) {
+        return pose.pose && (place(*pose.pose, "B1") - p).norm() < 1e-6 &&
+               (place(*pose.pose, "B2") - other).norm() < 1e-6;
       })) << p.transpose();
     }
     return all.modes.size();
@@ -130,7 +131,7 @@ class Assemblies : public ::testing::Test {
 TEST_F(Assemblies, AreFortyOfDietmaiersPlatform) {
   ASSERT_EQ(hold(published), 40U);
   const PoseInModes all = solve_pose_in_modes(model_, published);
-  for (const ModePose& own : all.modes) EXPECT_EQ(own.working_mode.back().second.find("or more"), std::string::npos);
+  for (const ModePose& pose : all.modes) EXPECT_EQ(pose.working_mode.back().second.find("or more"), std::string::npos);
 }
 
 TEST_F(Assemblies, NoneIsMissedWhereLegsHaveOtherLengths) {
@@ -138,7 +139,7 @@ TEST_F(Assemblies, NoneIsMissedWhereLegsHaveOtherLengths) {
   std::uniform_real_distribution<double> part(0.985, 1.015);
   for (int i = 0; i < 4; ++i) {
     std::vector<double> lengths = published;
-    for (double& own : lengths) own *= part(random);
+    for (double& length : lengths) length *= part(random);
     EXPECT_GT(hold(lengths), 1U);
   }
 }
@@ -147,8 +148,8 @@ TEST_F(Assemblies, NoneIsMissedWhereLegsHaveOtherLengths) {
 double turn_of(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return (b - a).cross(c - a).z(); }
 
 Vector3d at_in(const Pose& pose, const std::string& name) {
-  for (const PosePoint& own : pose.points)
-    if (own.name == name) return {own.at[0], own.at[1], 0};
+  for (const PosePoint& point : pose.points)
+    if (point.name == name) return {point.at[0], point.at[1], 0};
   throw std::out_of_range(name);
 }
 
@@ -159,10 +160,10 @@ TEST(AssembliesOfAPlate, DoNotTurnItOver) {
     const PoseInModes all = solve_pose_in_modes(model, lengths);
     // As many as a search over the turn of the plate finds.
     EXPECT_EQ(all.modes.size(), 2U);
-    for (const ModePose& own : all.modes) {
-      ASSERT_TRUE(own.pose) << own.why_not;
-      EXPECT_GT(turn_of(at_in(*own.pose, "B1"), at_in(*own.pose, "B2"), at_in(*own.pose, "B3")), 0);
-      EXPECT_EQ(own.working_mode.back().second.find("or more"), std::string::npos);
+    for (const ModePose& pose : all.modes) {
+      ASSERT_TRUE(pose.pose) << pose.why_not;
+      EXPECT_GT(turn_of(at_in(*pose.pose, "B1"), at_in(*pose.pose, "B2"), at_in(*pose.pose, "B3")), 0);
+      EXPECT_EQ(pose.working_mode.back().second.find("or more"), std::string::npos);
     }
   }
 }
@@ -184,20 +185,20 @@ TEST(AssembliesOfSeveralGroups, AreThoseOfEachOverThoseBeforeIt) {
                   "  K: {revolute: [ground, KP], at: K}\n");
   for (const double phi : {2.15, 2.3, 2.5}) {
     std::size_t expected = 0;
-    for (const ModePose& own : solve_pose_in_modes(Model::parse(first), {phi}).modes) {
-      ASSERT_TRUE(own.pose) << own.why_not;
-      const double d = (at_in(*own.pose, "E") - Vector3d(0.2, 1.8, 0)).norm();
+    for (const ModePose& pose : solve_pose_in_modes(Model::parse(first), {phi}).modes) {
+      ASSERT_TRUE(pose.pose) << pose.why_not;
+      const double d = (at_in(*pose.pose, "E") - Vector3d(0.2, 1.8, 0)).norm();
       expected += d < 1.7 && d > 0.1 ? 2 : 0;
     }
     const PoseInModes all = solve_pose_in_modes(Model::parse(text), {phi});
     ASSERT_GT(expected, 0U);
     EXPECT_EQ(all.modes.size(), expected);
-    for (const ModePose& own : all.modes) {
-      ASSERT_TRUE(own.pose) << own.why_not;
-      EXPECT_EQ(own.working_mode.back().second.find("or more"), std::string::npos);
-      EXPECT_NEAR((at_in(*own.pose, "P") - at_in(*own.pose, "E")).norm(), 0.9, 1e-9);
-      EXPECT_NEAR((at_in(*own.pose, "P") - Vector3d(0.2, 1.8, 0)).norm(), 0.8, 1e-9);
-      EXPECT_GT(turn_of(at_in(*own.pose, "B"), at_in(*own.pose, "C"), at_in(*own.pose, "E")), 0);
+    for (const ModePose& pose : all.modes) {
+      ASSERT_TRUE(pose.pose) << pose.why_not;
+      EXPECT_EQ(pose.working_mode.back().second.find("or more"), std::string::npos);
+      EXPECT_NEAR((at_in(*pose.pose, "P") - at_in(*pose.pose, "E")).norm(), 0.9, 1e-9);
+      EXPECT_NEAR((at_in(*pose.pose, "P") - Vector3d(0.2, 1.8, 0)).norm(), 0.8, 1e-9);
+      EXPECT_GT(turn_of(at_in(*pose.pose, "B"), at_in(*pose.pose, "C"), at_in(*pose.pose, "E")), 0);
     }
   }
 }

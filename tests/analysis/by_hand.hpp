@@ -14,9 +14,9 @@ inline Model shipped(const std::string& name) { return Model::read(source_dir() 
 
 /// A component of the reaction of a joint; throws std::out_of_range where there is none.
 inline double part(const Pose& pose, const std::string& joint, Quantity quantity) {
-  for (const JointReaction& own : pose.reactions)
-    for (const ReactionComponent& component : own.components)
-      if (own.joint == joint && component.quantity == quantity) return component.value;
+  for (const JointReaction& reaction : pose.reactions)
+    for (const ReactionComponent& component : reaction.components)
+      if (reaction.joint == joint && component.quantity == quantity) return component.value;
   throw std::out_of_range(joint);
 }
 

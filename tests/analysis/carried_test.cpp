@@ -45,9 +45,9 @@ void expect_on_curves(const LocusMap& carried, const LocusMap& proven, double ex
     for (const Arc& arc : curve.arcs)
       for (const Point2& at : arc.points) {
         double least = 1;
-        for (const LocusCurve& own : proven.curves)
-          if (own.kind == curve.kind && own.mode == curve.mode && !own.implicit.is_zero())
-            least = std::min(least, off_curve(own.implicit, at));
+        for (const LocusCurve& locus_curve : proven.curves)
+          if (locus_curve.kind == curve.kind && locus_curve.mode == curve.mode && !locus_curve.implicit.is_zero())
+            least = std::min(least, off_curve(locus_curve.implicit, at));
         EXPECT_LE(least, 1e-9 * extent) << curve.id << " at " << at[0] << ", " << at[1];
         ++compared;
       }
@@ -111,8 +111,8 @@ TEST(CarriedLoci, OverOneCoordinateAreTheNewValues) {
   ASSERT_FALSE(map.isolated_points.empty());
   for (const IsolatedPoint& point : map.isolated_points) {
     double least = 1;
-    for (const IsolatedPoint& own : proof.isolated_points)
-      if (own.mode == point.mode) least = std::min(least, std::abs(own.at[0] - point.at[0]));
+    for (const IsolatedPoint& isolated_point : proof.isolated_points)
+      if (isolated_point.mode == point.mode) least = std::min(least, std::abs(isolated_point.at[0] - point.at[0]));
     EXPECT_LE(least, 1e-9 * 6.3) << point.at[0];
   }
 }

@@ -31,17 +31,17 @@ TEST(CoordinateErrorsOfAModel, JumpAtTheLociByWhatTheirRowsSay) {
   EXPECT_EQ(errors.loci.angles, (std::vector<bool>{true}));
   EXPECT_EQ(errors.loci.tower.coordinates, (std::vector<std::string>{"theta"}));
   ASSERT_EQ(errors.modes.size(), 1U);
-  const ModeErrors& own = errors.modes.front();
-  const std::vector<double>& at = own.map.axes.front();
+  const ModeErrors& mode_errors = errors.modes.front();
+  const std::vector<double>& at = mode_errors.map.axes.front();
   EXPECT_TRUE(std::is_sorted(at.begin(), at.end()));
   int jumps = 0;
-  for (const ErrorEvent& event : own.events) {
+  for (const ErrorEvent& event : mode_errors.events) {
     if (!event.jumps) continue;
     ++jumps;
     const auto row = std::find(at.begin(), at.end(), event.point.at.front()) - at.begin();
     ASSERT_LT(static_cast<std::size_t>(row), at.size()) << "the event has a row";
     const auto i = static_cast<std::size_t>(row);
-    const std::vector<double>& dx = values_of(own, "dx");
+    const std::vector<double>& dx = values_of(mode_errors, "dx");
     EXPECT_TRUE(std::isnan(dx[i])) << "lines are broken there";
     ASSERT_TRUE(i > 0 && i + 1 < at.size());
     EXPECT_NEAR(dx[i + 1] - dx[i - 1], event.jump.displacement[0], 1e-9);
@@ -84,9 +84,9 @@ TEST(CoordinateErrorsOfAModel, InSpaceAreThoseOfItsPoses) {
   const Model model = upu_along_x();
   const Errors errors = find_errors(model, {.grid = {40}});
   ASSERT_EQ(errors.modes.size(), 1U);
-  const ModeErrors& own = errors.modes.front();
-  const std::vector<double>& at = own.map.axes.front();
-  const Table samples = samples_of(own);
+  const ModeErrors& mode_errors = errors.modes.front();
+  const std::vector<double>& at = mode_errors.map.axes.front();
+  const Table samples = samples_of(mode_errors);
   int compared = 0;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double x = samples.at("dx")[i];
@@ -109,10 +109,10 @@ TEST(CoordinateErrorsOfAModel, InSpaceAreThoseOfItsPoses) {
 
 TEST(CoordinateErrorsOfAModel, InSpaceJumpByWhatTheirRowsSay) {
   const Errors errors = find_errors(upu_along_x(), {.grid = {40}});
-  const ModeErrors& own = errors.modes.front();
-  const std::vector<double>& at = own.map.axes.front();
+  const ModeErrors& mode_errors = errors.modes.front();
+  const std::vector<double>& at = mode_errors.map.axes.front();
   int jumps = 0;
-  for (const ErrorEvent& event : own.events) {
+  for (const ErrorEvent& event : mode_errors.events) {
     if (!event.jumps) continue;
     ++jumps;
     const auto i = static_cast<std::size_t>(std::find(at.begin(), at.end(), event.point.at.front()) - at.begin());
@@ -122,7 +122,7 @@ TEST(CoordinateErrorsOfAModel, InSpaceJumpByWhatTheirRowsSay) {
     const std::array places = {"dx", "dy", "dz"};
     double size = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::vector<double>& column = values_of(own, places[c]);
+      const std::vector<double>& column = values_of(mode_errors, places[c]);
       EXPECT_NEAR(column[i + 1] - column[i - 1], event.jump.displacement[c], 1e-9);
       size = std::max(size, std::abs(event.jump.displacement[c]));
     }
@@ -134,14 +134,14 @@ TEST(CoordinateErrorsOfAModel, InSpaceJumpByWhatTheirRowsSay) {
 
 TEST(CoordinateErrorsOfAModel, LieInTheZonesBetweenTheirJumps) {
   const Errors errors = find_errors(four_bar(), {.grid = {200}, .with_zones = true});
-  const ModeErrors& own = errors.modes.front();
-  const std::vector<double>& at = own.map.axes.front();
-  ASSERT_GT(own.zones.size(), 1U);
+  const ModeErrors& mode_errors = errors.modes.front();
+  const std::vector<double>& at = mode_errors.map.axes.front();
+  ASSERT_GT(mode_errors.zones.size(), 1U);
   std::vector<int> zones_of(at.size(), 0);
-  for (const ZoneErrors& zone : own.zones) {
+  for (const ZoneErrors& zone : mode_errors.zones) {
     ASSERT_FALSE(zone.cells.empty());
     for (const std::size_t cell : zone.cells) ++zones_of[cell];
-    for (const ErrorEvent& event : own.events) {
+    for (const ErrorEvent& event : mode_errors.events) {
       if (!event.jumps) continue;
       const double place = event.point.at.front();
       EXPECT_FALSE(at[zone.cells.front()] < place && place < at[zone.cells.back()]) << zone.zone << " at " << place;
@@ -156,11 +156,11 @@ TEST(CoordinateErrorsOfAModel, AreBoundsAloneWithoutALoad) {
   std::string text = example_text("four_bar");
   text.erase(text.find("\nloads:") + 1);
   const Errors errors = find_errors(Model::parse(text), {.grid = {40}});
-  const ModeErrors& own = errors.modes.front();
-  EXPECT_FALSE(own.never_loaded.empty());
-  EXPECT_EQ(own.map.fields.size(), 4U);
-  EXPECT_EQ(own.map.fields.front().name, "worst_dx");
-  EXPECT_EQ(own.undefined, 0U);
+  const ModeErrors& mode_errors = errors.modes.front();
+  EXPECT_FALSE(mode_errors.never_loaded.empty());
+  EXPECT_EQ(mode_errors.map.fields.size(), 4U);
+  EXPECT_EQ(mode_errors.map.fields.front().name, "worst_dx");
+  EXPECT_EQ(mode_errors.undefined, 0U);
   EXPECT_EQ(files_of(errors, {"svg"}).front().name, "error.svg");
   const Errors nothing = find_errors(Model::parse(text), {.grid = {40}, .worst_case = false});
   EXPECT_TRUE(nothing.modes.front().map.fields.empty());

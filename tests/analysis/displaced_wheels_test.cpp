@@ -22,8 +22,8 @@ double turn(const Vector2d& a, const Vector2d& b) { return a(0) * b(1) - a(1) * 
 Vector2d turned(const Vector2d& v, double angle) { return std::cos(angle) * v + std::sin(angle) * across(v); }
 
 Vector2d place(const std::vector<PosePoint>& points, const std::string& name) {
-  for (const PosePoint& own : points)
-    if (own.name == name) return {own.at[0], own.at[1]};
+  for (const PosePoint& point : points)
+    if (point.name == name) return {point.at[0], point.at[1]};
   throw std::out_of_range(name);
 }
 
@@ -34,10 +34,10 @@ struct Wheel {
 
   Wheel(const Pose& pose, const std::string& link, const std::string& centre, const std::string& mark)
       : before(place(pose.points, centre)) {
-    for (const DisplacedLink& own : pose.actual->links) {
-      if (own.link != link) continue;
-      now = place(own.points, centre);
-      const Vector2d way = place(pose.points, mark) - before, then = place(own.points, mark) - now;
+    for (const DisplacedLink& displaced_link : pose.actual->links) {
+      if (displaced_link.link != link) continue;
+      now = place(displaced_link.points, centre);
+      const Vector2d way = place(pose.points, mark) - before, then = place(displaced_link.points, mark) - now;
       by = std::atan2(turn(way, then - way), way.dot(then));
     }
   }
@@ -48,10 +48,8 @@ struct Flank {
   const Wheel& wheel;
   Vector2d touch, string;  ///< from the centre to where the string leaves, and from there to the pitch point
 
-  Flank(const Wheel& own, const Vector2d& pitch, const Vector2d& line)
-      : wheel(own),
-        touch(pitch - own.before - line.dot(pitch - own.before) * line),
-        string(pitch - own.before - touch) {}
+  Flank(const Wheel& of, const Vector2d& pitch, const Vector2d& line)
+      : wheel(of), touch(pitch - of.before - line.dot(pitch - of.before) * line), string(pitch - of.before - touch) {}
   Vector2d direction(double v) const { return turned(string.normalized(), v + wheel.by); }
   Vector2d at(double v) const {
     const double length = string.norm() - touch.norm() * v * across(touch).normalized().dot(string.normalized());
@@ -157,9 +155,9 @@ INSTANTIATE_TEST_SUITE_P(OpenAndCrossed, DisplacedBelt, ::testing::Values(15, -1
 TEST(DisplacedWheels, GoBeyondTheLinearStepWithTheSquareOfTheirClearances) {
   for (const std::string& text : {example_text("geared_five_bar"), belted("[30, 15]"), belted("[30, -15]"),
                                   example_text("scara_belt"), example_text("scissor_lift")}) {
-    const auto beyond = [&](const std::string& own, const std::vector<double>& at) {
-      const Pose pose = solve_pose(Model::parse(own), at, {.iterate = true});
-      EXPECT_TRUE(pose.actual && pose.actual->converged) << own;
+    const auto beyond = [&](const std::string& candidate, const std::vector<double>& at) {
+      const Pose pose = solve_pose(Model::parse(candidate), at, {.iterate = true});
+      EXPECT_TRUE(pose.actual && pose.actual->converged) << candidate;
       return Vector2d(pose.actual->beyond_linear.displacement[0], pose.actual->beyond_linear.displacement[1]);
     };
     const std::string half =

@@ -86,15 +86,15 @@ TEST(EffortBounds, EndTheRangesOfAFreeEffort) {
         if (joint.joint == "A1" && part.quantity == Quantity::M) return part.value;
     return std::nan("");
   };
-  const FeasibleEfforts own = solve_pose(bounded, at).efforts.at(0);
-  ASSERT_FALSE(own.ranges.empty());
-  EXPECT_NEAR(std::abs(couple(own.ranges.front().from)), 9, 1e-6);
-  EXPECT_NEAR(std::abs(couple(own.ranges.back().to)), 9, 1e-6);
+  const FeasibleEfforts efforts = solve_pose(bounded, at).efforts.at(0);
+  ASSERT_FALSE(efforts.ranges.empty());
+  EXPECT_NEAR(std::abs(couple(efforts.ranges.front().from)), 9, 1e-6);
+  EXPECT_NEAR(std::abs(couple(efforts.ranges.back().to)), 9, 1e-6);
 }
 
 const JointReaction& joint_of(const Pose& pose, const std::string& name) {
-  for (const JointReaction& own : pose.reactions)
-    if (own.joint == name) return own;
+  for (const JointReaction& reaction : pose.reactions)
+    if (reaction.joint == name) return reaction;
   throw std::out_of_range(name);
 }
 

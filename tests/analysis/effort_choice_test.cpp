@@ -144,9 +144,9 @@ TEST(ConstantEfforts, OfCablesMayBeTheirBounds) {
     text = replaced(text, std::string(cable) + ": {cable: [ground, load], at: [A" + cable[1] + ", P], tension: [5,",
                     std::string(cable) + ": {cable: [ground, load], at: [A" + cable[1] + ", P], tension: [2.3,");
   for (const char* bounds : {"5, 100", "5, 60"}) {
-    const Model own =
+    const Model model =
         Model::parse(replaced(text, "A1, P], tension: [5, 100", "A1, P], tension: [" + std::string(bounds)));
-    const Verification answer = asked(own, "format: 1\nbox: {x: [-0.1, 0.1], y: [-0.1, 0.1]}\npreload: constant\n");
+    const Verification answer = asked(model, "format: 1\nbox: {x: [-0.1, 0.1], y: [-0.1, 0.1]}\npreload: constant\n");
     ASSERT_EQ(answer.verdict, Verdict::verified) << bounds;
     for (const double tension : *answer.preload->value) EXPECT_GE(tension, 2.3);
   }

@@ -49,8 +49,8 @@ bool holds(const std::map<std::string, double>& reactions, double min_force, dou
 }
 
 bool is_in(const FeasibleEfforts& efforts, double effort) {
-  for (const EffortRange& own : efforts.ranges)
-    if (own.from <= effort && effort <= own.to) return true;
+  for (const EffortRange& range : efforts.ranges)
+    if (range.from <= effort && effort <= range.to) return true;
   return false;
 }
 
@@ -68,15 +68,15 @@ TEST(EffortsAtAPose, AreThoseThatGivenOnesConfirm) {
     if (!pose.unreachable.empty()) continue;
     ASSERT_EQ(pose.efforts.size(), 1U);
     for (int k = 0; k < 12; ++k) {
-      const double own = effort(random);
-      const bool expected = holds(reactions_at(given(model, std::to_string(own)), at), 15, 4);
-      EXPECT_EQ(is_in(pose.efforts[0], own), expected) << at[0] << " " << at[1] << " " << own;
+      const double drawn = effort(random);
+      const bool expected = holds(reactions_at(given(model, std::to_string(drawn)), at), 15, 4);
+      EXPECT_EQ(is_in(pose.efforts[0], drawn), expected) << at[0] << " " << at[1] << " " << drawn;
       feasible += expected ? 1 : 0;
       ++looked;
     }
-    for (const EffortRange& own : pose.efforts[0].ranges) {
-      EXPECT_LT(own.from, own.to);
-      EXPECT_EQ(own.below.empty(), std::isinf(own.from));
+    for (const EffortRange& range : pose.efforts[0].ranges) {
+      EXPECT_LT(range.from, range.to);
+      EXPECT_EQ(range.below.empty(), std::isinf(range.from));
     }
   }
   EXPECT_GT(feasible, 50);
@@ -114,8 +114,8 @@ TEST(EffortsAtAPose, AreTheSmallestFeasibleWhereNoneIsGiven) {
   const Pose pose = solve_pose(model, {0.05, 0.5}, request);
   const double chosen = pose.efforts.at(0).effort;
   EXPECT_TRUE(is_in(pose.efforts[0], chosen));
-  for (const EffortRange& own : pose.efforts[0].ranges) {
-    const double nearest = own.from > 0 ? own.from : own.to < 0 ? -own.to : 0;
+  for (const EffortRange& range : pose.efforts[0].ranges) {
+    const double nearest = range.from > 0 ? range.from : range.to < 0 ? -range.to : 0;
     EXPECT_GE(nearest, std::abs(chosen));
   }
   EXPECT_THAT(pose.notes, testing::Contains(testing::HasSubstr("the effort of joint B2 is free")));
@@ -129,9 +129,9 @@ TEST(EffortsAtAPose, KeepTheMotorsOwnPlayAndBounds) {
                    "m.yaml");
   PoseRequest request;
   request.min_couple = 3;
-  const FeasibleEfforts own = solve_pose(model, {0.05, 0.5}, request).efforts.at(0);
-  ASSERT_FALSE(own.ranges.empty());
-  for (const EffortRange& range : own.ranges) {
+  const FeasibleEfforts efforts = solve_pose(model, {0.05, 0.5}, request).efforts.at(0);
+  ASSERT_FALSE(efforts.ranges.empty());
+  for (const EffortRange& range : efforts.ranges) {
     EXPECT_GE(range.from, -8);
     EXPECT_LE(range.to, 30);
     EXPECT_TRUE(range.from >= 3 || range.to <= -3);
@@ -183,7 +183,7 @@ std::set<std::string> patterns_over(const Model& model, const std::array<double,
       const std::set<std::string> here =
           patterns_at(model, {x[0] + (x[1] - x[0]) * i / 8, y[0] + (y[1] - y[0]) * k / 8});
       if (i == 0 && k == 0) all = here;
-      std::erase_if(all, [&](const std::string& own) { return !here.contains(own); });
+      std::erase_if(all, [&](const std::string& candidate) { return !here.contains(candidate); });
     }
   return all;
 }

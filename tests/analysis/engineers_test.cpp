@@ -20,9 +20,9 @@ constexpr double degree = 0.017453292519943295;
 Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name); }
 
 double component(const Pose& pose, const std::string& joint, Quantity quantity) {
-  for (const JointReaction& own : pose.reactions)
-    for (const ReactionComponent& part : own.components)
-      if (own.joint == joint && part.quantity == quantity) return part.value;
+  for (const JointReaction& reaction : pose.reactions)
+    for (const ReactionComponent& part : reaction.components)
+      if (reaction.joint == joint && part.quantity == quantity) return part.value;
   throw std::out_of_range(joint);
 }
 
@@ -164,13 +164,13 @@ struct Half {
   /// Rotation of the finger with the clearances taken up: its pins and the rod displaced as `pose` says.
   double rotation(const Pose& pose, const std::string& name) const {
     const auto displacement = [&](const std::string& joint) -> Vector2d {
-      for (const JointTakeUp& own : pose.take_up)
-        if (own.joint == joint) return {own.displacement[0], own.displacement[1]};
+      for (const JointTakeUp& take_up : pose.take_up)
+        if (take_up.joint == joint) return {take_up.displacement[0], take_up.displacement[1]};
       throw std::out_of_range(joint);
     };
     Vector2d rod;
-    for (const JointTakeUp& own : pose.take_up)
-      if (own.joint == "cylinder") rod = {*own.axial, *own.normal};
+    for (const JointTakeUp& take_up : pose.take_up)
+      if (take_up.joint == "cylinder") rod = {*take_up.axial, *take_up.normal};
     const Vector2d offered = rod + displacement("R" + name) + displacement("E" + name) - displacement("P" + name);
     return offered.dot(along) / turned(E - P).dot(along);
   }
@@ -197,9 +197,9 @@ TEST(Gripper, ErrorIsThatOfOneFingerRelativeToTheOther) {
     EXPECT_EQ(pose.relative_to, "fingerl");
     const double up = upper.rotation(pose, "u"), low = lower.rotation(pose, "l");
     Vector2d at_up, at_low;
-    for (const JointTakeUp& own : pose.take_up) {
-      if (own.joint == "Pu") at_up = {own.displacement[0], own.displacement[1]};
-      if (own.joint == "Pl") at_low = {own.displacement[0], own.displacement[1]};
+    for (const JointTakeUp& take_up : pose.take_up) {
+      if (take_up.joint == "Pu") at_up = {take_up.displacement[0], take_up.displacement[1]};
+      if (take_up.joint == "Pl") at_low = {take_up.displacement[0], take_up.displacement[1]};
     }
     const Vector2d relative = at_up + up * turned(upper.F - upper.P) - at_low - low * turned(upper.F - lower.P);
     EXPECT_NEAR(pose.error->displacement[0], relative(0), 1e-12);

@@ -21,8 +21,8 @@ constexpr double degree = std::numbers::pi / 180;
 Model example(const std::string& name) { return Model::read(source_dir() + "/examples/" + name + ".yaml"); }
 
 const Field& field(const FieldMap& volume, const std::string& name) {
-  for (const Field& own : volume.fields)
-    if (own.name == name) return own;
+  for (const Field& field : volume.fields)
+    if (field.name == name) return field;
   throw std::out_of_range(name);
 }
 
@@ -34,15 +34,15 @@ struct Platform {
 Platform three_rpr(double x, double y, double phi) {
   const std::array<Eigen::Vector2d, 3> feet = {Eigen::Vector2d(-0.8, -0.5), {0.8, -0.5}, {0, 0.9}};
   constexpr std::array<double, 3> turned = {210, -30, 80};
-  Platform own;
+  Platform platform;
   for (int leg = 0; leg < 3; ++leg) {
     const double angle = phi + turned[static_cast<std::size_t>(leg)] * degree;
     const Eigen::Vector2d arm = 0.25 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     const Eigen::Vector2d u = (Eigen::Vector2d(x, y) + arm - feet[static_cast<std::size_t>(leg)]).normalized();
-    own.jacobian.row(leg) << u[0], u[1], arm[0] * u[1] - arm[1] * u[0];
+    platform.jacobian.row(leg) << u[0], u[1], arm[0] * u[1] - arm[1] * u[0];
   }
-  own.forces = own.jacobian.transpose().partialPivLu().solve(-Eigen::Vector3d(30, -100, 5));
-  return own;
+  platform.forces = platform.jacobian.transpose().partialPivLu().solve(-Eigen::Vector3d(30, -100, 5));
+  return platform;
 }
 
 TEST(ErrorVolume, OfA3RprIsThatOfItsLegsLengths) {
@@ -57,12 +57,12 @@ TEST(ErrorVolume, OfA3RprIsThatOfItsLegsLengths) {
   for (std::size_t k = 0; k < 7; ++k)
     for (std::size_t j = 0; j < 8; ++j)
       for (std::size_t i = 0; i < 9; ++i) {
-        const Platform own = three_rpr(volume.axes[0][i], volume.axes[1][j], volume.axes[2][k]);
-        if (std::abs(own.jacobian.determinant()) < 1e-3) continue;
+        const Platform platform = three_rpr(volume.axes[0][i], volume.axes[1][j], volume.axes[2][k]);
+        if (std::abs(platform.jacobian.determinant()) < 1e-3) continue;
         ++compared;
-        const auto inverse = own.jacobian.inverse().eval();
+        const auto inverse = platform.jacobian.inverse().eval();
         Eigen::Vector3d longer;
-        for (int leg = 0; leg < 3; ++leg) longer[leg] = own.forces[leg] > 0 ? -play : play;
+        for (int leg = 0; leg < 3; ++leg) longer[leg] = platform.forces[leg] > 0 ? -play : play;
         const Eigen::Vector3d moved = inverse * longer, most = inverse.cwiseAbs() * Eigen::Vector3d::Constant(play);
         const std::size_t cell = volume.index({i, j, k});
         const auto near = [&](const char* name, double expected) {
@@ -112,9 +112,9 @@ TEST(ErrorVolume, SharesItsCellsOutAmongZonesInWhichNoLegsForceTurns) {
     for (const std::size_t cell : zone.cells) {
       EXPECT_EQ(++zones_of[cell], 1);
       const std::vector<double> at = mode.map.place(cell);
-      const Platform own = three_rpr(at[0], at[1], at[2]);
+      const Platform platform = three_rpr(at[0], at[1], at[2]);
       Eigen::Array4d here;
-      here << own.forces.array(), own.jacobian.determinant();
+      here << platform.forces.array(), platform.jacobian.determinant();
       here = here.sign();
       if (!signs) signs = here;
       EXPECT_TRUE((here == *signs).all()) << zone.zone << " at " << at[0] << ", " << at[1] << ", " << at[2];

@@ -101,11 +101,11 @@ TEST(GearedFiveBar, TeethHoldTheSecondCrank) {
     double force = 0;
     Vector2d u;
     for (const double sense : {1.0, -1.0}) {
-      const Vector2d own = by_hand.line(sense, alpha);
-      const double needed = -by_hand.on_second() / moment(W - by_hand.O2, own);
+      const Vector2d vector2d = by_hand.line(sense, alpha);
+      const double needed = -by_hand.on_second() / moment(W - by_hand.O2, vector2d);
       if (needed >= 0) {
         force = needed;
-        u = own;
+        u = vector2d;
         ++(sense > 0 ? right : left);  // K is to the left of O1 -> W where the line goes down
       }
     }
@@ -129,8 +129,8 @@ TEST(GearedFiveBar, TeethHoldTheSecondCrank) {
 std::vector<double> zeros_of(const LocusMap& map, const std::string& joint, Quantity quantity) {
   std::vector<double> all;
   for (const IsolatedPoint& point : map.isolated_points)
-    for (const Vanishing& own : point.vanishing)
-      if (own.joint == joint && own.quantity == quantity) all.push_back(point.at[0]);
+    for (const Vanishing& vanishing : point.vanishing)
+      if (vanishing.joint == joint && vanishing.quantity == quantity) all.push_back(point.at[0]);
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -287,10 +287,10 @@ class TurningGears : public ::testing::TestWithParam<double> {
     return GearedFiveBar(2 * std::numbers::pi * t / period_, -2, Vector2d(20, -40) - mass * acceleration);
   }
   /// Of the teeth, along the line on which they push; its direction.
-  static std::pair<double, Vector2d> teeth(const GearedFiveBar& own) {
+  static std::pair<double, Vector2d> teeth(const GearedFiveBar& bar) {
     for (const double sense : {1.0, -1.0}) {
-      const Vector2d u = own.line(sense, 20 * degree);
-      const double force = -own.on_second() / moment(Vector2d(0.04, 0) - own.O2, u);
+      const Vector2d u = bar.line(sense, 20 * degree);
+      const double force = -bar.on_second() / moment(Vector2d(0.04, 0) - bar.O2, u);
       if (force >= 0) return {force, u};
     }
     throw std::logic_error("teeth that push on no flank");
@@ -311,9 +311,9 @@ TEST_P(TurningGears, ReactionsAreThoseOfTheFlankThatBears) {
   double most = 0;
   for (const double force : result.samples.at("FW")) most = std::max(most, force);
   for (std::size_t i = 0; i < time.size(); i += 97) {
-    const GearedFiveBar own = at(time[i]);
-    const auto [force, u] = teeth(own);
-    const Vector2d held = own.push2 * own.rod2 - force * u;
+    const GearedFiveBar bar = at(time[i]);
+    const auto [force, u] = teeth(bar);
+    const Vector2d held = bar.push2 * bar.rod2 - force * u;
     EXPECT_NEAR(result.samples.at("FW")[i], force, 1e-6 * most) << time[i];
     EXPECT_NEAR(result.samples.at("fO2x")[i], held(0), 1e-6 * most) << time[i];
     EXPECT_NEAR(result.samples.at("fO2y")[i], held(1), 1e-6 * most) << time[i];

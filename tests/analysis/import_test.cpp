@@ -36,12 +36,12 @@ double difference(const Model& model, const Reference& reference) {
   double most = 0;
   int found = 0;
   for (const JointReaction& reaction : pose.reactions)
-    for (const ReactionComponent& own : reaction.components) {
+    for (const ReactionComponent& component : reaction.components) {
       if (reaction.joint != "A") continue;
-      const double wanted = own.quantity == Quantity::fx   ? reference.fx
-                            : own.quantity == Quantity::fy ? reference.fy
-                                                           : reference.couple;
-      most = std::max(most, std::abs(own.value - wanted));
+      const double wanted = component.quantity == Quantity::fx   ? reference.fx
+                            : component.quantity == Quantity::fy ? reference.fy
+                                                                 : reference.couple;
+      most = std::max(most, std::abs(component.value - wanted));
       ++found;
     }
   EXPECT_EQ(found, 3);
@@ -69,21 +69,21 @@ TEST(TheSixBarOfPmksVerification, HasThemByWayOfPmks) {
   const Model model = Model::read(file_of("pmks/six_bar.txt"));
   // A file of PMKS+ has three decimals; the mean of B, C and E has more.
   for (const Reference& reference : references) {
-    const double own = difference(model, reference);
-    EXPECT_LT(own, 0.005);
-    EXPECT_GT(own, 1e-6);
+    const double deviation = difference(model, reference);
+    EXPECT_LT(deviation, 0.005);
+    EXPECT_GT(deviation, 1e-6);
   }
 }
 
 TEST(ImportFile, SaysWhatBecameOfIt) {
-  const ImportedFile own = import_file(file_of("linkage/tracer.linkage2"), {.clearance = "30 um"});
-  EXPECT_EQ(own.format, "Linkage");
-  EXPECT_NE(own.text.find("clearance: {radial: 30 um}"), std::string::npos);
-  EXPECT_FALSE(own.notes.empty());
-  const Model model = Model::parse(own.text);
+  const ImportedFile file = import_file(file_of("linkage/tracer.linkage2"), {.clearance = "30 um"});
+  EXPECT_EQ(file.format, "Linkage");
+  EXPECT_NE(file.text.find("clearance: {radial: 30 um}"), std::string::npos);
+  EXPECT_FALSE(file.notes.empty());
+  const Model model = Model::parse(file.text);
   EXPECT_FALSE(model.joints().empty());
   const auto formats = import_formats();
-  EXPECT_NE(std::find(formats.begin(), formats.end(), own.format), formats.end());
+  EXPECT_NE(std::find(formats.begin(), formats.end(), file.format), formats.end());
 }
 
 TEST(ImportFile, GivesAMechanismFileBackAsItIs) {
@@ -91,18 +91,19 @@ TEST(ImportFile, GivesAMechanismFileBackAsItIs) {
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
-  const ImportedFile own = import_file(path);
-  EXPECT_EQ(own.text, text.str());
-  EXPECT_TRUE(own.format.empty());
-  EXPECT_TRUE(own.notes.empty());
+  const ImportedFile imported_file = import_file(path);
+  EXPECT_EQ(imported_file.text, text.str());
+  EXPECT_TRUE(imported_file.format.empty());
+  EXPECT_TRUE(imported_file.notes.empty());
 }
 
 TEST(Models, TakeOtherProgramsFilesAndSayWhatBecameOfThem) {
-  const ImportedFile own = import_file(file_of("pmks/four_bar.txt"));
+  const ImportedFile file = import_file(file_of("pmks/four_bar.txt"));
   const Model model = Model::read(file_of("pmks/four_bar.txt"));
   const auto notes = solve_pose(model, {1}).notes;
-  ASSERT_FALSE(own.notes.empty());
-  for (const std::string& note : own.notes) EXPECT_NE(std::find(notes.begin(), notes.end(), note), notes.end()) << note;
+  ASSERT_FALSE(file.notes.empty());
+  for (const std::string& note : file.notes)
+    EXPECT_NE(std::find(notes.begin(), notes.end(), note), notes.end()) << note;
 }
 
 TEST(Models, NameTheImportedTextWhereItIsRefused) {

@@ -39,19 +39,20 @@ TEST_P(LeastForces, MarginCurvesOfDrivesAreWhereTheirForceHasTheSize) {
   for (const LocusCurve& curve : trace_loci(model, {.min_force = Rational(GetParam().least)}).curves) {
     if (curve.kind != LocusKind::margin) continue;
     EXPECT_TRUE(curve.certified) << curve.id;
-    for (const Vanishing& own : curve.vanishing) {
-      if (own.quantity != Quantity::F) continue;
-      drives.insert(own.joint);
+    for (const Vanishing& vanishing : curve.vanishing) {
+      if (vanishing.quantity != Quantity::F) continue;
+      drives.insert(vanishing.joint);
       for (const Arc& arc : curve.arcs) {
         const Point2& at = arc.points[arc.points.size() / 2];
-        EXPECT_NEAR(size_at(model, {at[0], at[1]}, own), GetParam().least, 1e-6 * GetParam().least) << own.joint;
+        EXPECT_NEAR(size_at(model, {at[0], at[1]}, vanishing), GetParam().least, 1e-6 * GetParam().least)
+            << vanishing.joint;
       }
     }
   }
   EXPECT_EQ(drives.size(), GetParam().drives);
 }
 
-std::string name_of(const ::testing::TestParamInfo<LeastForce>& own) { return own.param.example; }
+std::string name_of(const ::testing::TestParamInfo<LeastForce>& force) { return force.param.example; }
 
 INSTANTIATE_TEST_SUITE_P(Examples, LeastForces,
                          ::testing::Values(LeastForce{"prrrp", 60, 2}, LeastForce{"three_rpr", 40, 3},

@@ -50,15 +50,15 @@ std::string with_heavy_legs(const std::string& name, const std::string& rod, con
 /// The force of a joint, as a part of the largest force or couple at the pose.
 double part_of_force(const Model& model, const std::vector<double>& at, const std::string& joint) {
   const Pose pose = solve_pose(model, at);
-  double own = 0, most = 0;
+  double sum = 0, most = 0;
   for (const JointReaction& reaction : pose.reactions)
     for (const ReactionComponent& part : reaction.components) {
       most = std::max(most, std::abs(part.value));
       const bool force =
           part.quantity == Quantity::fx || part.quantity == Quantity::fy || part.quantity == Quantity::fz;
-      if (reaction.joint == joint && force) own = std::max(own, std::abs(part.value));
+      if (reaction.joint == joint && force) sum = std::max(sum, std::abs(part.value));
     }
-  return own / most;
+  return sum / most;
 }
 
 TEST(SpaceCurvesOfAModel, HaveAPinWithoutForceAllAlong) {

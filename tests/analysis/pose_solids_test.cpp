@@ -90,9 +90,9 @@ Vector3d inside(const Tetrahedron& corners, std::mt19937& random) {
   Vector3d sum = Vector3d::Zero();
   double all = 0;
   for (const Vector3d& corner : corners) {
-    const double own = std::pow(part(random), 3);  // towards corners and edges
-    sum += own * corner;
-    all += own;
+    const double pow = std::pow(part(random), 3);  // towards corners and edges
+    sum += pow * corner;
+    all += pow;
   }
   return sum / all;
 }

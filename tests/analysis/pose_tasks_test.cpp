@@ -80,8 +80,9 @@ Pose pose_in(const Task& task, std::mt19937& random, double beyond = 0) {
 }
 
 double least_over(const std::vector<LeastReaction>& all, const std::string& joint, bool proven) {
-  for (const LeastReaction& own : all)
-    if (own.reaction.joint == joint && own.reaction.quantity == Quantity::F) return proven ? own.proven : own.met;
+  for (const LeastReaction& reaction : all)
+    if (reaction.reaction.joint == joint && reaction.reaction.quantity == Quantity::F)
+      return proven ? reaction.proven : reaction.met;
   ADD_FAILURE() << "no least reaction of " << joint;
   return 0;
 }

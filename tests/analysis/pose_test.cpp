@@ -15,8 +15,8 @@ Model example(const std::string& name) { return Model::read(source_dir() + "/exa
 
 double component(const Pose& pose, const std::string& joint, Quantity quantity) {
   for (const JointReaction& reaction : pose.reactions)
-    for (const ReactionComponent& own : reaction.components)
-      if (reaction.joint == joint && own.quantity == quantity) return own.value;
+    for (const ReactionComponent& component : reaction.components)
+      if (reaction.joint == joint && component.quantity == quantity) return component.value;
   ADD_FAILURE() << joint << " has no " << to_string(quantity);
   return 0;
 }
@@ -71,7 +71,7 @@ TEST(SolvePose, ClosesTheMechanismWithItsClearancesTakenUp) {
     return *std::find_if(list.begin(), list.end(), [&](const PosePoint& p) { return p.name == name; });
   };
   const auto link = std::find_if(pose.actual->links.begin(), pose.actual->links.end(),
-                                 [](const DisplacedLink& own) { return own.link == "PB2"; });
+                                 [](const DisplacedLink& displaced_link) { return displaced_link.link == "PB2"; });
   ASSERT_NE(link, pose.actual->links.end());
   for (std::size_t c = 0; c < 2; ++c)
     EXPECT_NEAR(point(link->points, "P").at[c] - point(pose.points, "P").at[c], pose.actual->error.displacement[c],
@@ -80,12 +80,12 @@ TEST(SolvePose, ClosesTheMechanismWithItsClearancesTakenUp) {
 
 TEST(SolvePose, ChoosesTheWorkingMode) {
   const Model model = example("five_bar.yaml");
-  const Pose own = solve_pose(model, {0.25, -0.7});
+  const Pose pose = solve_pose(model, {0.25, -0.7});
   DyadSides other;
   for (const Model::Dyad& dyad : model.dyads()) other.push_back(-dyad.side);
   const Pose mirrored = solve_pose(model, {0.25, -0.7}, {.working_mode = other});
-  ASSERT_EQ(own.working_mode.size(), 2U);
-  EXPECT_NE(own.working_mode[0].second, mirrored.working_mode[0].second);
+  ASSERT_EQ(pose.working_mode.size(), 2U);
+  EXPECT_NE(pose.working_mode[0].second, mirrored.working_mode[0].second);
   EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.working_mode = {1}}), InputError);
   EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.working_mode = {1, 0}}), InputError);
 }

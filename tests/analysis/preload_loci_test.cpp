@@ -65,10 +65,10 @@ std::map<std::string, std::array<double, 2>> lines_at(const Model& model, const 
   for (const int effort : {0, 1})
     for (const JointReaction& joint : solve_pose(model.with({{parameter, std::to_string(effort)}}), at).reactions)
       for (const ReactionComponent& part : joint.components) {
-        std::array<double, 2>& own = lines[to_string(part.quantity) + "_" + joint.joint];
-        own[static_cast<std::size_t>(effort)] = part.value;
+        std::array<double, 2>& line = lines[to_string(part.quantity) + "_" + joint.joint];
+        line[static_cast<std::size_t>(effort)] = part.value;
       }
-  for (auto& [name, own] : lines) own[1] -= own[0];
+  for (auto& [name, range] : lines) range[1] -= range[0];
   lines.try_emplace("M_" + parameter.substr(parameter.find('_') + 1), std::array<double, 2>{0, 1});
   return lines;
 }
@@ -106,8 +106,8 @@ int expect_named_at_one_effort(const Model& model, const std::string& parameter)
         const Point2& at = arc.points[static_cast<std::size_t>(part * static_cast<double>(arc.points.size() - 1))];
         const auto lines = lines_at(model, parameter, {at[0], at[1]});
         std::vector<std::array<double, 2>> rows;
-        for (const Vanishing& own : curve.vanishing)
-          for (const auto& row : rows_of(lines, own)) rows.push_back(row);
+        for (const Vanishing& vanishing : curve.vanishing)
+          for (const auto& row : rows_of(lines, vanishing)) rows.push_back(row);
         if (curve.cause.find("not depend on the effort") != std::string::npos) rows.push_back({1, 0});
         EXPECT_LT(apart(rows), 1e-3) << curve.cause << " at " << at[0] << ", " << at[1];
       }
@@ -122,9 +122,9 @@ TEST(PreloadLoci, VanishTogetherAlongTheirArcs) {
 
 TEST(PreloadLoci, HoldOnAGrid) {
   for (const Model& model : {antagonistic(), three_legs()}) {
-    const Validation own = validate_loci(model, {.nodes = {100, 100}});
-    EXPECT_TRUE(own.validated()) << own.report.disputed << " edges disputed";
-    EXPECT_GT(own.report.held, 1000U);
+    const Validation validation = validate_loci(model, {.nodes = {100, 100}});
+    EXPECT_TRUE(validation.validated()) << validation.report.disputed << " edges disputed";
+    EXPECT_GT(validation.report.held, 1000U);
   }
 }
 
@@ -150,8 +150,8 @@ void expect_alike_all_over(const Model& model) {
       for (std::size_t r = 0; r < here.size(); ++r) {
         const auto names = [](const std::vector<Vanishing>& all) {
           std::set<std::string> list;
-          for (const Vanishing& own : all)  // forces along a leg vanish with its couple, to rounding
-            if (own.joint.front() == 'A') list.insert(own.joint);
+          for (const Vanishing& vanishing : all)  // forces along a leg vanish with its couple, to rounding
+            if (vanishing.joint.front() == 'A') list.insert(vanishing.joint);
           return list;
         };
         EXPECT_EQ(names(there[r].below), names(here[r].below)) << zone.id;
@@ -250,10 +250,10 @@ TEST(TensionLoci, AreWhereTwoCablesAtTheirBoundsLeaveAForceAlongTheThird) {
       const Point2& at = arc.points[arc.points.size() / 2];
       Point2 left = {0, -weight};
       std::size_t other = 3;
-      for (const Vanishing& own : curve.vanishing) {
-        const auto k = static_cast<std::size_t>(own.joint.back() - '1');
+      for (const Vanishing& vanishing : curve.vanishing) {
+        const auto k = static_cast<std::size_t>(vanishing.joint.back() - '1');
         other -= k;
-        const bool least = curve.cause.find(own.joint + " at 5 N") != std::string::npos;
+        const bool least = curve.cause.find(vanishing.joint + " at 5 N") != std::string::npos;
         const double tension = least ? cables[k].least : cables[k].most;
         const Point2 u = pull(cables[k], at);
         left = {left[0] + tension * u[0], left[1] + tension * u[1]};
@@ -385,9 +385,9 @@ TEST(PreloadLoci, AreWhereTwoMotorsHaveTheirLeastForcesTogether) {
 }
 
 TEST(TensionLoci, HoldOnAGrid) {
-  const Validation own = validate_loci(Model::parse(three_cables), {.nodes = {60, 60}});
-  EXPECT_TRUE(own.validated()) << own.report.disputed << " edges disputed";
-  EXPECT_GT(own.report.held, 1000U);
+  const Validation validation = validate_loci(Model::parse(three_cables), {.nodes = {60, 60}});
+  EXPECT_TRUE(validation.validated()) << validation.report.disputed << " edges disputed";
+  EXPECT_GT(validation.report.held, 1000U);
 }
 
 /// With an effort that varies with the pose another effort may be free.
@@ -395,7 +395,7 @@ TEST(PreloadLoci, ControlledHaveFewerSingularities) {
   const auto singular = [](bool controlled) {
     const LocusMap loci = trace_loci(three_legs(), {.controlled = controlled});
     return std::count_if(loci.curves.begin(), loci.curves.end(),
-                         [](const LocusCurve& own) { return own.kind == LocusKind::direct_singularity; });
+                         [](const LocusCurve& curve) { return curve.kind == LocusKind::direct_singularity; });
   };
   EXPECT_GT(singular(false), 0);
   EXPECT_EQ(singular(true), 0);

@@ -68,10 +68,10 @@ TEST(PlanarDelta, LociAreThoseOfOffsetsThatAreTurnedByHand) {
   ASSERT_EQ(offsets.curves.size(), other.curves.size());
   EXPECT_GT(offsets.curves.size(), 5U);
   for (std::size_t c = 0; c < offsets.curves.size(); ++c) {
-    const LocusCurve &own = offsets.curves[c], &twin = other.curves[c];
-    EXPECT_EQ(own.kind, twin.kind);
-    ASSERT_EQ(own.arcs.size(), twin.arcs.size());
-    for (std::size_t a = 0; a < own.arcs.size(); ++a) EXPECT_NEAR(own.arcs[a].length, twin.arcs[a].length, 1e-6);
+    const LocusCurve &curve = offsets.curves[c], &twin = other.curves[c];
+    EXPECT_EQ(curve.kind, twin.kind);
+    ASSERT_EQ(curve.arcs.size(), twin.arcs.size());
+    for (std::size_t a = 0; a < curve.arcs.size(); ++a) EXPECT_NEAR(curve.arcs[a].length, twin.arcs[a].length, 1e-6);
   }
 }
 
@@ -98,11 +98,11 @@ TEST(ScissorLift, PinsTakeUpHalfTheGap) {
   const double theta = 0.6, u = 0.3, half = 0.1e-3;
   const Pose pose = solve_pose(model, {theta, u});
   double table = 0, ground = 0;
-  for (const JointTakeUp& own : pose.take_up) {
-    if (own.joint == "D") table = own.displacement.at(1);
-    if (own.joint == "B") ground = own.displacement.at(1);
-    if (own.joint == "D" || own.joint == "B") {
-      EXPECT_EQ(own.displacement.at(0), 0);
+  for (const JointTakeUp& take_up : pose.take_up) {
+    if (take_up.joint == "D") table = take_up.displacement.at(1);
+    if (take_up.joint == "B") ground = take_up.displacement.at(1);
+    if (take_up.joint == "D" || take_up.joint == "B") {
+      EXPECT_EQ(take_up.displacement.at(0), 0);
     }
   }
   // Of the pin against the slot's link, against the force on it: the load pulls D up and C presses B down.
@@ -127,14 +127,14 @@ TEST(ScissorLift, PinsChangeSidesUnderTheLoad) {
   EXPECT_TRUE(map.complete);
   bool hinge = false, slot = false;
   for (const LocusCurve& curve : map.curves)
-    for (const Vanishing& own : curve.vanishing) {
-      if (own.joint != "D" && own.joint != "B") continue;
-      EXPECT_EQ(own.quantity, Quantity::f);
+    for (const Vanishing& vanishing : curve.vanishing) {
+      if (vanishing.joint != "D" && vanishing.joint != "B") continue;
+      EXPECT_EQ(vanishing.quantity, Quantity::f);
       EXPECT_EQ(curve.kind, LocusKind::contact_loss);
       for (const Arc& arc : curve.arcs)
         for (const auto& at : arc.points) {
-          EXPECT_NEAR(at[1], own.joint == "D" ? 0 : std::cos(at[0]), 1e-4);
-          (own.joint == "D" ? hinge : slot) = true;
+          EXPECT_NEAR(at[1], vanishing.joint == "D" ? 0 : std::cos(at[0]), 1e-4);
+          (vanishing.joint == "D" ? hinge : slot) = true;
         }
     }
   EXPECT_TRUE(hinge);

@@ -125,8 +125,8 @@ TEST(ZonesByCells, OfA3UpuAgreeWithAGrid) {
 TEST(ZonesByCells, OfA3RprWithFreeOrientationAgreeWithAGrid) {
   const Model model = example("three_rpr_orientation");
   double r = 0;
-  for (const Model::Parameter& own : model.parameters())
-    if (own.name == "r") r = own.value;
+  for (const Model::Parameter& parameter : model.parameters())
+    if (parameter.name == "r") r = parameter.value;
   const Zones map = find_zones(model, {.cells = few_cells});
   EXPECT_LT(map.modes.front().in_doubt, 0.4 * 1.44 * std::numbers::pi)
       << "many surfaces meet here, and most is told apart";
@@ -300,17 +300,17 @@ TEST(ZonesByCells, OfAJansenLegEndWhereItsReactionsTurn) {
   for (const Zone& zone : map.zones)
     for (const ZoneEnd& end : zone.ends) {
       const Pose before = solve_pose(model, {end.at - 1e-6}), behind = solve_pose(model, {end.at + 1e-6});
-      for (const Vanishing& own : end.vanishing) {
+      for (const Vanishing& vanishing : end.vanishing) {
         double together = 0;
         for (std::size_t j = 0; j < before.reactions.size(); ++j) {
-          if (before.reactions[j].joint != own.joint) continue;
+          if (before.reactions[j].joint != vanishing.joint) continue;
           for (std::size_t k = 0; k < before.reactions[j].components.size(); ++k) {
             const Quantity part = before.reactions[j].components[k].quantity;
-            if ((own.quantity == Quantity::f) == (part == Quantity::fx || part == Quantity::fy))
+            if ((vanishing.quantity == Quantity::f) == (part == Quantity::fx || part == Quantity::fy))
               together += before.reactions[j].components[k].value * behind.reactions[j].components[k].value;
           }
         }
-        EXPECT_LT(together, 0) << own.joint << " at " << end.at;
+        EXPECT_LT(together, 0) << vanishing.joint << " at " << end.at;
         ++told;
       }
     }

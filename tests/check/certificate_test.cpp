@@ -31,8 +31,8 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                                          "five_bar_weights.yaml", "prrrp.yaml", "rprpr.yaml", "three_rpr.yaml",
                                          "three_rrr.yaml", "five_bar_preloaded.yaml", "five_bar_antagonistic.yaml",
                                          "excavator.yaml"),
-                         [](const auto& own) {
-                           const std::string file = own.param;
+                         [](const auto& candidate) {
+                           const std::string file = candidate.param;
                            return file.substr(0, file.find('.'));
                          });
 
@@ -99,8 +99,8 @@ TEST(Certificate, LimitsAreThoseOfTheModel) {
   };
   const std::string model = limited("0.92"), other = limited("0.93");
   Json certificate = Json::parse(certificate_of(model));
-  const check::Examination own = examination_of(model, certificate.dump());
-  EXPECT_TRUE(own.accepted) << summary(own);
+  const check::Examination examination = examination_of(model, certificate.dump());
+  EXPECT_TRUE(examination.accepted) << summary(examination);
   certificate["model"]["text"] = other;
   EXPECT_FALSE(examination_of(other, certificate.dump()).accepted);
   // Without a root for it the limit is not known to be kept.

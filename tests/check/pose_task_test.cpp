@@ -36,9 +36,9 @@ struct Case {
 class TasksOfExamples : public testing::TestWithParam<Case> {};
 
 TEST_P(TasksOfExamples, AreProvenAnew) {
-  const Certified own = certified(example(GetParam().model), GetParam().task);
-  ASSERT_TRUE(own.verified);
-  const check::Examination examination = examination_of(own.model, own.certificate);
+  const Certified proof = certified(example(GetParam().model), GetParam().task);
+  ASSERT_TRUE(proof.verified);
+  const check::Examination examination = examination_of(proof.model, proof.certificate);
   EXPECT_TRUE(examination.accepted) << examination.why;
   EXPECT_GT(examination.task_cells, 0u);
 }
@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
              "box: {x: [-0.02, 0.02], y: [-0.02, 0.02], z: [0.48, 0.52], alpha: [-2 deg, 2 deg], "
              "beta: [-2 deg, 2 deg], gamma: [-2 deg, 2 deg]}\nangle_length: 0.2\nmargin: 0.01\n"
              "tolerances: {plate: 2e-3}\n"}),
-    [](const auto& own) { return std::string(own.param.name); });
+    [](const auto& candidate) { return std::string(candidate.param.name); });
 
 /// The three-RPR over orientations, whose actuators' and pins' forces are asked for.
 Certified platform() {
@@ -93,14 +93,14 @@ Certified platform() {
 using Changes = std::vector<std::pair<const char*, std::function<void(Json&)>>>;
 
 /// It is accepted as it is; with any of the changes it is rejected, or is no certificate any more.
-void expect_rejected(const Certified& own, const Changes& changes) {
-  const check::Examination examination = examination_of(own.model, own.certificate);
+void expect_rejected(const Certified& certified, const Changes& changes) {
+  const check::Examination examination = examination_of(certified.model, certified.certificate);
   ASSERT_TRUE(examination.accepted) << examination.why;
   for (const auto& [what, change] : changes) {
-    Json changed = Json::parse(own.certificate);
+    Json changed = Json::parse(certified.certificate);
     change(changed);
     try {
-      EXPECT_FALSE(examination_of(own.model, changed.dump()).accepted) << what;
+      EXPECT_FALSE(examination_of(certified.model, changed.dump()).accepted) << what;
     } catch (const core::InputError&) {
       SUCCEED() << "it is no certificate any more";
     }
@@ -108,7 +108,7 @@ void expect_rejected(const Certified& own, const Changes& changes) {
 }
 
 TEST(PoseTaskCertificate, IsRejectedWhereAClaimIsMadeFalse) {
-  const Certified own = platform();
+  const Certified certified = platform();
   const Changes changes = {
       {"a box that reaches a locus",
        [](Json& c) {
@@ -132,13 +132,13 @@ TEST(PoseTaskCertificate, IsRejectedWhereAClaimIsMadeFalse) {
       {"coordinates in another order", [](Json& c) { std::swap(c["coordinates"][0], c["coordinates"][1]); }},
       {"another model", [](Json& c) { c["model"]["text"] = example("three_rrr_orientation.yaml"); }},
   };
-  expect_rejected(own, changes);
+  expect_rejected(certified, changes);
 }
 
 TEST(PoseTaskCertificate, IsRejectedWhereItsLoadsAreMadeLarger) {
-  const Certified own = certified(example("five_bar.yaml"),
-                                  "box: {x: [0.1, 0.4], y: [-0.8, -0.6]}\nmargin: 1e-3\n"
-                                  "loads_within: [{load: 1, radius: 20, couple: 2}]\n");
+  const Certified proof = certified(example("five_bar.yaml"),
+                                    "box: {x: [0.1, 0.4], y: [-0.8, -0.6]}\nmargin: 1e-3\n"
+                                    "loads_within: [{load: 1, radius: 20, couple: 2}]\n");
   const Changes changes = {
       {"a ball that holds the opposite load", [](Json& c) { c["pose_task"]["loads_within"][0][1] = "101"; }},
       {"a negative ball", [](Json& c) { c["pose_task"]["loads_within"][0][1] = "-1"; }},
@@ -156,12 +156,12 @@ TEST(PoseTaskCertificate, IsRejectedWhereItsLoadsAreMadeLarger) {
          c["pose_task"]["loads_from"] = Json::array({{"0", "-100"}});
        }},
   };
-  expect_rejected(own, changes);
+  expect_rejected(proof, changes);
 }
 
 TEST(PoseTaskCertificate, IsRejectedWhereItsPolygonIsMadeLarger) {
-  const Certified own = certified(example("three_rpr_orientation.yaml"),
-                                  "polygon: [[0.1, 0.1], [0.12, 0.1], [0.1, 0.12]]\nbox: {phi: [10 deg, 12 deg]}\n");
+  const Certified proof = certified(example("three_rpr_orientation.yaml"),
+                                    "polygon: [[0.1, 0.1], [0.12, 0.1], [0.1, 0.12]]\nbox: {phi: [10 deg, 12 deg]}\n");
   const Changes changes = {
       {"a corner beyond the loci",
        [](Json& c) {
@@ -179,14 +179,14 @@ TEST(PoseTaskCertificate, IsRejectedWhereItsPolygonIsMadeLarger) {
        }},
       {"two corners", [](Json& c) { c["pose_task"]["points"].erase(2); }},
   };
-  expect_rejected(own, changes);
+  expect_rejected(proof, changes);
 }
 
 // Where the program refutes a task, no certificate of it is accepted: the checker finds the locus too.
 TEST(PoseTaskCertificate, OfARefutedTaskIsRejected) {
-  const Certified own = certified(example("four_bar.yaml"), "box: {theta: [10 deg, 170 deg]}\n");
-  ASSERT_FALSE(own.verified);
-  const check::Examination examination = examination_of(own.model, own.certificate);
+  const Certified proof = certified(example("four_bar.yaml"), "box: {theta: [10 deg, 170 deg]}\n");
+  ASSERT_FALSE(proof.verified);
+  const check::Examination examination = examination_of(proof.model, proof.certificate);
   EXPECT_FALSE(examination.accepted);
   EXPECT_NE(examination.why.find("theta"), std::string::npos) << examination.why;
 }
@@ -211,14 +211,14 @@ TEST(PoseTaskCertificate, HoldsEffortsToTheirBounds) {
   const check::Examination examination = examination_of(wide.model, wide.certificate);
   EXPECT_TRUE(examination.accepted) << examination.why;
   for (const char* narrow : {"[-0.5, 0.5]", "[-100, -99]", "[99, 100]"}) {
-    const Certified own = certified(bounded_five_bar(narrow), task);
-    EXPECT_FALSE(own.verified) << narrow;
-    EXPECT_FALSE(examination_of(own.model, own.certificate).accepted) << narrow;
+    const Certified proof = certified(bounded_five_bar(narrow), task);
+    EXPECT_FALSE(proof.verified) << narrow;
+    EXPECT_FALSE(examination_of(proof.model, proof.certificate).accepted) << narrow;
   }
 }
 
 TEST(PoseTaskCertificate, OfGearsIsRejectedOnTheOtherFlankAndAcrossBothOfThem) {
-  const Certified own = certified(example("geared_five_bar.yaml"), "box: {theta: [100 deg, 105 deg]}\n");
+  const Certified proof = certified(example("geared_five_bar.yaml"), "box: {theta: [100 deg, 105 deg]}\n");
   const Changes changes = {
       {"the other flank", [](Json& c) { c["pose_task"]["sides"][0] = -c["pose_task"]["sides"][0].get<int>(); }},
       {"a box across both flanks", [](Json& c) { c["pose_task"]["points"][0][0] = "0"; }},
@@ -228,7 +228,7 @@ TEST(PoseTaskCertificate, OfGearsIsRejectedOnTheOtherFlankAndAcrossBothOfThem) {
          c["pose_task"]["demands"] = Json::array({{"P", "f", "0"}});
        }},
   };
-  expect_rejected(own, changes);
+  expect_rejected(proof, changes);
 }
 
 TEST(PoseTaskCertificate, OfABeltIsRejectedWhereASpanIsSlack) {
@@ -245,8 +245,8 @@ TEST(PoseTaskCertificate, OfABeltIsRejectedWhereASpanIsSlack) {
 
 TEST(PoseTaskCertificate, OfAGroupIsRejectedBeyondADeadCentreAndInAnotherAssembly) {
   const std::string text = example("stephenson_outside.yaml");
-  const Certified own = certified(text, "box: {phi: [121 deg, 125 deg]}\n");
-  ASSERT_TRUE(own.verified);
+  const Certified proof = certified(text, "box: {phi: [121 deg, 125 deg]}\n");
+  ASSERT_TRUE(proof.verified);
   const Changes changes = {
       {"a box beyond a dead centre", [](Json& c) { c["pose_task"]["points"][0][0] = "19/10"; }},
       {"more force than there is", [](Json& c) { c["pose_task"]["demands"][0][2] = "100000"; }},
@@ -258,7 +258,7 @@ TEST(PoseTaskCertificate, OfAGroupIsRejectedBeyondADeadCentreAndInAnotherAssembl
              other.replace(other.find(near), near.size(), "B: [0, -0.3], C: [0.8, 0.69], E: [0.4, 0.2]");
        }},
   };
-  expect_rejected(own, changes);
+  expect_rejected(proof, changes);
   // Where the program refutes a task the checker finds the locus, too.
   const Certified refuted = certified(text, "box: {phi: [121 deg, 190 deg]}\n");
   ASSERT_FALSE(refuted.verified);

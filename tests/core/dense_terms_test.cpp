@@ -27,7 +27,7 @@ Polynomial any_polynomial(int most_terms, int degree) {
 /// Term by term.
 Polynomial product(const Polynomial& a, const Polynomial& b) {
   Polynomial sum = constant_polynomial(3, 0);
-  for (const Term& own : a.terms) sum = sum + Polynomial{3, {own}} * b;
+  for (const Term& term : a.terms) sum = sum + Polynomial{3, {term}} * b;
   return sum;
 }
 

@@ -74,11 +74,11 @@ TEST(Enclosure, HoldsTheValuesOfEveryOperation) {
   const auto range = [&](const Expression& e) { return enclosure(e, ranges); };
   const auto expect = [&](const Expression& e, double lower, double upper) {
     constexpr double rounding = 1e-12;  // of a few operations on numbers of size one
-    const Interval own = range(e);
-    EXPECT_LE(own.lower(), lower) << to_string(e);
-    EXPECT_GE(own.upper(), upper) << to_string(e);
-    EXPECT_NEAR(own.lower(), lower, rounding) << to_string(e);
-    EXPECT_NEAR(own.upper(), upper, rounding) << to_string(e);
+    const Interval interval = range(e);
+    EXPECT_LE(interval.lower(), lower) << to_string(e);
+    EXPECT_GE(interval.upper(), upper) << to_string(e);
+    EXPECT_NEAR(interval.lower(), lower, rounding) << to_string(e);
+    EXPECT_NEAR(interval.upper(), upper, rounding) << to_string(e);
   };
   expect(apply(Kind::add, x, y), -0.5, 2.25);
   expect(apply(Kind::multiply, x, y), -2, 0.5);

@@ -13,7 +13,7 @@ namespace {
 
 /// L = 1/2, a = 30 deg, q = sqrt(2) + 1: a rational, an angle and a radical to meet in expressions.
 const std::vector<mechanism::Parameter>& parameters() {
-  static const std::vector<mechanism::Parameter> known = [] {
+  static const std::vector<mechanism::Parameter> parameters = [] {
     std::vector<mechanism::Parameter> list;
     for (const auto& [name, text] : {std::pair{"L", "1/2"}, {"a", "30 deg"}, {"q", "sqrt(2) + 1"}}) {
       mechanism::Parameter parameter;
@@ -26,7 +26,7 @@ const std::vector<mechanism::Parameter>& parameters() {
     }
     return list;
   }();
-  return known;
+  return parameters;
 }
 
 /// The value, or nothing where there is none (a division by zero, an unknown name).

@@ -137,8 +137,8 @@ std::string change_name(const std::string& text, const Vocabulary& vocabulary, D
   const std::vector<Span> names = names_in(text);
   if (names.empty()) return text;
   const Span& chosen = dice.one_of(names);
-  const bool known = dice.below(2) == 0;
-  return with(text, chosen, known ? part(text, dice.one_of(names)) : dice.one_of(vocabulary.words));
+  const bool this_below = dice.below(2) == 0;
+  return with(text, chosen, this_below ? part(text, dice.one_of(names)) : dice.one_of(vocabulary.words));
 }
 
 /// Everywhere, so that the text stays as right as it was.

@@ -13,8 +13,8 @@ bool is_finite(const core::Rational& value) { return std::isfinite(core::to_doub
 
 void check_accepted(const core::Task& task, const mechanism::Mechanism& mechanism) {
   std::vector<core::Rational> weights;
-  for (const mechanism::Coordinate& own : mechanism.coordinates)
-    weights.push_back(own.angle ? task.angle_length.value_or(1) : core::Rational(1));
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    weights.push_back(coordinate.angle ? task.angle_length.value_or(1) : core::Rational(1));
   const auto [lower, upper] = core::bounds(task.shape, weights);
   require(lower.size() == mechanism.coordinates.size(), "a task has a value for every free coordinate");
   const bool mesh = std::holds_alternative<core::TaskMesh>(task.shape);  // within the roundings of its floats

@@ -151,17 +151,17 @@ class AtPlaces : public testing::TestWithParam<Place> {};
 /// The answer about an example where it stands, computed once for all places.
 template <class Answer, class Ask>
 const Answer& at_home(const std::string& name, const Ask& ask) {
-  static std::map<std::string, Answer> known;
-  const auto found = known.find(name);
-  return found != known.end() ? found->second : known.emplace(name, ask(example(name))).first->second;
+  static std::map<std::string, Answer> answers;
+  const auto found = answers.find(name);
+  return found != answers.end() ? found->second : answers.emplace(name, ask(example(name))).first->second;
 }
 
 TEST_P(AtPlaces, Loci) {
   for (const char* const name : {"five_bar_weights", "prrrp", "slider_crank", "three_rpr_orientation"}) {
     SCOPED_TRACE(name);
     const Mechanism m = example(name);
-    const auto& loci =
-        at_home<core::LocusMap>(name, [](const Mechanism& own) { return trace_loci(own, as_closely(own)); });
+    const auto& loci = at_home<core::LocusMap>(
+        name, [](const Mechanism& mechanism) { return trace_loci(mechanism, as_closely(mechanism)); });
     expect_same_loci(loci, m, moved_by(m, GetParam().by));
   }
 }
@@ -169,7 +169,8 @@ TEST_P(AtPlaces, Loci) {
 TEST_P(AtPlaces, Zones) {
   const Mechanism m = example("five_bar_generic");
   const Frame frame = moved_by(m, GetParam().by);
-  const auto& a = at_home<core::Zones>("five_bar_generic", [](const Mechanism& own) { return find_zones(own); });
+  const auto& a =
+      at_home<core::Zones>("five_bar_generic", [](const Mechanism& mechanism) { return find_zones(mechanism); });
   const core::Zones b = from_frame(find_zones(moved(m, frame)), m, frame);
   expect_same(a.loci, b.loci, within(m, frame));
   ASSERT_EQ(a.zones.size(), b.zones.size());
@@ -258,7 +259,8 @@ TEST_P(AtPlaces, TasksAndZonesOverPoses) {
     box.upper.push_back(middle + half);
   }
   task.shape = box;
-  const auto& a = at_home<Verification>("gough_stewart", [&](const Mechanism& own) { return test::judged(own, task); });
+  const auto& a =
+      at_home<Verification>("gough_stewart", [&](const Mechanism& mechanism) { return test::judged(mechanism, task); });
   const Verification b = test::judged(moved(m, frame), in_frame(task, frame));
   EXPECT_EQ(a.verdict, b.verdict);
   EXPECT_EQ(a.cells, b.cells);
@@ -267,7 +269,8 @@ TEST_P(AtPlaces, TasksAndZonesOverPoses) {
     EXPECT_NEAR(*a.margin, *b.margin, 1e-9);
   }
   const Mechanism crank = example("slider_crank");
-  const auto& c = at_home<core::Zones>("slider_crank", [](const Mechanism& own) { return find_zones(own); });
+  const auto& c =
+      at_home<core::Zones>("slider_crank", [](const Mechanism& mechanism) { return find_zones(mechanism); });
   const core::Zones d = find_zones(moved(crank, moved_by(crank, GetParam().by)));
   ASSERT_EQ(c.zones.size(), d.zones.size());
   for (std::size_t z = 0; z < c.zones.size(); ++z) {

@@ -26,8 +26,8 @@ struct Case {
 class BoxSides : public testing::TestWithParam<Case> {};
 
 TEST_P(BoxSides, ArcsStayInTheBoxAndZonesCoverTheWorkspace) {
-  const Case& known = GetParam();
-  const auto mechanism = mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + known.file + ".yaml");
+  const Case& this_GetParam = GetParam();
+  const auto mechanism = mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + this_GetParam.file + ".yaml");
   const core::Zones map = find_zones(mechanism);
   const core::LocusMap& loci = map.loci;
   for (const core::LocusCurve& curve : loci.curves) {
@@ -47,9 +47,9 @@ TEST_P(BoxSides, ArcsStayInTheBoxAndZonesCoverTheWorkspace) {
     EXPECT_TRUE(zone.certified) << zone.id;
     zones += zone.size;
   }
-  EXPECT_NEAR(zones, known.area, known.doubt);
-  if (known.zones != 0) {
-    EXPECT_EQ(map.zones.size(), known.zones);
+  EXPECT_NEAR(zones, this_GetParam.area, this_GetParam.doubt);
+  if (this_GetParam.zones != 0) {
+    EXPECT_EQ(map.zones.size(), this_GetParam.zones);
   }
   ASSERT_EQ(map.modes.size(), 1u);
   EXPECT_NEAR(map.modes[0].workspace, zones, 1e-5 * zones);
@@ -59,7 +59,7 @@ TEST_P(BoxSides, ArcsStayInTheBoxAndZonesCoverTheWorkspace) {
   for (const core::Polyline& ring : loci.workspace[0].rings)
     for (std::size_t i = 1; i < ring.size(); ++i)
       rings += (ring[i - 1][0] * ring[i][1] - ring[i][0] * ring[i - 1][1]) / 2;
-  EXPECT_NEAR(rings, known.area, known.doubt);
+  EXPECT_NEAR(rings, this_GetParam.area, this_GetParam.doubt);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -97,7 +97,7 @@ class FormWriter {
 
   bool moves(const std::string& point) const {
     return std::any_of(parts_.points.begin(), parts_.points.end(),
-                       [&](const PointText& own) { return own.name == point && !own.fixed; });
+                       [&](const PointText& text) { return text.name == point && !text.fixed; });
   }
   struct End {
     std::string link, point;
@@ -217,8 +217,8 @@ class FormWriter {
   }
 
   bool has_direction(const std::string& link) const {
-    return link == "ground" || std::any_of(parts_.links.begin(), parts_.links.end(), [&](const LinkText& own) {
-             return own.name == link && own.points.size() > 1;
+    return link == "ground" || std::any_of(parts_.links.begin(), parts_.links.end(), [&](const LinkText& text) {
+             return text.name == link && text.points.size() > 1;
            });
   }
   bool torsion_spring() {
@@ -280,9 +280,9 @@ class FormWriter {
     const std::string& coordinate = one_of(parts_.coordinates);
     const bool length = coordinate == "x" || coordinate == "y";
     const std::string factor = std::to_string(in(1, 9) * 10);
-    const std::string own = length ? "-" + text_of(per_length(in(2, 9) * 10)) + "*(" + off_middle(coordinate) + ")"
-                                   : factor + "*" + (one_in(2) ? "cos(" : "sin(") + coordinate + ")";
-    one_in(2) ? add_forces(own, std::to_string(in(-9, 9) * 10)) : add_forces(std::to_string(in(-9, 9) * 10), own);
+    const std::string term = length ? "-" + text_of(per_length(in(2, 9) * 10)) + "*(" + off_middle(coordinate) + ")"
+                                    : factor + "*" + (one_in(2) ? "cos(" : "sin(") + coordinate + ")";
+    one_in(2) ? add_forces(term, std::to_string(in(-9, 9) * 10)) : add_forces(std::to_string(in(-9, 9) * 10), term);
     return true;
   }
   bool load_along_vector() {
@@ -324,7 +324,8 @@ class FormWriter {
   bool drop(const std::string& key) {
     bool found = false;
     for (JointText& joint : parts_.joints)
-      found = std::erase_if(joint.clearance, [&](const auto& own) { return own.starts_with(key); }) > 0 || found;
+      found = std::erase_if(joint.clearance, [&](const auto& candidate) { return candidate.starts_with(key); }) > 0 ||
+              found;
     return found;
   }
   bool drop_clearance() {

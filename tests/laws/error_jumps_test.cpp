@@ -60,14 +60,14 @@ std::vector<Jump> remaining_differences(const numeric::NumericModel& model, cons
   std::vector<double> poses;
   for (int j = 0; j < nodes; ++j)
     for (int i = 0; i < nodes; ++i) poses.insert(poses.end(), {node(i, j)[0], node(i, j)[1]});
-  const auto known = errors(model, mode, poses);
+  const auto this_errors = errors(model, mode, poses);
   std::vector<Edge> edges;
   for (int j = 0; j < nodes; ++j)
     for (int i = 0; i < nodes; ++i)
       for (const auto& [k, l] : {std::pair{i + 1, j}, std::pair{i, j + 1}}) {
         if (k >= nodes || l >= nodes) continue;
-        const auto &p = known[static_cast<std::size_t>(j * nodes + i)],
-                   &q = known[static_cast<std::size_t>(l * nodes + k)];
+        const auto &p = this_errors[static_cast<std::size_t>(j * nodes + i)],
+                   &q = this_errors[static_cast<std::size_t>(l * nodes + k)];
         if (p && q) edges.push_back({node(i, j), node(k, l), *p, *q});
       }
   constexpr int halvings = 26;

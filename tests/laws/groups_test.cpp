@@ -31,8 +31,8 @@ struct SixBar {
 
 SixBar six_bar(std::mt19937& random, bool lattice) {
   const auto number = [&](double low, double high) {
-    const double own = std::uniform_real_distribution<double>(low, high)(random);
-    return lattice ? std::round(4 * own) / 4 : std::round(1000 * own) / 1000;
+    const double drawn = std::uniform_real_distribution<double>(low, high)(random);
+    return lattice ? std::round(4 * drawn) / 4 : std::round(1000 * drawn) / 1000;
   };
   return {std::max(0.25, number(0.3, 1.2)),
           number(2, 4),
@@ -47,7 +47,7 @@ SixBar six_bar(std::mt19937& random, bool lattice) {
           number(-100, -10)};
 }
 
-std::string rest_of(const SixBar& own) {
+std::string rest_of(const SixBar& bar) {
   return fmt::format(R"(links:
   AB:  {{points: [A, B]}}
   BCE: {{points: [B, C, E]}}
@@ -66,10 +66,10 @@ end_effector: {{link: GH, at: H}}
 loads:
   - {{link: GH, at: H, force: [{}, {}]}}
 )",
-                     own.fx, own.fy);
+                     bar.fx, bar.fy);
 }
 
-std::string by_dyads(const SixBar& own, bool c_left, bool h_left) {
+std::string by_dyads(const SixBar& bar, bool c_left, bool h_left) {
   return fmt::format(R"(format: 1
 workspace:
   theta: {{angle: [0, 360 deg]}}
@@ -82,14 +82,14 @@ points:
   E: {{on: [B, C], offset: [{}, {}]}}
   H: {{dyad: [E, G], lengths: [{}, {}], side: {}}}
 )",
-                     own.d[0], own.d[1], own.g[0], own.g[1], own.crank, own.crank, own.coupler, own.rocker,
-                     c_left ? "left" : "right", own.along, own.beside, own.rod, own.far, h_left ? "left" : "right") +
-         rest_of(own);
+                     bar.d[0], bar.d[1], bar.g[0], bar.g[1], bar.crank, bar.crank, bar.coupler, bar.rocker,
+                     c_left ? "left" : "right", bar.along, bar.beside, bar.rod, bar.far, h_left ? "left" : "right") +
+         rest_of(bar);
 }
 
 Place at(const Pose& pose, const std::string& name) {
-  for (const PosePoint& own : pose.points)
-    if (own.name == name) return {own.at[0], own.at[1]};
+  for (const PosePoint& point : pose.points)
+    if (point.name == name) return {point.at[0], point.at[1]};
   ADD_FAILURE() << name;
   return {};
 }
@@ -99,9 +99,9 @@ double turn(const Place& p, const Place& q, const Place& r) {
 }
 
 /// Over the link GH, from a posture over the crank.
-std::string by_group(const SixBar& own, const Pose& posture, double reach) {
+std::string by_group(const SixBar& bar, const Pose& posture, double reach) {
   const Place b = at(posture, "B"), c = at(posture, "C"), e = at(posture, "E"), h = at(posture, "H");
-  const double phi = std::atan2(h[1] - own.g[1], h[0] - own.g[0]);
+  const double phi = std::atan2(h[1] - bar.g[1], h[0] - bar.g[0]);
   return fmt::format(R"(format: 1
 workspace:
   phi: {{angle: [{:.6f}, {:.6f}]}}
@@ -115,36 +115,36 @@ points:
     lengths: {{A-B: {}, B-C: {}, C-D: {}, B-E: 'sqrt(({})^2 + ({})^2)', C-E: 'sqrt((({}) - ({}))^2 + ({})^2)', E-H: {}}}
     near: {{at: {{phi: {:.12f}}}, B: [{:.9f}, {:.9f}], C: [{:.9f}, {:.9f}], E: [{:.9f}, {:.9f}]}}
 )",
-                     phi - reach, phi + reach, own.d[0], own.d[1], own.g[0], own.g[1], own.g[0], own.far, own.g[1],
-                     own.far, own.crank, own.coupler, own.rocker, own.along, own.beside, own.along, own.coupler,
-                     own.beside, own.rod, phi, b[0], b[1], c[0], c[1], e[0], e[1]) +
-         rest_of(own);
+                     phi - reach, phi + reach, bar.d[0], bar.d[1], bar.g[0], bar.g[1], bar.g[0], bar.far, bar.g[1],
+                     bar.far, bar.crank, bar.coupler, bar.rocker, bar.along, bar.beside, bar.along, bar.coupler,
+                     bar.beside, bar.rod, phi, b[0], b[1], c[0], c[1], e[0], e[1]) +
+         rest_of(bar);
 }
 
 /// What vanishes at a point, as words.
-std::string told(const IsolatedPoint& own) {
+std::string told(const IsolatedPoint& point) {
   std::vector<std::string> names;
-  for (const Vanishing& what : own.vanishing) names.push_back(what.joint + to_string(what.quantity));
+  for (const Vanishing& what : point.vanishing) names.push_back(what.joint + to_string(what.quantity));
   std::sort(names.begin(), names.end());
-  std::string words = to_string(own.kind);
+  std::string words = to_string(point.kind);
   for (const std::string& name : names) words += " " + name;
   return words;
 }
 
-bool is_compared(const IsolatedPoint& own) {
-  return own.kind == LocusKind::contact_loss || own.kind == LocusKind::backlash ||
-         own.kind == LocusKind::direct_singularity;
+bool is_compared(const IsolatedPoint& point) {
+  return point.kind == LocusKind::contact_loss || point.kind == LocusKind::backlash ||
+         point.kind == LocusKind::direct_singularity;
 }
 
 struct Compared {
   int designs = 0, points = 0, singular = 0, dead_centres = 0, uncertified = 0;
 };
 
-void compare(const SixBar& own, std::mt19937& random, Compared& count) {
+void compare(const SixBar& bar, std::mt19937& random, Compared& count) {
   const bool c_left = random() % 2 == 0, h_left = random() % 2 == 0;
   std::optional<Model> built;
   try {
-    built = Model::parse(by_dyads(own, c_left, h_left), "dyads.yaml");
+    built = Model::parse(by_dyads(bar, c_left, h_left), "dyads.yaml");
   } catch (const InputError& error) {
     ASSERT_NE(std::string(error.what()).find("unreachable in the whole box"), std::string::npos) << error.what();
     return;
@@ -154,7 +154,7 @@ void compare(const SixBar& own, std::mt19937& random, Compared& count) {
   const Pose posture = solve_pose(dyads, {theta});
   if (!posture.unreachable.empty() || posture.singular) return;
   // Where the assembly is not near a dead centre of the group either.
-  const std::string text = by_group(own, posture, 0.4);
+  const std::string text = by_group(bar, posture, 0.4);
   std::optional<Model> found;
   try {
     found = Model::parse(text, "group.yaml");
@@ -180,7 +180,7 @@ void compare(const SixBar& own, std::mt19937& random, Compared& count) {
     ASSERT_TRUE(pose.unreachable.empty());
     const Place b = at(pose, "B");
     const double crank = std::atan2(b[1], b[0]);
-    const bool c_side = turn(b, own.d, at(pose, "C")) > 0, h_side = turn(at(pose, "E"), own.g, at(pose, "H")) > 0;
+    const bool c_side = turn(b, bar.d, at(pose, "C")) > 0, h_side = turn(at(pose, "E"), bar.g, at(pose, "H")) > 0;
     const bool is_there = std::any_of(one.isolated_points.begin(), one.isolated_points.end(), [&](const auto& p) {
       return told(p) == told(point) && apart(p.at[0], crank) < near && (p.mode[0] > 0) == c_side &&
              (p.mode[1] > 0) == h_side;
@@ -190,11 +190,11 @@ void compare(const SixBar& own, std::mt19937& random, Compared& count) {
   // And the other way round, where the group reaches the posture.
   for (const IsolatedPoint& point : one.isolated_points) {
     if (!is_compared(point)) continue;
-    const Model mode = Model::parse(by_dyads(own, point.mode[0] > 0, point.mode[1] > 0), "dyads.yaml");
+    const Model mode = Model::parse(by_dyads(bar, point.mode[0] > 0, point.mode[1] > 0), "dyads.yaml");
     const Pose pose = solve_pose(mode, {point.at[0]});
     if (!pose.unreachable.empty()) continue;
     const Place h = at(pose, "H"), b = at(pose, "B");
-    const double phi = std::atan2(h[1] - own.g[1], h[0] - own.g[0]);
+    const double phi = std::atan2(h[1] - bar.g[1], h[0] - bar.g[0]);
     for (const ReachableInterval& interval : other.reachable) {
       const double here = interval.from + std::fmod(std::fmod(phi - interval.from, full) + full, full);
       if (!(here > interval.from + 1e-4 && here < interval.to - 1e-4)) continue;

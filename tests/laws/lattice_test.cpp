@@ -54,8 +54,9 @@ TEST_P(RandomDesignsOfEveryForm, KeepTheLaws) {
   }
   std::cout << table_of(judgements);
   // Else the law would have been about nothing.
-  EXPECT_TRUE(std::any_of(judgements.begin(), judgements.end(), [](const Judgement& own) {
-    return own.outcome == Outcome::refused || own.outcome == Outcome::late || own.held.contains("claims");
+  EXPECT_TRUE(std::any_of(judgements.begin(), judgements.end(), [](const Judgement& judgement) {
+    return judgement.outcome == Outcome::refused || judgement.outcome == Outcome::late ||
+           judgement.held.contains("claims");
   }));
 }
 

@@ -206,7 +206,7 @@ Judgement judge(const LawDesign& design, int patience) {
 
 std::vector<Judgement> run(const LawRun& run) {
   std::vector<Judgement> all = run.state.empty() ? std::vector<Judgement>{} : read_state(run.state);
-  const auto known = [&](Family family, int index) {
+  const auto is_known_index = [&](Family family, int index) {
     return std::any_of(all.begin(), all.end(),
                        [&](const Judgement& j) { return j.family == family && j.index == index; });
   };
@@ -216,7 +216,7 @@ std::vector<Judgement> run(const LawRun& run) {
   for (int i = 0; i < run.designs; ++i) {
     const Family family = all_families[static_cast<std::size_t>(i % families)];
     const int index = run.first + i / families;
-    if (known(family, index)) continue;
+    if (is_known_index(family, index)) continue;
     const LawDesign design = law_design(run.seed, family, index);
     const Judgement judgement = judge(design, run.patience);
     if (state.is_open()) state << line_of(judgement) << std::flush;

@@ -12,25 +12,25 @@
 
 int main(int argc, char** argv) {
   using namespace clearloci::test;
-  LawRun own;
-  own.designs = static_cast<int>(all_families.size());
+  LawRun law_run;
+  law_run.designs = static_cast<int>(all_families.size());
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string key = argv[i], value = argv[i + 1];
-    if (key == "--designs") own.designs = std::stoi(value);
-    if (key == "--first") own.first = std::stoi(value);
-    if (key == "--seed") own.seed = std::stoi(value);
-    if (key == "--patience") own.patience = std::stoi(value);
-    if (key == "--state") own.state = value;
-    if (key == "--keep") own.keep = value;
+    if (key == "--designs") law_run.designs = std::stoi(value);
+    if (key == "--first") law_run.first = std::stoi(value);
+    if (key == "--seed") law_run.seed = std::stoi(value);
+    if (key == "--patience") law_run.patience = std::stoi(value);
+    if (key == "--state") law_run.state = value;
+    if (key == "--keep") law_run.keep = value;
     if (key == "--show" && i + 2 < argc) {
-      const LawDesign design = law_design(own.seed, all_families.at(std::stoul(value)), std::stoi(argv[i + 2]));
+      const LawDesign design = law_design(law_run.seed, all_families.at(std::stoul(value)), std::stoi(argv[i + 2]));
       std::cout << "# " << arguments_of(design) << "\n" << design.text;
       return 0;
     }
   }
-  std::cout << "seed " << own.seed << ", " << own.designs << " designs from " << own.first << " on, " << own.patience
-            << " s of CPU a question" << std::endl;
-  const auto judgements = run(own);
+  std::cout << "seed " << law_run.seed << ", " << law_run.designs << " designs from " << law_run.first << " on, "
+            << law_run.patience << " s of CPU a question" << std::endl;
+  const auto judgements = run(law_run);
   std::cout << table_of(judgements);
   for (const Judgement& judgement : judgements)
     if (judgement.outcome == Outcome::contradicted) return 1;

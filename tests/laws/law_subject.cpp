@@ -12,9 +12,9 @@
 namespace clearloci::test {
 
 std::vector<double> Witness::at_home(std::span<const double> pose) const {
-  std::vector<double> own(pose.begin(), pose.end());
-  for (std::size_t c = 0; c < own.size(); ++c) own[c] -= shift_.at(c);
-  return own;
+  std::vector<double> at_home(pose.begin(), pose.end());
+  for (std::size_t c = 0; c < at_home.size(); ++c) at_home[c] -= shift_.at(c);
+  return at_home;
 }
 
 std::optional<numeric::Reactions> Witness::at(std::span<const double> pose, const std::vector<int>& sides) const {
@@ -67,12 +67,12 @@ LociRequest request_of(const LawDesign& design, const mechanism::Mechanism& mech
 
 }  // namespace
 
-Subject::Subject(const LawDesign& own, Report& report_to)
-    : design(own),
+Subject::Subject(const LawDesign& law_design, Report& report_to)
+    : design(law_design),
       report(report_to),
-      mechanism(mechanism::parse_mechanism(own.text, "design.yaml")),
-      witness(mechanism::parse_mechanism(own.home_text, "home.yaml"), own.shift),
-      request(request_of(own, mechanism)) {}
+      mechanism(mechanism::parse_mechanism(law_design.text, "design.yaml")),
+      witness(mechanism::parse_mechanism(law_design.home_text, "home.yaml"), law_design.shift),
+      request(request_of(law_design, mechanism)) {}
 
 std::vector<std::vector<double>> Subject::scattered(int n) const {
   std::vector<std::vector<double>> poses;

@@ -54,7 +54,7 @@ class Witness {
 
 struct Subject {
   /// Throws core::InputError where the reader refuses the file.
-  Subject(const LawDesign& own, Report& report_to);
+  Subject(const LawDesign& design, Report& report_to);
 
   /// Of a mode of a map.
   std::vector<int> sides_of(const core::LocusMap& map, const core::WorkingMode& mode) const {

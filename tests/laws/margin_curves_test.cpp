@@ -26,8 +26,8 @@ unsigned number_of(const char* name, unsigned usual) {
 }
 
 bool names(const std::vector<core::Vanishing>& vanishing, const std::string& joint) {
-  return std::any_of(vanishing.begin(), vanishing.end(), [&](const core::Vanishing& own) {
-    return own.joint == joint && own.quantity == core::Quantity::f;
+  return std::any_of(vanishing.begin(), vanishing.end(), [&](const core::Vanishing& candidate) {
+    return candidate.joint == joint && candidate.quantity == core::Quantity::f;
   });
 }
 
@@ -81,11 +81,13 @@ class Margins {
  private:
   /// Sign of |N|^2 - (bound |A|)^2; none: out of reach, or rounding hides it.
   std::optional<int> sign(const Point2& at) const {
-    const numeric::BoundedNumerators own = numeric::bounded_numerators(model_, at, sides_);
-    if (!own.reachable) return std::nullopt;
-    const double x = own.values[columns_[0]].value, y = own.values[columns_[1]].value, d = own.determinant.value;
+    const numeric::BoundedNumerators numerators = numeric::bounded_numerators(model_, at, sides_);
+    if (!numerators.reachable) return std::nullopt;
+    const double x = numerators.values[columns_[0]].value, y = numerators.values[columns_[1]].value,
+                 d = numerators.determinant.value;
     const double size = std::hypot(x, y), limit = bound_ * std::abs(d);
-    const double error = own.values[columns_[0]].error + own.values[columns_[1]].error + bound_ * own.determinant.error;
+    const double error = numerators.values[columns_[0]].error + numerators.values[columns_[1]].error +
+                         bound_ * numerators.determinant.error;
     if (std::abs(size - limit) <= error) return std::nullopt;
     return size > limit ? 1 : -1;
   }
@@ -96,8 +98,8 @@ class Margins {
     double from = 0;
     for (int step = 0; step <= steps; ++step) {
       at[axis] = low_[axis] + (step + 0.236) / (steps + 1) * (high_[axis] - low_[axis]);
-      const std::optional<int> own = sign(at);
-      if (own && last && *own != *last) {
+      const std::optional<int> this_sign = sign(at);
+      if (this_sign && last && *this_sign != *last) {
         double a = from, b = at[axis];
         bool lost = false;
         for (int halving = 0; halving < 40 && !lost; ++halving) {
@@ -111,7 +113,7 @@ class Margins {
         crossing[axis] = (a + b) / 2;
         if (b - a < 1e-6) judge(crossing, joint, mode, result);
       }
-      last = own;
+      last = this_sign;
       from = at[axis];
     }
   }

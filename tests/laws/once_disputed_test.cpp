@@ -93,7 +93,7 @@ TEST(OnceDisputed, CurvesThroughCellsWhoseBoundsOverflow) {
     constexpr double near = 2e-3;
     const auto is_of = [&](const std::vector<core::Vanishing>& list) {
       return std::any_of(list.begin(), list.end(),
-                         [&](const core::Vanishing& own) { return own.quantity == quantity; });
+                         [&](const core::Vanishing& vanishing) { return vanishing.quantity == quantity; });
     };
     const auto is_near = [&](const core::Arc& arc) {
       return std::any_of(arc.points.begin(), arc.points.end(),

@@ -60,8 +60,8 @@ class PinForce {
   }
 
   Eigen::Vector2d numerator(std::span<const double> pose) const {
-    const Force own = at(pose);
-    return own.determinant * own.across;
+    const Force force = at(pose);
+    return force.determinant * force.across;
   }
 
  private:

@@ -108,8 +108,8 @@ TEST(PoseErrorOverPosesOfDesigns, HoldsWithinTolerances) {
   ASSERT_TRUE(answer.verified());
   double most = 0;
   for (const char* plate : {"0.298", "0.3", "0.302"}) {
-    const Mechanism own = example("gough_stewart_poses", {{"plate", plate}});
-    most = std::max(most, greatest_on_grid(own, task_of(own, box), 8));
+    const Mechanism mechanism = example("gough_stewart_poses", {{"plate", plate}});
+    most = std::max(most, greatest_on_grid(mechanism, task_of(mechanism, box), 8));
   }
   EXPECT_GE(*answer.pose_error, most * (1 - 1e-9));
   EXPECT_LE(*answer.pose_error, most * 1.03);
@@ -123,9 +123,9 @@ TEST(PoseErrorOverPosesOfLoads, HoldsUnderEveryLoad) {
     ASSERT_TRUE(answer.verified());
     double most = 0;
     for (const int along : {-5, 0, 5}) {
-      Mechanism own = m;
-      own.loads.front().force[0] = core::Expression::number(along);
-      most = std::max(most, greatest_on_grid(own, task_of(own, box), 100));
+      Mechanism mechanism = m;
+      mechanism.loads.front().force[0] = core::Expression::number(along);
+      most = std::max(most, greatest_on_grid(mechanism, task_of(mechanism, box), 100));
     }
     EXPECT_GE(*answer.pose_error, most * (1 - 1e-9)) << loads;
     EXPECT_LE(*answer.pose_error, most * 1.1) << loads;

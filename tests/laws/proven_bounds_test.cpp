@@ -200,11 +200,12 @@ TEST_P(ProvenBounds, AreMetByNoSample) {
     const int members = varied.empty() ? 1 : 12;
     for (int k = 0; k < members; ++k) {
       Values values;
-      for (const core::Tolerance& own : task.tolerances) {
-        const core::Rational nominal = mechanism::parameter_named(m, own.parameter)->value;
+      for (const core::Tolerance& tolerance : task.tolerances) {
+        const core::Rational nominal = mechanism::parameter_named(m, tolerance.parameter)->value;
         const core::Rational part(draw.uniform(0, 1) < 0.5 ? 0 : 1);
-        values.emplace_back(own.parameter,
-                            core::to_string(core::Rational(nominal + own.below + (own.above - own.below) * part)));
+        values.emplace_back(
+            tolerance.parameter,
+            core::to_string(core::Rational(nominal + tolerance.below + (tolerance.above - tolerance.below) * part)));
       }
       Mechanism member = mechanism::parse_mechanism(design.text, "random.yaml", values);
       for (const core::LoadWithin& within : task.loads_within) {
@@ -219,9 +220,9 @@ TEST_P(ProvenBounds, AreMetByNoSample) {
       const int grid = varied.empty() ? 12 : 4;
       for (int i = 0; i <= grid; ++i)
         for (int j = 0; j <= grid; ++j) {
-          const Solved own = solved(model, {design.near[0] + side * i / grid, design.near[1] + side * j / grid});
-          most.error = std::max(most.error, own.error);
-          most.least_force = std::min(most.least_force, own.least_force);
+          const Solved solution = solved(model, {design.near[0] + side * i / grid, design.near[1] + side * j / grid});
+          most.error = std::max(most.error, solution.error);
+          most.least_force = std::min(most.least_force, solution.least_force);
         }
     }
     EXPECT_LE(most.error, *answer.pose_error * (1 + 1e-9));
@@ -239,7 +240,7 @@ TEST_P(ProvenBounds, AreMetByNoSample) {
 INSTANTIATE_TEST_SUITE_P(Families, ProvenBounds,
                          testing::Values(std::pair("five_bar", &five_bar), std::pair("telescopes", &telescopes),
                                          std::pair("plate", &plate), std::pair("rails", &rails)),
-                         [](const auto& own) { return std::string(own.param.first); });
+                         [](const auto& candidate) { return std::string(candidate.param.first); });
 
 /// The same answers however long the axes are written.
 TEST(AxisLengths, AreOfNoConsequence) {
@@ -261,10 +262,10 @@ TEST(AxisLengths, AreOfNoConsequence) {
   const std::string task = "format: 1\nbox: {x: [0.28, 0.3], y: [-0.1, -0.08]}\npose_error: 1e-3\n";
   std::vector<double> bounds;
   for (const char* length : {"1", "100", "1/50", "sqrt(3)"}) {
-    std::string own = text;
-    for (std::size_t at = 0; (at = own.find(axis, at)) != std::string::npos; at += axis.size())
-      own.replace(at, axis.size(), fmt::format("axis: [0, {}]", length));
-    const Mechanism m = mechanism::parse_mechanism(own, "rails.yaml");
+    std::string changed = text;
+    for (std::size_t at = 0; (at = changed.find(axis, at)) != std::string::npos; at += axis.size())
+      changed.replace(at, axis.size(), fmt::format("axis: [0, {}]", length));
+    const Mechanism m = mechanism::parse_mechanism(changed, "rails.yaml");
     const Verification answer = test::decided(m, mechanism::parse_task(task, "task.yaml", m));
     ASSERT_TRUE(answer.pose_error) << length;
     bounds.push_back(*answer.pose_error);

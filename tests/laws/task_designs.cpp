@@ -98,14 +98,14 @@ Parts sliders(Numbers& n, const std::string& mass, bool both) {
       "  S1: {{revolute: [block1, S1P], at: S1, {}}}\n  P: {{revolute: [S1P, PB2], at: P, {}}}\n",
       axis, guide, pin, pin);
   if (both) {
-    const std::string own = n.one_in(2) ? axis : n.axis();
-    p.points += fmt::format("  B2: {{slider: [A2, {}], from: P, length: {}, side: {}}}\n", own,
+    const std::string axis_name = n.one_in(2) ? axis : n.axis();
+    p.points += fmt::format("  B2: {{slider: [A2, {}], from: P, length: {}, side: {}}}\n", axis_name,
                             n.one_in(2) ? length : n.quarters(2, 5), n.way());
     p.links += "  block2: {points: [B2]}\n";
     p.joints += fmt::format(
         "  B2: {{revolute: [block2, PB2], at: B2, {}}}\n"
         "  G2: {{prismatic: [ground, block2], at: B2, axis: {}, actuated: true, {}}}\n",
-        pin, own, guide);
+        pin, axis_name, guide);
   } else {
     p.points += fmt::format("  B2: {{dyad: [A2, P], lengths: [{}, {}], side: {}}}\n", n.quarters(2, 4),
                             n.quarters(2, 4), n.side());
@@ -258,10 +258,10 @@ std::string random_wishes(std::mt19937& random, const mechanism::Mechanism& mech
     if (!posture.reachable()) continue;
     const auto w = numeric::solve_reactions(model, posture).values;
     for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
-      const double own = w(static_cast<Eigen::Index>(k));
-      if (model.unknowns[k].quantity == core::Quantity::M) couple = std::min(couple, std::abs(own));
+      const double reaction = w(static_cast<Eigen::Index>(k));
+      if (model.unknowns[k].quantity == core::Quantity::M) couple = std::min(couple, std::abs(reaction));
       if (model.unknowns[k].quantity == core::Quantity::fx)
-        force = std::min(force, std::hypot(own, w(static_cast<Eigen::Index>(k) + 1)));
+        force = std::min(force, std::hypot(reaction, w(static_cast<Eigen::Index>(k) + 1)));
     }
   }
   const auto share = [&](double of) {

@@ -86,11 +86,12 @@ void hold_spread(Subject& s, std::mt19937& random, const core::Task& task, const
   const auto part = [&] { return 2 * std::uniform_real_distribution<double>(0, 1)(random) - 1; };
   for (int sample = 0; sample < 12; ++sample) {
     std::vector<mechanism::Override> values;
-    for (const core::Tolerance& own : task.tolerances)
+    for (const core::Tolerance& tolerance : task.tolerances)
       for (const auto& [name, value] : s.design.values)
-        if (name == own.parameter) {
+        if (name == tolerance.parameter) {
           const double by = part();
-          const core::Rational at = value + (by < 0 ? own.below * core::Rational(-by) : own.above * core::Rational(by));
+          const core::Rational at =
+              value + (by < 0 ? tolerance.below * core::Rational(-by) : tolerance.above * core::Rational(by));
           values.emplace_back(name, core::to_string(at));
         }
     const mechanism::Mechanism member = mechanism::parse_mechanism(s.design.text, "member.yaml", values);

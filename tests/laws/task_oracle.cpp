@@ -58,9 +58,9 @@ void hold_verified(std::mt19937& random, const Oracle& oracle, const core::Task&
   std::vector<Point2> places = region.samples();
   for (int s = 0; s < poses; ++s) places.push_back(pose_of(random, region, outline, result.margin.value_or(0)));
   for (const Point2& at : places) {
-    const auto own = oracle.solve(at);
-    if (!own) return say(false, fmt::format("out of reach at {:.17g}, {:.17g}", at[0], at[1]));
-    solved.push_back(*own);
+    const auto solve = oracle.solve(at);
+    if (!solve) return say(false, fmt::format("out of reach at {:.17g}, {:.17g}", at[0], at[1]));
+    solved.push_back(*solve);
   }
   const std::vector<bool> zero = never_loaded(solved);
   const double force = task.min_force ? core::to_double(*task.min_force) : 0;
@@ -148,8 +148,8 @@ void hold_refuted(const Oracle& oracle, const core::Task& task, const TaskWitnes
     int reached = 0, positive = 0;
     const std::vector<Point2> near = around(1e-8);
     for (const Point2& p : near) {
-      const auto own = oracle.solve(p);
-      if (own) ++reached, positive += own->determinant > 0 ? 1 : 0;
+      const auto solve = oracle.solve(p);
+      if (solve) ++reached, positive += solve->determinant > 0 ? 1 : 0;
     }
     const int all = static_cast<int>(near.size());
     const bool nearly_singular = here && std::abs(here->determinant) < 1e-12;

@@ -67,10 +67,10 @@ class Oracle {
   };
   std::optional<Solved> solve(const Point2& at) const {
     Solved solved;
-    for (const numeric::NumericModel& own : models_) {
-      const numeric::Posture posture = numeric::posture(own, at, mode_);
+    for (const numeric::NumericModel& model : models_) {
+      const numeric::Posture posture = numeric::posture(model, at, mode_);
       if (!posture.reachable()) return std::nullopt;
-      const numeric::Reactions reactions = numeric::solve_reactions(own, posture);
+      const numeric::Reactions reactions = numeric::solve_reactions(model, posture);
       solved.ends.push_back(reactions.values);
       solved.determinant = reactions.determinant;
     }

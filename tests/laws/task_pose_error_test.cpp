@@ -27,8 +27,8 @@ std::string clearances() { return report::fixture::read_file(source_dir() + "/ex
 
 /// With the one load's force replaced.
 std::string under(std::string text, const std::string& force) {
-  const std::string own = "force: [0, -100]";
-  return text.replace(text.find(own), own.size(), "force: " + force);
+  const std::string load = "force: [0, -100]";
+  return text.replace(text.find(load), load.size(), "force: " + force);
 }
 
 double error_at(const numeric::NumericModel& model, std::span<const double> at) {
@@ -150,11 +150,12 @@ TEST(TaskUnderABallOfLoads, IsRefutedWhereACoupleVanishesUnderSomeLoad) {
   const numeric::NumericModel model = numeric::compile(m);
   const numeric::Posture posture = numeric::posture(model, answer.witness->at, mechanism::working_mode(m));
   const numeric::Accuracy accuracy = numeric::pose_accuracy(model, posture);
-  for (const core::Vanishing& own : answer.witness->vanishing)
+  for (const core::Vanishing& vanishing : answer.witness->vanishing)
     for (std::size_t j = 0; j < m.joints.size(); ++j) {
-      if (m.joints[j].name != own.joint) continue;
-      const bool effort = own.quantity == core::Quantity::M;
-      EXPECT_NEAR(effort ? accuracy.of_joints[j].actuator : accuracy.of_joints[j].force.norm(), 0, 1e-9) << own.joint;
+      if (m.joints[j].name != vanishing.joint) continue;
+      const bool effort = vanishing.quantity == core::Quantity::M;
+      EXPECT_NEAR(effort ? accuracy.of_joints[j].actuator : accuracy.of_joints[j].force.norm(), 0, 1e-9)
+          << vanishing.joint;
     }
 }
 
@@ -206,11 +207,11 @@ TEST(StudyFigures, OfReactionsHoldUnderBallsOfLoads) {
     double least = 1e9, most = 0, error = 0;
     for (int i = 0; i < 72; ++i) {
       const double angle = 6.283185307179586 * part(random), radius = i % 8 == 0 ? 15 * part(random) : 15;
-      std::string own =
+      std::string this_under =
           under(clearances(), fmt::format("[{}, {}]", radius * std::cos(angle), -100 + radius * std::sin(angle)));
-      own.replace(own.find("force: "), 0, fmt::format("couple: {}, ", i % 2 == 0 ? 1 : -1));
+      this_under.replace(this_under.find("force: "), 0, fmt::format("couple: {}, ", i % 2 == 0 ? 1 : -1));
       const mechanism::Mechanism m =
-          mechanism::parse_mechanism(own, "a.yaml", {{"L", fmt::format("{}", design.values[0])}});
+          mechanism::parse_mechanism(this_under, "a.yaml", {{"L", fmt::format("{}", design.values[0])}});
       const numeric::NumericModel model = numeric::compile(m);
       const std::vector<numeric::JointColumns> columns = numeric::joint_columns(model);
       for (int pose = 0; pose < 25; ++pose) {

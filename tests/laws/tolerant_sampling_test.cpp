@@ -100,15 +100,15 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 /// How long the verdict took, against that of the file's own design and load alone.
 double shown_times(int n, const mechanism::Mechanism& m, core::Task task, const Verification& answer,
                    Clock::time_point start) {
-  const double own = seconds_since(start);
+  const double since = seconds_since(start);
   task.tolerances.clear();
   task.loads_within.clear();
   const auto again = Clock::now();
   const Verification nominal = test::decided(m, task, {.deadline = again + std::chrono::seconds(5)});
   const double alone = seconds_since(again);
-  fmt::print("{} {} {:.4f} s; nominal {} {:.4f} s; ratio {:.2f}\n", n, to_string(answer.verdict), own,
-             to_string(nominal.verdict), alone, own / alone);
-  return own / alone;
+  fmt::print("{} {} {:.4f} s; nominal {} {:.4f} s; ratio {:.2f}\n", n, to_string(answer.verdict), since,
+             to_string(nominal.verdict), alone, since / alone);
+  return since / alone;
 }
 
 TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
@@ -153,20 +153,21 @@ TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
       std::vector<Value> values;
       for (const auto& [name, value] : witness.design) {
         values.emplace_back(name, core::to_string(core::Rational(value)));
-        for (const core::Tolerance& own : task.tolerances)
-          if (own.parameter == name)
+        for (const core::Tolerance& tolerance : task.tolerances)
+          if (tolerance.parameter == name)
             for (std::size_t i = 0; i < names.size(); ++i)
               if (names[i] == name) {
-                EXPECT_GE(value, v[i] + core::to_double(own.below) - 1e-12);
-                EXPECT_LE(value, v[i] + core::to_double(own.above) + 1e-12);
+                EXPECT_GE(value, v[i] + core::to_double(tolerance.below) - 1e-12);
+                EXPECT_LE(value, v[i] + core::to_double(tolerance.above) + 1e-12);
               }
       }
       mechanism::Mechanism member = mechanism::parse_mechanism(text, "random.yaml", values);
       if (!witness.loads.empty()) {
         const numeric::NumericModel model = numeric::compile(member);
         const numeric::Posture there = numeric::posture(model, Point2{x, y}, mechanism::working_mode(member));
-        const Point2 own = numeric::in_plane(there.loads.front().force);
-        EXPECT_LE(std::hypot(witness.loads[0].force[0] - own[0], witness.loads[0].force[1] - own[1]), ball + 1e-9);
+        const Point2 point2 = numeric::in_plane(there.loads.front().force);
+        EXPECT_LE(std::hypot(witness.loads[0].force[0] - point2[0], witness.loads[0].force[1] - point2[1]),
+                  ball + 1e-9);
         EXPECT_LE(std::abs(witness.loads[0].couple.at(0)), couple + 1e-9);
         member = under(member, test::point_of(witness.loads[0].force), witness.loads[0].couple.at(0));
       }
@@ -180,13 +181,15 @@ TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
       }
       if (witness.kind == Kind::vanishing) {
         ASSERT_TRUE(solved);
-        const core::Vanishing& own = witness.vanishing.front();
-        EXPECT_LT(force_of(member, *solved, own.joint, own.quantity), 1e-6 * solved->w.cwiseAbs().maxCoeff());
+        const core::Vanishing& vanishing = witness.vanishing.front();
+        EXPECT_LT(force_of(member, *solved, vanishing.joint, vanishing.quantity),
+                  1e-6 * solved->w.cwiseAbs().maxCoeff());
       }
       if (witness.kind == Kind::too_small) {
         ASSERT_TRUE(solved);
-        const core::Vanishing& own = witness.too_small.front();
-        EXPECT_LT(force_of(member, *solved, own.joint, own.quantity), core::to_double(*witness.least) * (1 + 1e-9));
+        const core::Vanishing& vanishing = witness.too_small.front();
+        EXPECT_LT(force_of(member, *solved, vanishing.joint, vanishing.quantity),
+                  core::to_double(*witness.least) * (1 + 1e-9));
       }
       continue;
     }
@@ -197,11 +200,12 @@ TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
     for (int sample = 0; sample < 60; ++sample) {
       const auto part = [&] { return sample % 3 == 0 ? std::round(law.uniform(0, 1)) : law.uniform(0, 1); };
       std::vector<Value> values;
-      for (const core::Tolerance& own : task.tolerances)
+      for (const core::Tolerance& tolerance : task.tolerances)
         for (std::size_t i = 0; i < names.size(); ++i)
-          if (names[i] == own.parameter) {
+          if (names[i] == tolerance.parameter) {
             const core::Rational nominal = m.parameters[i].value;
-            const core::Rational value = nominal + own.below + (own.above - own.below) * core::Rational(part());
+            const core::Rational value =
+                nominal + tolerance.below + (tolerance.above - tolerance.below) * core::Rational(part());
             values.emplace_back(names[i], core::to_string(value));
           }
       mechanism::Mechanism member = mechanism::parse_mechanism(text, "random.yaml", values);
@@ -210,8 +214,8 @@ TEST(TolerantTasks, NoSampleOfDesignsLoadsAndPosesContradictsAVerdict) {
       const numeric::Posture posture = numeric::posture(model, at, mechanism::working_mode(member));
       ASSERT_TRUE(posture.reachable()) << sample;
       const double angle = law.uniform(0, 6.3), radius = ball * (sample % 2 == 0 ? 1 : law.uniform(0, 1));
-      const Point2 own = numeric::in_plane(posture.loads.front().force);
-      member = under(member, {own[0] + radius * std::cos(angle), own[1] + radius * std::sin(angle)},
+      const Point2 point2 = numeric::in_plane(posture.loads.front().force);
+      member = under(member, {point2[0] + radius * std::cos(angle), point2[1] + radius * std::sin(angle)},
                      couple * (2 * part() - 1));
       const auto solved = solve(member, at);
       ASSERT_TRUE(solved);

@@ -36,7 +36,7 @@ TEST(VerifySampling, IsNeverContradicted) {
     const int kind = i % test::task_design_kinds;
     const bool lattice = (i / test::task_design_kinds) % 2 == 0;
     const std::string text = test::random_design(random, kind, lattice);
-    std::string own;
+    std::string demands;
     mechanism::Mechanism mechanism;
     std::optional<core::Task> task;
     std::optional<Verification> result;
@@ -48,12 +48,13 @@ TEST(VerifySampling, IsNeverContradicted) {
         ++refused;
         continue;
       }
-      own = "format: 1\n" + *shape;
-      own += test::random_wishes(random, mechanism, mechanism::parse_task(own, "task.yaml", mechanism).shape, lattice);
-      task = mechanism::parse_task(own, "task.yaml", mechanism);
+      demands = "format: 1\n" + *shape;
+      demands +=
+          test::random_wishes(random, mechanism, mechanism::parse_task(demands, "task.yaml", mechanism).shape, lattice);
+      task = mechanism::parse_task(demands, "task.yaml", mechanism);
       if (dump != nullptr) {
         std::ofstream(fmt::format("{}/{}.yaml", dump, i)) << text;
-        std::ofstream(fmt::format("{}/{}_task.yaml", dump, i)) << own << "\n";
+        std::ofstream(fmt::format("{}/{}_task.yaml", dump, i)) << demands << "\n";
       }
       const auto start = std::chrono::steady_clock::now();
       result = test::decided(mechanism, *task, {});
@@ -62,7 +63,7 @@ TEST(VerifySampling, IsNeverContradicted) {
       ++refused;  // a polygon that crosses itself, a mechanism that is singular in every pose
       continue;
     }
-    SCOPED_TRACE(own);
+    SCOPED_TRACE(demands);
     ++counts[result->verdict];
     if (wanted != nullptr)
       fmt::print("{} kind {} {} {} {:.2f} s{}\n", i, kind, lattice ? "lattice" : "general", to_string(result->verdict),

@@ -97,8 +97,9 @@ class VirtualWork {
     return 0;
   }
   bool mechanism_has(mechanism::LinkIndex link, int index) const {
-    const mechanism::Link& own = m_.links[static_cast<std::size_t>(link)];
-    return own.centre_of_mass == index || std::find(own.points.begin(), own.points.end(), index) != own.points.end();
+    const mechanism::Link& body = m_.links[static_cast<std::size_t>(link)];
+    return body.centre_of_mass == index ||
+           std::find(body.points.begin(), body.points.end(), index) != body.points.end();
   }
 
   /// Of a link's first two points, or of the guide that a block turns with.
@@ -162,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Examples,
                                          "planar_delta", "prrrp", "rprpr", "scara_belt", "slider_crank", "squeezer",
                                          "stephenson_six_bar", "three_rpr", "three_rrr", "toggle_press",
                                          "watt_six_bar"),
-                         [](const auto& own) { return std::string(own.param); });
+                         [](const auto& candidate) { return std::string(candidate.param); });
 
 }  // namespace
 }  // namespace clearloci

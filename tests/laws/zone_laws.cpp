@@ -23,10 +23,10 @@ std::pair<double, double> sampled_area(const Subject& s, const std::vector<int>&
   int count = 0, rim = 0;
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < n; ++k) {
-      const char own = there[static_cast<std::size_t>(i * n + k)];
-      count += own;
-      if ((i > 0 && there[static_cast<std::size_t>((i - 1) * n + k)] != own) ||
-          (k > 0 && there[static_cast<std::size_t>(i * n + k - 1)] != own))
+      const char symbol = there[static_cast<std::size_t>(i * n + k)];
+      count += symbol;
+      if ((i > 0 && there[static_cast<std::size_t>((i - 1) * n + k)] != symbol) ||
+          (k > 0 && there[static_cast<std::size_t>(i * n + k - 1)] != symbol))
         ++rim;
     }
   // A cell of the rim is in doubt by a half on the average; what falls between the nodes is some cells thin.
@@ -96,8 +96,8 @@ std::vector<Crossing> crossings(const Subject& s, const std::vector<int>& sides)
     auto at_a = s.witness.at(a, sides), at_b = s.witness.at(b, sides);
     if (!at_a || !at_b || at_a->determinant * at_b->determinant < 0) return;
     for (const auto& [what, least] : wanted) {
-      const auto excess = [&, &own = what, &bound = least](const numeric::Reactions& w) {
-        return std::abs(s.witness.value_of(w, own)) - bound;
+      const auto excess = [&, &condition = what, &bound = least](const numeric::Reactions& w) {
+        return std::abs(s.witness.value_of(w, condition)) - bound;
       };
       double ea = excess(*at_a);
       if (!(ea * excess(*at_b) < 0)) continue;
@@ -149,8 +149,8 @@ void judge_margins(Subject& s) {
       for (const core::LocusCurve& curve : map->curves) {
         if (curve.mode != region.mode) continue;
         doubted = doubted || (!curve.certified && curve.kind == core::LocusKind::margin);
-        const bool of_it = std::any_of(curve.vanishing.begin(), curve.vanishing.end(), [&](const auto& own) {
-          return own.joint == crossing.what.joint && own.quantity == crossing.what.quantity;
+        const bool of_it = std::any_of(curve.vanishing.begin(), curve.vanishing.end(), [&](const auto& candidate) {
+          return candidate.joint == crossing.what.joint && candidate.quantity == crossing.what.quantity;
         });
         if (curve.kind == core::LocusKind::margin && of_it)
           for (const core::Arc& arc : curve.arcs) least = std::min(least, distance_to(arc.points, crossing.at));
@@ -185,7 +185,7 @@ void judge_zones(Subject& s) {
       std::all_of(zones.zones.begin(), zones.zones.end(), [](const core::Zone& zone) { return zone.certified; });
   if (!certified) s.report.uncertified("zones");
   double in_doubt = 0;
-  for (const core::ZonedMode& own : zones.modes) in_doubt += own.in_doubt;
+  for (const core::ZonedMode& mode : zones.modes) in_doubt += mode.in_doubt;
   if (zones.loci.complete && (!certified || in_doubt > 0)) s.report.fault("zones in doubt are told as complete");
   const std::string what = std::to_string(zones.zones.size()) + " zones" + (certified ? "" : ", not certified");
   for (const core::WorkspaceRegion& region : zones.loci.workspace) {

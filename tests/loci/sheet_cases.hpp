@@ -116,8 +116,8 @@ inline FiveBarSheet five_bar_sheet(const FiveBar& design) {
   store(sheet.force_A2, f_A2);
   sheet.determinant = reduced(det, sheet.tower);
   const auto moment = [&](const Leg& l, const Vector& force) {
-    const Polynomial own = cross(l.b, W) + l.D * cross(l.p, W);
-    return reduced(r(2) * l.D * cross(l.p, force) + det * own, sheet.tower);
+    const Polynomial polynomial = cross(l.b, W) + l.D * cross(l.p, W);
+    return reduced(r(2) * l.D * cross(l.p, force) + det * polynomial, sheet.tower);
   };
   sheet.moment_A1 = moment(one, f);
   sheet.moment_A2 = moment(two, minus(times(det, F), f));

@@ -17,11 +17,13 @@ std::vector<std::string> numbers_of(const Mechanism& m) {
   for (const Coordinate& c : m.coordinates)
     for (const Rational& end : {c.lower, c.upper}) list.push_back(core::to_string(end));
   for (const Point& point : m.points) {
-    if (const auto* own = std::get_if<ExplicitPoint>(&point.form))
-      std::for_each(own->coordinates.begin(), own->coordinates.end(), add);
-    if (const auto* own = std::get_if<DyadPoint>(&point.form)) add(own->from_length), add(own->to_length);
-    if (const auto* own = std::get_if<OffsetPoint>(&point.form)) add(own->along), add(own->left);
-    if (const auto* own = std::get_if<SliderPoint>(&point.form)) add(own->length);
+    if (const auto* explicit_point = std::get_if<ExplicitPoint>(&point.form))
+      std::for_each(explicit_point->coordinates.begin(), explicit_point->coordinates.end(), add);
+    if (const auto* dyad_point = std::get_if<DyadPoint>(&point.form))
+      add(dyad_point->from_length), add(dyad_point->to_length);
+    if (const auto* offset_point = std::get_if<OffsetPoint>(&point.form))
+      add(offset_point->along), add(offset_point->left);
+    if (const auto* slider_point = std::get_if<SliderPoint>(&point.form)) add(slider_point->length);
   }
   return list;
 }
@@ -30,7 +32,7 @@ class ChosenFrames : public testing::TestWithParam<std::string> {
  protected:
   /// The example with its places and lengths as in p = origin + scale p'; lengths that are no places stay.
   static Mechanism seen(const Mechanism& m, const Frame& from) {
-    const Frame own = frame_of(m);
+    const Frame frame_of_model = frame_of(m);
     Frame frame = from;
     frame.from.resize(m.coordinates.size());
     for (std::size_t q = 0; q < m.coordinates.size(); ++q)
@@ -50,16 +52,16 @@ class ChosenFrames : public testing::TestWithParam<std::string> {
 
 TEST_P(ChosenFrames, GoWithTheMechanism) {
   const Mechanism m = read_mechanism(GetParam());
-  const Frame own = frame_of(m);
-  const auto inside = in_frame(m, own);
+  const Frame frame_of_model = frame_of(m);
+  const auto inside = in_frame(m, frame_of_model);
   ASSERT_TRUE(inside);
   Frame by;
   by.origin = {core::Rational(-17, 3), core::Rational(1000000), core::Rational(22, 7)};
   if (dimension(m) == 2) by.origin[2] = 0;
   const Mechanism moved = seen(m, by);
   const Frame other = frame_of(moved);
-  EXPECT_EQ(other.scale, own.scale);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(other.origin[i], own.origin[i] - by.origin[i]) << i;
+  EXPECT_EQ(other.scale, frame_of_model.scale);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(other.origin[i], frame_of_model.origin[i] - by.origin[i]) << i;
   EXPECT_EQ(numbers_of(in_frame(moved, other).value()), numbers_of(*inside));
   EXPECT_TRUE(is_far(moved));
 }
@@ -71,9 +73,9 @@ TEST_P(ChosenFrames, AreScaledWhereMetresAreFarFromTheSize) {
   for (const int exponent : {16, 20}) {
     by.scale = core::Rational(core::Rational(1) >> static_cast<unsigned>(exponent));
     const Mechanism large = seen(m, by);
-    const Frame own = frame_of(large);
-    EXPECT_NE(own.scale, 1);
-    numbers.push_back(numbers_of(in_frame(large, own).value()));
+    const Frame frame_of_model = frame_of(large);
+    EXPECT_NE(frame_of_model.scale, 1);
+    numbers.push_back(numbers_of(in_frame(large, frame_of_model).value()));
   }
   EXPECT_EQ(numbers[0], numbers[1]);
 }

@@ -25,9 +25,9 @@ TEST(Fits, AreThoseOfThePublishedTables) {
       {"H7/g6", 500, 20, 123},  {"H5/h5", 3, 0, 8},     {"H7/g6", {31, 10}, 4, 24}, {"F7/f7", 180, 86, 166},
   };
   for (const Published& one : fits) {
-    const DiametralClearance own = diametral_clearance(one.fit, one.millimetres / 1000, {});
-    EXPECT_EQ(own.least, one.least) << one.fit;
-    EXPECT_EQ(own.largest, one.largest) << one.fit;
+    const DiametralClearance clearance = diametral_clearance(one.fit, one.millimetres / 1000, {});
+    EXPECT_EQ(clearance.least, one.least) << one.fit;
+    EXPECT_EQ(clearance.largest, one.largest) << one.fit;
   }
 }
 

@@ -64,8 +64,8 @@ TEST(Groups, CloseAtEveryPoseWithTheLengthsOfTheFile) {
   ASSERT_EQ(mechanism.groups.size(), 1U);
   const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), 32);
   ASSERT_GE(postures.size(), 30U);
-  for (const SampledPosture& own : postures) {
-    const auto at = [&](const char* name) { return own.points[static_cast<std::size_t>(point(mechanism, name))]; };
+  for (const SampledPosture& posture : postures) {
+    const auto at = [&](const char* name) { return posture.points[static_cast<std::size_t>(point(mechanism, name))]; };
     EXPECT_NEAR(distance(at("A"), at("B")), 0.3, 1e-12);
     EXPECT_NEAR(distance(at("B"), at("C")), 0.9, 1e-12);
     EXPECT_NEAR(distance(at("C"), at("D")), 0.7, 1e-12);
@@ -81,8 +81,8 @@ TEST(Groups, CloseAtEveryPoseWithTheLengthsOfTheFile) {
 TEST(Groups, FollowTheCrankThatDyadsAreBuiltOn) {
   // The same posture from the other end: B on its crank, C and E on B.
   const Mechanism mechanism = parse_mechanism(six_bar, "m.yaml");
-  for (const SampledPosture& own : sample_poses(mechanism, working_mode(mechanism), 8)) {
-    const auto at = [&](const char* name) { return own.points[static_cast<std::size_t>(point(mechanism, name))]; };
+  for (const SampledPosture& posture : sample_poses(mechanism, working_mode(mechanism), 8)) {
+    const auto at = [&](const char* name) { return posture.points[static_cast<std::size_t>(point(mechanism, name))]; };
     const auto b = at("B"), c = at("C"), e = at("E");
     const double u = (c[0] - b[0]) / 0.9, v = (c[1] - b[1]) / 0.9;
     EXPECT_NEAR(e[0], b[0] + 0.6 * u - 0.4 * v, 1e-12);
@@ -140,10 +140,10 @@ end_effector: {link: block, at: S}
 loads: [{link: block, at: S, force: [-10, 0]}]
 )";
   const Mechanism mechanism = parse_mechanism(text, "m.yaml");
-  for (const SampledPosture& own : sample_poses(mechanism, {}, 8)) {
-    const auto& b = own.points[static_cast<std::size_t>(point(mechanism, "B"))];
+  for (const SampledPosture& posture : sample_poses(mechanism, {}, 8)) {
+    const auto& b = posture.points[static_cast<std::size_t>(point(mechanism, "B"))];
     EXPECT_NEAR(b[1], 2 * b[0], 1e-12);
-    EXPECT_NEAR(distance(b, {own.pose[0], 0, 0}), 1, 1e-12);
+    EXPECT_NEAR(distance(b, {posture.pose[0], 0, 0}), 1, 1e-12);
   }
 }
 
@@ -372,8 +372,8 @@ loads: [{link: left, at: E, force: [0, -10]}]
   EXPECT_EQ(mechanism.groups.front().last - mechanism.groups.front().first, 4);  // C, D, E, F, H
   const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), 4);
   ASSERT_FALSE(postures.empty());
-  for (const SampledPosture& own : postures) {
-    const auto at = [&](const char* name) { return own.points[static_cast<std::size_t>(point(mechanism, name))]; };
+  for (const SampledPosture& posture : postures) {
+    const auto at = [&](const char* name) { return posture.points[static_cast<std::size_t>(point(mechanism, name))]; };
     EXPECT_NEAR(distance(at("A"), at("C")), 1.5, 1e-9);
     EXPECT_NEAR(distance(at("D"), at("E")), std::hypot(3, 1.5), 1e-9);
     EXPECT_NEAR(distance(at("E"), at("H")), std::hypot(3, 1), 1e-9);

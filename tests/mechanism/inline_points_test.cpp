@@ -44,9 +44,9 @@ std::string complaint(const std::string& text) {
 TEST(InlinePoints, AreThePointsTheyDescribe) {
   const Mechanism m = parse_mechanism(unnamed, "m.yaml"), named = parse_mechanism(five_bar_text, "m.yaml");
   EXPECT_EQ(m.points.size(), 7U + 4U) << "five, the mean, the loaded one, four middles of links";
-  const auto own = sample_points(m, {0.25, -0.7}), other = sample_points(named, {0.25, -0.7});
+  const auto points = sample_points(m, {0.25, -0.7}), other = sample_points(named, {0.25, -0.7});
   for (std::size_t j = 0; j < m.joints.size(); ++j) {
-    const auto p = own[static_cast<std::size_t>(m.joints[j].at)],
+    const auto p = points[static_cast<std::size_t>(m.joints[j].at)],
                q = other[static_cast<std::size_t>(named.joints[j].at)];
     EXPECT_EQ(*p, *q) << m.joints[j].name;
   }

@@ -219,7 +219,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"CentreOfMassNotRigid", "mass: 1}", "mass: 1, com: [L, 0]}", 17, 3, "its centre of mass changes"},
         Mistake{"JoinsItself", "revolute: [A1B1, B1P]", "revolute: [B1P, B1P]", 23, 24, "joins link B1P to itself"},
         Mistake{"JoinsTheGroundToItself", "revolute: [ground, A1B1]", "revolute: [ground, ground]", 22, 27,
-                "joins ground to itself"},
+                "joins the ground to itself"},
         Mistake{"NotOnTheLink", "B1P], at: B1,", "B1P], at: A1,", 23, 35, "A1, which is no point of link B1P"},
         Mistake{"GroundJointMoves", "A1B1], at: A1,", "A1B1], at: B1,", 22, 38, "moves with the free coordinate x"},
         Mistake{"SlidesOnNeitherLink", "revolute: [A1B1, B1P], at: B1, clearance: {radial: 10e-6}",

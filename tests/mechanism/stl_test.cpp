@@ -34,17 +34,17 @@ std::string binary(const std::vector<Triangle>& triangles, const std::string& he
 }
 
 std::string text(const std::vector<Triangle>& triangles) {
-  std::string own = "solid a part with loop in its name\r\n";
+  std::string text = "solid a part with loop in its name\r\n";
   for (const Triangle& triangle : triangles) {
-    own += "  facet normal 0 0 0\r\n    outer loop\r\n";
+    text += "  facet normal 0 0 0\r\n    outer loop\r\n";
     for (const auto& corner : triangle) {
-      own += "      vertex";
-      for (const float value : corner) own += " " + std::to_string(value);
-      own += "\r\n";
+      text += "      vertex";
+      for (const float value : corner) text += " " + std::to_string(value);
+      text += "\r\n";
     }
-    own += "    endloop\r\n  endfacet\r\n";
+    text += "    endloop\r\n  endfacet\r\n";
   }
-  return own + "endsolid\r\n";
+  return text + "endsolid\r\n";
 }
 
 std::string complaint(const std::string& bytes) {

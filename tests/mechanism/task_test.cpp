@@ -14,10 +14,10 @@ namespace clearloci::mechanism {
 namespace {
 
 const Mechanism& example(const std::string& name) {
-  static std::map<std::string, Mechanism> known;
-  const auto found = known.find(name);
-  if (found != known.end()) return found->second;
-  return known.emplace(name, read_mechanism(source_dir() + "/examples/" + name + ".yaml")).first->second;
+  static std::map<std::string, Mechanism> models;
+  const auto found = models.find(name);
+  if (found != models.end()) return found->second;
+  return models.emplace(name, read_mechanism(source_dir() + "/examples/" + name + ".yaml")).first->second;
 }
 
 core::Task parse(const std::string& text) { return parse_task("format: 1\n" + text, "task.yaml", example("five_bar")); }

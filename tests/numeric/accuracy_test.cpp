@@ -64,9 +64,9 @@ PoseError by_screws(const Posture& p, const Eigen::VectorXd& w, const Clearances
   const auto shift = [&](const Eigen::Vector2d& d) { return Screw(d(0) * x + d(1) * y); };
   Eigen::Matrix3d passive;  // (26)
   passive << S_B1, S_P, -S_B2;
-  const Screw known =
+  const Screw screw =
       -(dtheta1 * S_A1 + shift(dA1) + shift(dB1) + shift(dP) - shift(dB2) - dtheta2 * S_A2 - shift(dA2));
-  const Eigen::Vector3d angles = passive.fullPivLu().solve(known);
+  const Eigen::Vector3d angles = passive.fullPivLu().solve(screw);
   const Screw gamma = dtheta2 * S_A2 + angles(2) * S_B2 + shift(dA2) + shift(dB2);  // (27)
   return {{0, 0, gamma(0)}, {gamma(1), gamma(2), 0}};
 }

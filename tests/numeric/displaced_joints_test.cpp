@@ -29,9 +29,9 @@ Mechanism example(const std::string& name) {
 Mechanism with_larger_clearances(Mechanism m, int times) {
   for (mechanism::Joint& joint : m.joints) {
     if (!joint.clearance) continue;
-    for (core::Expression* const own :
+    for (core::Expression* const expression :
          {&joint.clearance->radial, &joint.clearance->angular, &joint.clearance->axial, &joint.clearance->gap})
-      *own = core::Expression::number(times * mechanism::value_of(*own, m));
+      *expression = core::Expression::number(times * mechanism::value_of(*expression, m));
   }
   return m;
 }
@@ -224,18 +224,18 @@ TEST(DisplacedJoints, EveryJointOfSpaceIsClosed) {
     all.push_back(mechanism::parse_mechanism(test::random_delta(random, i % 2 == 1, false), "random.yaml"));
   }
   int closed = 0;
-  for (const Mechanism& own : all) {
-    const NumericModel model = compile(with_larger_clearances(own, 20));
-    const auto mode = mechanism::working_mode(own);
+  for (const Mechanism& entry : all) {
+    const NumericModel model = compile(with_larger_clearances(entry, 20));
+    const auto mode = mechanism::working_mode(entry);
     for (int i = 0; i < 6; ++i) {
-      const Posture at = posture(model, random_pose(own, random), mode);
+      const Posture at = posture(model, random_pose(entry, random), mode);
       if (!at.reachable()) continue;
       const Accuracy linear = pose_accuracy(model, at);
       if (!(linear.reactions.condition < 1e3)) continue;
       const ActualPose actual = actual_pose(model, at, linear);
       if (!actual.converged) continue;
       ++closed;
-      EXPECT_LT(actual.residual, 1e-13) << own.name;
+      EXPECT_LT(actual.residual, 1e-13) << entry.name;
       expect_joints_closed(model, at, actual);
       if (HasFailure()) return;
     }
@@ -248,13 +248,13 @@ TEST(DisplacedJoints, SpaceDiffersFromTheLinearStepToSecondOrder) {
   std::mt19937 random(8);
   int looked_at = 0;
   for (int i = 0; i < 8; ++i) {
-    const Mechanism own = mechanism::parse_mechanism(
+    const Mechanism parse_mechanism = mechanism::parse_mechanism(
         i % 2 == 0 ? test::random_three_leg(random) : test::random_gough_stewart(random, true), "random.yaml");
-    const std::vector<double> pose = random_pose(own, random);
+    const std::vector<double> pose = random_pose(parse_mechanism, random);
     std::vector<double> beyond;
     for (const int times : {20, 10}) {
-      const NumericModel model = compile(with_larger_clearances(own, times));
-      const Posture at = posture(model, pose, mechanism::working_mode(own));
+      const NumericModel model = compile(with_larger_clearances(parse_mechanism, times));
+      const Posture at = posture(model, pose, mechanism::working_mode(parse_mechanism));
       if (!at.reachable()) break;
       const Accuracy linear = pose_accuracy(model, at);
       if (!(linear.reactions.condition < 300)) break;
@@ -264,7 +264,7 @@ TEST(DisplacedJoints, SpaceDiffersFromTheLinearStepToSecondOrder) {
     }
     if (beyond.size() < 2 || beyond[0] < 1e-9) continue;
     ++looked_at;
-    EXPECT_NEAR(beyond[1] / beyond[0], 0.25, 0.02) << own.name;
+    EXPECT_NEAR(beyond[1] / beyond[0], 0.25, 0.02) << parse_mechanism.name;
   }
   EXPECT_GT(looked_at, 2);
 }

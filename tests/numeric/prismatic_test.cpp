@@ -83,9 +83,9 @@ void expect_virtual_power(const Motion& motion, const std::vector<Body>& bodies,
   const std::array<double, 2> q = {0.25, 0.1}, v = {1.3, -0.7}, a = {-4, 9};
   std::vector<Series> coordinates;
   for (std::size_t c = 0; c < 2; ++c) {
-    Series& own = coordinates.emplace_back(q[c]);
-    own.c[1] = v[c];
-    own.c[2] = a[c] / 2;
+    Series& series = coordinates.emplace_back(q[c]);
+    series.c[1] = v[c];
+    series.c[2] = a[c] / 2;
   }
   const Instant at = instant_of(motion, coordinates);
   ASSERT_TRUE(at.reachable);

@@ -15,8 +15,9 @@ struct Solved {
 /// `mode`: the file's where none is given. Only `points` and `unreachable` where some point cannot be placed.
 inline Solved solved(const mechanism::Mechanism& m, std::span<const double> pose, std::span<const int> mode = {}) {
   const numeric::NumericModel model = numeric::compile(m);
-  const std::vector<int> own = mechanism::working_mode(m);
-  const numeric::Posture posture = numeric::posture(model, pose, mode.empty() ? std::span<const int>(own) : mode);
+  const std::vector<int> working_mode = mechanism::working_mode(m);
+  const numeric::Posture posture =
+      numeric::posture(model, pose, mode.empty() ? std::span<const int>(working_mode) : mode);
   Solved result{posture.points, posture.unreachable, {}};
   if (posture.unreachable) return result;
   const numeric::Reactions found = numeric::solve_reactions(model, posture);

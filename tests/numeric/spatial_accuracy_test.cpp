@@ -93,9 +93,10 @@ TEST(SpatialAccuracy, WorkOfEveryUnitLoad) {
           const Vector3d share = r.actuator * accuracy.contacts[j].axis;
           const Vector3d force = slides ? Vector3d(r.force + share) : r.force;
           const Vector3d couple = slides ? r.couple : Vector3d(r.couple + share);
-          const double own = force.dot(accuracy.take_up[j].displacement) + couple.dot(accuracy.take_up[j].rotation);
-          work += own;
-          terms += std::abs(own);
+          const double this_dot =
+              force.dot(accuracy.take_up[j].displacement) + couple.dot(accuracy.take_up[j].rotation);
+          work += this_dot;
+          terms += std::abs(this_dot);
         }
         EXPECT_NEAR(error(c), -work, 1e-13 * accuracy.reactions.condition * (terms + error.norm())) << c;
         ++checked;

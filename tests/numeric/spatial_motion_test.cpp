@@ -156,9 +156,9 @@ Passage passage() {
 std::vector<Series> series_of(const Passage& p) {
   std::vector<Series> coordinates;
   for (int c = 0; c < freedoms; ++c) {
-    Series& own = coordinates.emplace_back(p.q(c));
-    own.c[1] = p.velocity(c);
-    own.c[2] = p.acceleration(c) / 2;
+    Series& series = coordinates.emplace_back(p.q(c));
+    series.c[1] = p.velocity(c);
+    series.c[2] = p.acceleration(c) / 2;
   }
   return coordinates;
 }

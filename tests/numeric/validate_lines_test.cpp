@@ -35,10 +35,10 @@ loads: [{link: block, at: P, force: [x^2 - 1/4, 1]}]
 
 LocusMap map_of(const mechanism::Mechanism& mechanism) {
   LocusMap map;
-  for (const mechanism::Coordinate& own : mechanism.coordinates) {
-    map.tower.coordinates.push_back(own.name);
-    map.lower.push_back(own.lower);
-    map.upper.push_back(own.upper);
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
+    map.tower.coordinates.push_back(coordinate.name);
+    map.lower.push_back(coordinate.lower);
+    map.upper.push_back(coordinate.upper);
   }
   return map;
 }

@@ -83,8 +83,8 @@ TEST_P(DxfVersions, PassesTheAuditAndDeclaresWhatItUses) {
       ASSERT_TRUE(read["layers"].contains(entity["layer"].get<std::string>())) << entity;
     }
     for (const auto& layer : read["layers"]) {
-      const auto known = read["line_types"].get<std::vector<std::string>>();
-      EXPECT_TRUE(std::any_of(known.begin(), known.end(), [&](std::string name) {
+      const auto names = read["line_types"].get<std::vector<std::string>>();
+      EXPECT_TRUE(std::any_of(names.begin(), names.end(), [&](std::string name) {
         std::transform(name.begin(), name.end(), name.begin(), ::toupper);
         std::string wanted = layer[1].get<std::string>();
         std::transform(wanted.begin(), wanted.end(), wanted.begin(), ::toupper);

@@ -17,12 +17,12 @@ using core::Quantity;
 
 core::LocusCurve curve(const std::string& id, LocusKind kind, const std::string& joint, Quantity quantity,
                        const std::string& factor) {
-  core::LocusCurve own;
-  own.id = id;
-  own.kind = kind;
-  own.vanishing = {{joint, quantity, 1}};
-  own.factor = factor;
-  return own;
+  core::LocusCurve curve;
+  curve.id = id;
+  curve.kind = kind;
+  curve.vanishing = {{joint, quantity, 1}};
+  curve.factor = factor;
+  return curve;
 }
 
 /// Too long for a legend.
@@ -58,13 +58,13 @@ TEST(Legend, NoEntryIsThereTwice) {
 TEST(Legend, ReasonsThatSeveralSurfacesShareAreToldOnce) {
   core::LocusMap map;
   const auto add = [&](const std::string& id, const std::string& joint, const std::string& cause) {
-    core::LocusSurface own;
-    own.id = id;
-    own.kind = LocusKind::backlash;
-    own.vanishing = {{joint, Quantity::F, 1}};
-    own.factor = unreadable + id;
-    own.cause = cause;
-    map.surfaces.push_back(std::move(own));
+    core::LocusSurface surface;
+    surface.id = id;
+    surface.kind = LocusKind::backlash;
+    surface.vanishing = {{joint, Quantity::F, 1}};
+    surface.factor = unreadable + id;
+    surface.cause = cause;
+    map.surfaces.push_back(std::move(surface));
   };
   add("s1", "S1", "");
   add("s2", "S2", "");

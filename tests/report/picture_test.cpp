@@ -37,13 +37,13 @@ TEST(Picture, OfZonesHasPreloadLociThatBorderThem) {
   core::Zones map;
   map.loci = fixture::five_bar_map();
   const auto locus = [&](const std::string& id, const std::string& joint) {
-    core::LocusCurve own;
-    own.id = id;
-    own.kind = core::LocusKind::preload;
-    own.mode = fixture::elbows_out();
-    own.vanishing = {{joint, core::Quantity::F, 1}};
-    own.arcs.emplace_back().points = {{0, -0.5}, {0.1, -0.6}};
-    map.loci.curves.push_back(own);
+    core::LocusCurve curve;
+    curve.id = id;
+    curve.kind = core::LocusKind::preload;
+    curve.mode = fixture::elbows_out();
+    curve.vanishing = {{joint, core::Quantity::F, 1}};
+    curve.arcs.emplace_back().points = {{0, -0.5}, {0.1, -0.6}};
+    map.loci.curves.push_back(curve);
   };
   locus("c91", "K1");
   locus("c92", "K2");
@@ -67,8 +67,12 @@ TEST(Picture, LegendNamesJointsAndReasons) {
 }
 
 TEST(Picture, CurvesOfOneReasonShareAnEntry) {
-  const std::string text = legend_text(fixture::five_bar_map(), fixture::elbows_out());
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7);
+  const std::string svg = five_bar_picture(fixture::five_bar_map(), PictureFormat::svg);
+  const std::size_t begin = svg.find("<desc>"), end = svg.find("</desc>");
+  ASSERT_LT(begin, end);
+  EXPECT_EQ(std::count(svg.begin() + static_cast<std::ptrdiff_t>(begin), svg.begin() + static_cast<std::ptrdiff_t>(end),
+                       '\n'),
+            7);
 }
 
 TEST(Picture, FilesAreWhatTheirNamesSay) {
@@ -140,10 +144,10 @@ TEST(SvgText, NumbersAreRoundedAsTheNearestDoublesAre) {
   };
   const auto add = [&](const std::string& number) {
     svg += number + " ";
-    std::string own = text("%.3f", std::stod(number));
-    own.erase(own.find_last_not_of('0') + 1);
-    if (own.back() == '.') own.pop_back();
-    rounded += own + " ";
+    std::string shown = text("%.3f", std::stod(number));
+    shown.erase(shown.find_last_not_of('0') + 1);
+    if (shown.back() == '.') shown.pop_back();
+    rounded += shown + " ";
   };
   for (const char* const edge : {"9.9996", "99.99951", "0.9995", "0.0005", "2.0015", "7.12350", "1.00049999", "0.0004"})
     add(edge);

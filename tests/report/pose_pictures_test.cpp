@@ -16,17 +16,18 @@ using core::Rational;
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 core::Verification verified_box() {
-  core::Verification own;
-  own.mechanism = "a platform";
-  own.coordinates = {"x", "y", "phi"};
-  own.angles = {false, false, true};
-  own.verdict = core::Verdict::verified;
-  own.task.shape = core::TaskBox{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(2), Rational(1)}};
-  own.margin = 0.5;
-  own.angle_margin = 0.25;
-  own.nearest =
+  core::Verification verification;
+  verification.mechanism = "a platform";
+  verification.coordinates = {"x", "y", "phi"};
+  verification.angles = {false, false, true};
+  verification.verdict = core::Verdict::verified;
+  verification.task.shape =
+      core::TaskBox{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(2), Rational(1)}};
+  verification.margin = 0.5;
+  verification.angle_margin = 0.25;
+  verification.nearest =
       core::NearestOfTask{"", core::LocusKind::backlash, {{"S1", core::Quantity::F, 1}}, {1.5, 1.0, 0.5}, 0.5};
-  return own;
+  return verification;
 }
 
 TEST(PoseTaskPicture, SaysWhatItDraws) {
@@ -45,32 +46,33 @@ TEST(PoseTaskPicture, SaysWhatIsTooFarToBeDrawn) {
 }
 
 TEST(PoseTaskPicture, DrawsEveryShapeInEveryFormat) {
-  core::Verification own = verified_box();
+  core::Verification verification = verified_box();
   const auto expect_drawn = [&](const char* kind) {
-    const std::string svg = task_panels(own, PictureFormat::svg);
+    const std::string svg = task_panels(verification, PictureFormat::svg);
     EXPECT_TRUE(has(svg, std::string("Task (") + kind + ")"));
     EXPECT_FALSE(has(svg, "nan")) << kind;
     EXPECT_FALSE(has(svg, "inf")) << kind;
-    EXPECT_EQ(svg, task_panels(own, PictureFormat::svg));
-    EXPECT_EQ(task_panels(own, PictureFormat::pdf).substr(0, 5), "%PDF-");
-    EXPECT_EQ(task_panels(own, PictureFormat::png).substr(0, 8), "\x89PNG\r\n\x1A\n");
+    EXPECT_EQ(svg, task_panels(verification, PictureFormat::svg));
+    EXPECT_EQ(task_panels(verification, PictureFormat::pdf).substr(0, 5), "%PDF-");
+    EXPECT_EQ(task_panels(verification, PictureFormat::png).substr(0, 8), "\x89PNG\r\n\x1A\n");
   };
   expect_drawn("box");
-  own.task.shape = core::TaskBall{{Rational(0), Rational(0), Rational(0)}, Rational(1)};
+  verification.task.shape = core::TaskBall{{Rational(0), Rational(0), Rational(0)}, Rational(1)};
   expect_drawn("ball");
-  own.verdict = core::Verdict::refuted;
-  own.margin.reset(), own.angle_margin.reset(), own.nearest.reset();
-  own.witness.emplace().at = {0.5, 0, 0};
-  own.task.shape = core::TaskPath{{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), Rational(0)}}};
+  verification.verdict = core::Verdict::refuted;
+  verification.margin.reset(), verification.angle_margin.reset(), verification.nearest.reset();
+  verification.witness.emplace().at = {0.5, 0, 0};
+  verification.task.shape =
+      core::TaskPath{{{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), Rational(0)}}};
   expect_drawn("path");
-  EXPECT_TRUE(has(task_panels(own, PictureFormat::svg), "ring: witness x = 0.5 m"));
-  own.angles = {false, false, false};
-  own.task.shape = core::TaskMesh{
+  EXPECT_TRUE(has(task_panels(verification, PictureFormat::svg), "ring: witness x = 0.5 m"));
+  verification.angles = {false, false, false};
+  verification.task.shape = core::TaskMesh{
       "part.stl", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
   expect_drawn("mesh");
   // One pose alone has no extent of its own.
-  own.coordinates = {"x"}, own.angles = {false}, own.witness->at = {0.5};
-  own.task.shape = core::TaskBox{{Rational(1, 2)}, {Rational(1, 2)}};
+  verification.coordinates = {"x"}, verification.angles = {false}, verification.witness->at = {0.5};
+  verification.task.shape = core::TaskBox{{Rational(1, 2)}, {Rational(1, 2)}};
   expect_drawn("box");
 }
 

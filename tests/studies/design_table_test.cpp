@@ -15,15 +15,15 @@ namespace clearloci {
 namespace {
 
 core::StudyDesign design(std::uint64_t index) {
-  core::StudyDesign own;
-  own.index = index;
-  own.status = index % 2 == 0 ? core::StudyDesign::Status::feasible : core::StudyDesign::Status::infeasible;
-  own.figures = {0.1 * static_cast<double>(index), std::nan("")};
+  core::StudyDesign design;
+  design.index = index;
+  design.status = index % 2 == 0 ? core::StudyDesign::Status::feasible : core::StudyDesign::Status::infeasible;
+  design.figures = {0.1 * static_cast<double>(index), std::nan("")};
   if (index % 2 == 1) {
-    own.reason = "contact lost in A1, B1";
-    own.at = core::Point2{1.0 / 3, -0.25};
+    design.reason = "contact lost in A1, B1";
+    design.at = core::Point2{1.0 / 3, -0.25};
   }
-  return own;
+  return design;
 }
 
 std::string bytes_of(const std::filesystem::path& path) {
@@ -47,16 +47,16 @@ TEST(DesignTable, AnyBeginningOfItIsReadAsItsWholeLines) {
     write(path, whole.substr(0, size));
     const auto lines =
         static_cast<std::size_t>(std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size), '\n'));
-    std::vector<core::StudyDesign> known;
+    std::vector<core::StudyDesign> designs;
     {
       DesignTable table(path, "0123456789abcdef", 2, true);
-      known = table.take();
+      designs = table.take();
       table.append(table_line(design(9)));
     }
-    ASSERT_EQ(known.size(), lines == 0 ? 0 : lines - 1) << size;
-    for (std::size_t i = 0; i < known.size(); ++i) EXPECT_EQ(table_line(known[i]), table_line(design(i)));
+    ASSERT_EQ(designs.size(), lines == 0 ? 0 : lines - 1) << size;
+    for (std::size_t i = 0; i < designs.size(); ++i) EXPECT_EQ(table_line(designs[i]), table_line(design(i)));
     DesignTable again(path, "0123456789abcdef", 2, true);
-    EXPECT_EQ(again.take().size(), known.size() + 1) << "what is appended after a cut is read";
+    EXPECT_EQ(again.take().size(), designs.size() + 1) << "what is appended after a cut is read";
   }
 }
 

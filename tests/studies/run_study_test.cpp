@@ -27,10 +27,10 @@ std::string study_text(const std::string& method, const std::string& more = "goa
 
 std::string told(const StudyResult& result) {
   std::string text;
-  for (const StudyDesign& own : result.designs) {
-    text += std::to_string(own.index) + " " + to_string(own.status) + " " + own.reason;
-    for (const double value : own.values) text += " " + std::to_string(value);
-    for (const double value : own.figures) text += " " + std::to_string(value);
+  for (const StudyDesign& design : result.designs) {
+    text += std::to_string(design.index) + " " + to_string(design.status) + " " + design.reason;
+    for (const double value : design.values) text += " " + std::to_string(value);
+    for (const double value : design.figures) text += " " + std::to_string(value);
     text += "\n";
   }
   return text;
@@ -42,25 +42,27 @@ TEST(Study, SaysOfEveryDesignWhatVerifySays) {
   const StudyResult result = run_study(model, study);
   ASSERT_EQ(result.designs.size(), 42U);
   std::size_t feasible = 0;
-  for (const StudyDesign& own : result.designs) {
+  for (const StudyDesign& design : result.designs) {
     std::vector<Model::Value> values;
-    for (std::size_t i = 0; i < 2; ++i) values.emplace_back(result.parameters[i], std::to_string(own.values[i]));
+    for (std::size_t i = 0; i < 2; ++i) values.emplace_back(result.parameters[i], std::to_string(design.values[i]));
     const Model member = model.with(values);
     Task task = study.tasks.front();
     const Verification answer = verify(member, task, {.depth = VerifyDepth::margin});
-    EXPECT_EQ(own.status == Status::feasible, answer.verdict == Verdict::verified) << own.index << " " << own.reason;
-    EXPECT_EQ(own.status == Status::infeasible, answer.verdict == Verdict::refuted) << own.index << " " << own.reason;
-    if (own.status != Status::feasible) continue;
+    EXPECT_EQ(design.status == Status::feasible, answer.verdict == Verdict::verified)
+        << design.index << " " << design.reason;
+    EXPECT_EQ(design.status == Status::infeasible, answer.verdict == Verdict::refuted)
+        << design.index << " " << design.reason;
+    if (design.status != Status::feasible) continue;
     ++feasible;
     // Both are proven lower bounds of one number.
-    EXPECT_NEAR(own.figures.front(), *answer.margin, 2e-3 * (*answer.margin + 0.3)) << own.index;
+    EXPECT_NEAR(design.figures.front(), *answer.margin, 2e-3 * (*answer.margin + 0.3)) << design.index;
   }
   EXPECT_GT(feasible, 5U);
   EXPECT_LT(feasible, 37U);
   ASSERT_TRUE(result.best);
-  for (const StudyDesign& own : result.designs)
-    if (own.status == Status::feasible) {
-      EXPECT_LE(own.figures.front(), result.designs[*result.best].figures.front());
+  for (const StudyDesign& design : result.designs)
+    if (design.status == Status::feasible) {
+      EXPECT_LE(design.figures.front(), result.designs[*result.best].figures.front());
     }
 }
 
@@ -89,8 +91,8 @@ TEST(Study, GoesOnWhereItWasStopped) {
 TEST(Study, LeavesOutWhatIsNotKept) {
   const Model model = five_bar();
   const StudyResult result = run_study(model, parse_study(study_text("{grid: [9, 9]}", "keep: [L + d <= 1]"), model));
-  for (const StudyDesign& own : result.designs)
-    EXPECT_EQ(own.status == Status::left_out, own.values[0] + own.values[1] > 1 + 1e-12) << own.index;
+  for (const StudyDesign& design : result.designs)
+    EXPECT_EQ(design.status == Status::left_out, design.values[0] + design.values[1] > 1 + 1e-12) << design.index;
 }
 
 TEST(Study, AFrontHasNoDesignThatAnotherBeatsInEveryGoal) {
@@ -99,20 +101,21 @@ TEST(Study, AFrontHasNoDesignThatAnotherBeatsInEveryGoal) {
       model, parse_study(study_text("{sample: 150}", "goal: [{maximise: margin}, {minimise: L + d}]"), model));
   ASSERT_GT(result.front.size(), 2U);
   const auto goals = [&](std::size_t i) {
-    const StudyDesign& own = result.designs[i];
-    return std::array{own.figures.front(), -(own.values[0] + own.values[1])};
+    const StudyDesign& design = result.designs[i];
+    return std::array{design.figures.front(), -(design.values[0] + design.values[1])};
   };
-  for (const std::size_t own : result.front)
+  for (const std::size_t entry : result.front)
     for (std::size_t i = 0; i < result.designs.size(); ++i) {
       if (result.designs[i].status != Status::feasible) continue;
-      EXPECT_FALSE(goals(i)[0] > goals(own)[0] && goals(i)[1] > goals(own)[1]) << i << " beats " << own;
+      EXPECT_FALSE(goals(i)[0] > goals(entry)[0] && goals(i)[1] > goals(entry)[1]) << i << " beats " << entry;
     }
 }
 
 Verdict verdict_of(const Model& model, const StudyResult& result, const std::vector<double>& values) {
-  std::vector<Model::Value> own;
-  for (std::size_t i = 0; i < values.size(); ++i) own.emplace_back(result.parameters[i], std::to_string(values[i]));
-  return verify(model.with(own), result.study.tasks.front(), {.depth = VerifyDepth::verdict}).verdict;
+  std::vector<Model::Value> settings;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    settings.emplace_back(result.parameters[i], std::to_string(values[i]));
+  return verify(model.with(settings), result.study.tasks.front(), {.depth = VerifyDepth::verdict}).verdict;
 }
 
 TEST(Study, ParametersMayEnterByQuotientsAndCosines) {
@@ -128,10 +131,10 @@ TEST(Study, ParametersMayEnterByQuotientsAndCosines) {
       "method: {grid: [6, 5]}\n";
   const StudyResult result = run_study(model, parse_study(study, model));
   std::size_t feasible = 0;
-  for (const StudyDesign& own : result.designs) {
-    const Verdict verdict = verdict_of(model, result, own.values);
-    EXPECT_EQ(own.status == Status::feasible, verdict == Verdict::verified) << own.index << " " << own.reason;
-    feasible += own.status == Status::feasible;
+  for (const StudyDesign& design : result.designs) {
+    const Verdict verdict = verdict_of(model, result, design.values);
+    EXPECT_EQ(design.status == Status::feasible, verdict == Verdict::verified) << design.index << " " << design.reason;
+    feasible += design.status == Status::feasible;
   }
   EXPECT_GT(feasible, 3U);
   EXPECT_LT(feasible, 30U);
@@ -154,17 +157,17 @@ TEST(Study, ProvesCellsOfDesigns) {
   const Model model = five_bar();
   const StudyResult result = run_study(model, parse_study(study_text("{prove: 1/16}", ""), model), {.threads = 2});
   double area = 0, open = 0;
-  for (const StudyCell& own : result.cells) {
-    const double size = (own.upper[0] - own.lower[0]) * (own.upper[1] - own.lower[1]);
+  for (const StudyCell& cell : result.cells) {
+    const double size = (cell.upper[0] - cell.lower[0]) * (cell.upper[1] - cell.lower[1]);
     area += size;
-    if (own.status == Status::undecided) open += size;
+    if (cell.status == Status::undecided) open += size;
     // Corners and the middle of a cell that is decided are designs like others.
     for (const double part : {0.01, 0.5, 0.99}) {
-      if (own.status == Status::undecided) continue;
-      const Verdict verdict = verdict_of(
-          model, result,
-          {own.lower[0] + part * (own.upper[0] - own.lower[0]), own.lower[1] + part * (own.upper[1] - own.lower[1])});
-      EXPECT_EQ(verdict, own.status == Status::feasible ? Verdict::verified : Verdict::refuted) << own.reason;
+      if (cell.status == Status::undecided) continue;
+      const Verdict verdict = verdict_of(model, result,
+                                         {cell.lower[0] + part * (cell.upper[0] - cell.lower[0]),
+                                          cell.lower[1] + part * (cell.upper[1] - cell.lower[1])});
+      EXPECT_EQ(verdict, cell.status == Status::feasible ? Verdict::verified : Verdict::refuted) << cell.reason;
     }
   }
   EXPECT_NEAR(area, 0.16, 1e-12) << "cells make up the box";
@@ -194,15 +197,15 @@ TEST(Study, TheSoftestSpringIsThatOfTheClosedForm) {
   const Study study = read_study(source_dir() + "/examples/studies/softest_spring.yaml", model);
   const StudyResult result = run_study(model, study, {.threads = 2});
   ASSERT_EQ(result.ranges.size(), 1U);
-  const ProvenRange& own = result.ranges.front();
+  const ProvenRange& range = result.ranges.front();
   const double closed_form = stiffness_at_the_corner();
-  EXPECT_LE(own.from[0], closed_form);
-  EXPECT_GE(own.from[1], closed_form);
-  EXPECT_LT(own.from[1] - own.from[0], 1e-12 * closed_form);
-  EXPECT_EQ(own.below, "contact lost in A1, B1, P");
-  EXPECT_EQ(own.to[0], 400);
-  EXPECT_EQ(own.to[1], 400);
-  EXPECT_EQ(own.above, "");
+  EXPECT_LE(range.from[0], closed_form);
+  EXPECT_GE(range.from[1], closed_form);
+  EXPECT_LT(range.from[1] - range.from[0], 1e-12 * closed_form);
+  EXPECT_EQ(range.below, "contact lost in A1, B1, P");
+  EXPECT_EQ(range.to[0], 400);
+  EXPECT_EQ(range.to[1], 400);
+  EXPECT_EQ(range.above, "");
 }
 
 TEST(Study, RangesEndWhereCellsFail) {
@@ -213,18 +216,18 @@ TEST(Study, RangesEndWhereCellsFail) {
                                    "method: {prove: 1/1048576}\n",
                                    model));
   ASSERT_FALSE(result.ranges.empty());
-  for (const ProvenRange& own : result.ranges) {
-    EXPECT_LE(own.from[0], own.from[1]);
-    EXPECT_LT(own.from[1], own.to[0]);
-    EXPECT_LE(own.to[0], own.to[1]);
-    if (!own.below.empty()) {
-      EXPECT_EQ(verdict_of(model, result, {own.from[0] - 1e-5}), Verdict::refuted) << own.below;
+  for (const ProvenRange& range : result.ranges) {
+    EXPECT_LE(range.from[0], range.from[1]);
+    EXPECT_LT(range.from[1], range.to[0]);
+    EXPECT_LE(range.to[0], range.to[1]);
+    if (!range.below.empty()) {
+      EXPECT_EQ(verdict_of(model, result, {range.from[0] - 1e-5}), Verdict::refuted) << range.below;
     }
-    if (!own.above.empty()) {
-      EXPECT_EQ(verdict_of(model, result, {own.to[1] + 1e-5}), Verdict::refuted) << own.above;
+    if (!range.above.empty()) {
+      EXPECT_EQ(verdict_of(model, result, {range.to[1] + 1e-5}), Verdict::refuted) << range.above;
     }
-    EXPECT_EQ(verdict_of(model, result, {own.from[1] + 1e-5}), Verdict::verified);
-    EXPECT_EQ(verdict_of(model, result, {own.to[0] - 1e-5}), Verdict::verified);
+    EXPECT_EQ(verdict_of(model, result, {range.from[1] + 1e-5}), Verdict::verified);
+    EXPECT_EQ(verdict_of(model, result, {range.to[0] - 1e-5}), Verdict::verified);
   }
 }
 
@@ -245,7 +248,7 @@ TEST(Study, AFrontOfASearchHasEveryDesignOnce) {
       model, parse_study(study_text("{search: 200}", "goal: [{maximise: margin}, {minimise: pose_error}]"), model));
   ASSERT_GT(found.front.size(), 2U);
   std::set<std::vector<double>> values;
-  for (const std::size_t own : found.front) values.insert(found.designs[own].values);
+  for (const std::size_t entry : found.front) values.insert(found.designs[entry].values);
   EXPECT_EQ(values.size(), found.front.size());
 }
 

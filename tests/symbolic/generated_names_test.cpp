@@ -183,7 +183,8 @@ class GeneratedNames : public testing::Test {
   std::string in_folder(const std::string& command) const { return "cd '" + folder_.string() + "' && " + command; }
 
   void write_programs(Language language, const std::string& ending) const {
-    for (const Written& own : written_) std::ofstream(folder_ / (own.name + ending)) << format(own.sheet(language));
+    for (const Written& written : written_)
+      std::ofstream(folder_ / (written.name + ending)) << format(written.sheet(language));
   }
 
   /// Runs a Python program that prints, for each name, a line with the name and the values.
@@ -192,7 +193,7 @@ class GeneratedNames : public testing::Test {
     file << "POSES = [";
     for (const auto& [x, y] : poses) file << "(" << x << ", " << y << "), ";
     file << "]\nNAMES = [";
-    for (const Written& own : written_) file << "\"" << own.name << "\", ";
+    for (const Written& written : written_) file << "\"" << written.name << "\", ";
     file << "]\n" << driver;
     file.close();
     ASSERT_EQ(std::system(in_folder("python3 -W error driver.py > printed").c_str()), 0);
@@ -261,11 +262,11 @@ TEST_F(GeneratedNames, C) {
       " -Wall -Wextra -Wpedantic -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Werror ";
   ASSERT_EQ(std::system(in_folder("cc -std=gnu17" + warnings + "-fsyntax-only *.c").c_str()), 0);
   ASSERT_EQ(std::system(in_folder("cc -std=c99" + warnings + "-fPIC -c *.c").c_str()), 0);
-  for (const Written& own : written_) {
-    SCOPED_TRACE(own.name);
-    ASSERT_EQ(std::system(in_folder("cc -shared " + own.name + ".o -o " + own.name + ".so -lm").c_str()), 0);
-    const Compiled compiled(folder_ / (own.name + ".so"));
-    expect_values(compiled_values(compiled, own.sheet(Language::c).unknowns), own.witness);
+  for (const Written& written : written_) {
+    SCOPED_TRACE(written.name);
+    ASSERT_EQ(std::system(in_folder("cc -shared " + written.name + ".o -o " + written.name + ".so -lm").c_str()), 0);
+    const Compiled compiled(folder_ / (written.name + ".so"));
+    expect_values(compiled_values(compiled, written.sheet(Language::c).unknowns), written.witness);
   }
 }
 
@@ -379,16 +380,16 @@ void expect_latex(const std::string& text) {
 }
 
 TEST_F(GeneratedNames, Latex) {
-  for (const Written& own : written_) {
-    SCOPED_TRACE(own.name);
-    expect_latex(format(own.sheet(Language::latex)));
+  for (const Written& written : written_) {
+    SCOPED_TRACE(written.name);
+    expect_latex(format(written.sheet(Language::latex)));
   }
 }
 
 TEST_F(GeneratedNames, TextHasOneMeaningForAName) {
-  for (const Written& own : written_) {
-    SCOPED_TRACE(own.name);
-    const EquationSheet& equations = own.sheet(Language::text);
+  for (const Written& written : written_) {
+    SCOPED_TRACE(written.name);
+    const EquationSheet& equations = written.sheet(Language::text);
     std::vector<std::string> defined = equations.coordinates;
     for (const auto& [name, value] : equations.parameters) defined.push_back(name);
     for (const auto& [name, value] : equations.closure) defined.push_back(name);

@@ -30,8 +30,8 @@ class Preload : public testing::Test {
   }
 
   static const PreloadFactor* factor(const PreloadDeterminants& all, const Poly& p) {
-    for (const PreloadFactor& own : all.factors)
-      if (own.natural == p.primitive()) return &own;
+    for (const PreloadFactor& factor : all.factors)
+      if (factor.natural == p.primitive()) return &factor;
     return nullptr;
   }
 

@@ -30,12 +30,12 @@ TEST(AResidue, HasARootWhereItIsASquare) {
   int squares = 0;
   for (unsigned long k = 1; k <= 200; ++k) {
     const Residue a{k, 3 * k + 1};
-    const std::optional<Residue> own = square_root(a), of_square = square_root(a * a);
+    const std::optional<Residue> residue = square_root(a), of_square = square_root(a * a);
     ASSERT_TRUE(of_square);
     EXPECT_TRUE(*of_square == a || *of_square == -a);
-    if (!own) continue;
+    if (!residue) continue;
     ++squares;
-    EXPECT_EQ(*own * *own, a);
+    EXPECT_EQ(*residue * *residue, a);
   }
   EXPECT_GT(squares, 70);  // about half of all are
   EXPECT_LT(squares, 130);

@@ -22,8 +22,8 @@ std::string AnsweredLoci::keep(LocusMap map) {
 
 std::shared_ptr<const LocusMap> AnsweredLoci::find(const std::string& name) const {
   const std::lock_guard lock(mutex_);
-  const auto own = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& one) { return one.name == name; });
-  return own == entries_.end() ? nullptr : own->map;
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& one) { return one.name == name; });
+  return found == entries_.end() ? nullptr : found->map;
 }
 
 }  // namespace clearloci::workbench

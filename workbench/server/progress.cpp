@@ -24,11 +24,11 @@ std::shared_ptr<void> ProgressBoard::listen(const std::string& client) {
 
 std::string ProgressBoard::take(const std::string& client) {
   const std::lock_guard lock(mutex_);
-  const auto own = news_.find(client);
-  if (own == news_.end()) return {};
+  const auto found = news_.find(client);
+  if (found == news_.end()) return {};
   std::string events;
-  for (const auto& [lane, event] : own->second) events += "data: " + event + "\n\n";
-  news_.erase(own);
+  for (const auto& [lane, event] : found->second) events += "data: " + event + "\n\n";
+  news_.erase(found);
   return events;
 }
 

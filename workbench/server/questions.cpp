@@ -15,41 +15,44 @@ namespace {
 
 Json parameters_json(const Model& model) {
   Json list = Json::array();
-  for (const Model::Parameter& own : model.parameters())
-    list.push_back({{"name", own.name}, {"exact", own.exact}, {"value", own.value}});
+  for (const Model::Parameter& parameter : model.parameters())
+    list.push_back({{"name", parameter.name}, {"exact", parameter.exact}, {"value", parameter.value}});
   return list;
 }
 
 Json coordinates_json(const Model& model) {
   Json list = Json::array();
-  for (const Model::Coordinate& own : model.coordinates())
-    list.push_back({{"name", own.name}, {"angle", own.angle}, {"lower", own.lower}, {"upper", own.upper}});
+  for (const Model::Coordinate& coordinate : model.coordinates())
+    list.push_back({{"name", coordinate.name},
+                    {"angle", coordinate.angle},
+                    {"lower", coordinate.lower},
+                    {"upper", coordinate.upper}});
   return list;
 }
 
 Json joints_json(const Model& model) {
   Json list = Json::array();
-  for (const Model::Joint& own : model.joints())
-    list.push_back({{"name", own.name},
-                    {"type", own.type},
-                    {"actuated", own.actuated},
-                    {"clearance", own.clearance},
-                    {"from", own.from},
-                    {"to", own.to},
-                    {"at", own.at}});
+  for (const Model::Joint& joint : model.joints())
+    list.push_back({{"name", joint.name},
+                    {"type", joint.type},
+                    {"actuated", joint.actuated},
+                    {"clearance", joint.clearance},
+                    {"from", joint.from},
+                    {"to", joint.to},
+                    {"at", joint.at}});
   return list;
 }
 
 Json links_json(const Model& model) {
   Json list = Json::array();
-  for (const Model::Link& own : model.links()) list.push_back({{"name", own.name}, {"points", own.points}});
+  for (const Model::Link& link : model.links()) list.push_back({{"name", link.name}, {"points", link.points}});
   return list;
 }
 
 Json dyads_json(const Model& model) {
   Json list = Json::array();
-  for (const Model::Dyad& own : model.dyads())
-    list.push_back({{"point", own.point}, {"left", own.left}, {"right", own.right}, {"side", own.side}});
+  for (const Model::Dyad& dyad : model.dyads())
+    list.push_back({{"point", dyad.point}, {"left", dyad.left}, {"right", dyad.right}, {"side", dyad.side}});
   return list;
 }
 
@@ -104,20 +107,20 @@ void check(const Watch& watch) {
 }
 
 Question question_named(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, Question>, 12> known = {{{"model", answer_model},
-                                                                            {"loci", answer_loci},
-                                                                            {"zones", answer_zones},
-                                                                            {"verify", answer_verify},
-                                                                            {"pose", answer_pose},
-                                                                            {"sweep", answer_sweep},
-                                                                            {"cycle", answer_cycle},
-                                                                            {"modes", answer_modes},
-                                                                            {"trajectory", answer_trajectory},
-                                                                            {"normalize", answer_normalize},
-                                                                            {"import", answer_import},
-                                                                            {"export", answer_export}}};
-  for (const auto& [own, question] : known)
-    if (own == name) return question;
+  constexpr std::array<std::pair<std::string_view, Question>, 12> questions = {{{"model", answer_model},
+                                                                                {"loci", answer_loci},
+                                                                                {"zones", answer_zones},
+                                                                                {"verify", answer_verify},
+                                                                                {"pose", answer_pose},
+                                                                                {"sweep", answer_sweep},
+                                                                                {"cycle", answer_cycle},
+                                                                                {"modes", answer_modes},
+                                                                                {"trajectory", answer_trajectory},
+                                                                                {"normalize", answer_normalize},
+                                                                                {"import", answer_import},
+                                                                                {"export", answer_export}}};
+  for (const auto& [question_name, question] : questions)
+    if (question_name == name) return question;
   return nullptr;
 }
 

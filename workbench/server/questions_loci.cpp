@@ -29,8 +29,9 @@ Json files_json(const std::vector<ExportedFile>& files) {
 
 /// Tasks of two lengths lie among loci and zones; those of other coordinates are proven over poses.
 bool over_two_lengths(const Model& model) {
-  const std::vector<Model::Coordinate> own = model.coordinates();
-  return own.size() == 2 && std::none_of(own.begin(), own.end(), [](const auto& one) { return one.angle; });
+  const std::vector<Model::Coordinate> coordinates = model.coordinates();
+  return coordinates.size() == 2 &&
+         std::none_of(coordinates.begin(), coordinates.end(), [](const auto& one) { return one.angle; });
 }
 
 /// That the page can draw.

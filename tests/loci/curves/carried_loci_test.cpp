@@ -42,10 +42,10 @@ LocusProblem carried_problem(const core::RootTower& tower, const Polynomial& cur
 LocusMap carried_to(const LocusProblem& problem, const LocusMap& last) { return carried_loci({&problem}, last); }
 
 const core::LocusCurve& curve_of(const LocusMap& map, core::LocusKind kind) {
-  const auto own =
+  const auto curve =
       std::find_if(map.curves.begin(), map.curves.end(), [&](const auto& one) { return one.kind == kind; });
-  EXPECT_NE(own, map.curves.end());
-  return *own;
+  EXPECT_NE(curve, map.curves.end());
+  return *curve;
 }
 
 // y^2 = x^3 - x + c has an oval beside its branch where |c| < 2 / (3 sqrt 3) = 0.385.
@@ -77,8 +77,9 @@ TEST(CarriedLoci, ANewOvalComesWithTheProof) {
   const LocusMap last = trace(cubic(Rational(2, 5)));
   ASSERT_EQ(last.curves[0].arcs.size(), 1u);
   const LocusMap map = carried_to(cubic(Rational(3, 10)), last), proof = trace(cubic(Rational(3, 10)));
-  const auto ovals = [](const LocusMap& own) {
-    return std::count_if(own.curves[0].arcs.begin(), own.curves[0].arcs.end(), [](const Arc& a) { return a.closed; });
+  const auto ovals = [](const LocusMap& locus_map) {
+    return std::count_if(locus_map.curves[0].arcs.begin(), locus_map.curves[0].arcs.end(),
+                         [](const Arc& a) { return a.closed; });
   };
   EXPECT_EQ(ovals(map), 0);
   EXPECT_EQ(ovals(proof), 1);

@@ -41,8 +41,8 @@ Polynomial touching_branches(const Rational& right, const Rational& up) {
 /// Chords across a tenth of the way to the origin: the branches are as far apart as 0.04 height^2, and bend by 0.0017
 /// height^2.
 void expect_told_apart(const PlaneCurve& curve, double right, double up, double height) {
-  const auto on_branch = [&](double own, double side) {
-    return curve.project({right + (-2.0 / 3 + side * 0.02) * own * own, up + own});
+  const auto on_branch = [&](double candidate, double side) {
+    return curve.project({right + (-2.0 / 3 + side * 0.02) * candidate * candidate, up + candidate});
   };
   const core::Point2 a = on_branch(height, 1), b = on_branch(1.1 * height, 1), c = on_branch(1.1 * height, -1);
   const double bend = 0.0017 * height * height;

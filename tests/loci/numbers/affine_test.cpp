@@ -100,25 +100,25 @@ TEST(Affine, SumsOfNumbersAreThoseOfForms) {
 TEST(Affine, EnclosesAngles) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-1, 1);
-  int known = 0;
+  int covered = 0;
   for (int trial = 0; trial < 1000; ++trial) {
     const Point middle = {place(random), place(random), place(random)};
     const double half = std::pow(10.0, -4 * std::abs(place(random)) - 0.5);
     const std::array<Affine, 3> p = box(middle, half);
     const std::optional<Affine> angle = angle_of(p[0] * p[2] - p[1], p[0] + squared(p[1]));
     if (!angle) continue;
-    ++known;
+    ++covered;
     for (int sample = 0; sample < 50; ++sample) {
       const double x = middle[0] + half * place(random), y = middle[1] + half * place(random),
                    z = middle[2] + half * place(random);
       // Counted on from the middle, beyond half a turn.
-      const double own = std::atan2(x * z - y, x + y * y), turn = 2 * std::numbers::pi;
-      EXPECT_TRUE((angle->lower() <= own && own <= angle->upper()) ||
-                  (angle->lower() <= own + turn && own + turn <= angle->upper()) ||
-                  (angle->lower() <= own - turn && own - turn <= angle->upper()));
+      const double atan2 = std::atan2(x * z - y, x + y * y), turn = 2 * std::numbers::pi;
+      EXPECT_TRUE((angle->lower() <= atan2 && atan2 <= angle->upper()) ||
+                  (angle->lower() <= atan2 + turn && atan2 + turn <= angle->upper()) ||
+                  (angle->lower() <= atan2 - turn && atan2 - turn <= angle->upper()));
     }
   }
-  EXPECT_GT(known, 700);
+  EXPECT_GT(covered, 700);
 }
 
 TEST(Affine, LeavesACubeOfTheBox) {
@@ -153,7 +153,7 @@ TEST(Affine, FlattenedEnclosesTheSame) {
   const Affine all = f(box({0.3, -0.2, 0.7}, 0.1)), flat = all.flattened();
   EXPECT_LE(flat.lower(), all.lower() + 1e-12);
   EXPECT_GE(flat.upper(), all.upper() - 1e-12);
-  for (const double own : flat.b) EXPECT_EQ(own, 0);
+  for (const double entry : flat.b) EXPECT_EQ(entry, 0);
 }
 
 TEST(Affine, TakesUpRounding) {

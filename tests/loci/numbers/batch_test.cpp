@@ -64,8 +64,8 @@ TEST_P(Batches, HaveTheirOwnNumbers) {
       for (std::size_t k = 0; k < code.size(); ++k) {
         const double expected = alone(code[k].operation, values[static_cast<std::size_t>(code[k].first)][l],
                                       values[static_cast<std::size_t>(code[k].second)][l]);
-        const double own = values[2 + k][l];
-        EXPECT_TRUE(own == expected || (std::isnan(own) && std::isnan(expected))) << "step " << k << ", lane " << l;
+        const double value = values[2 + k][l];
+        EXPECT_TRUE(value == expected || (std::isnan(value) && std::isnan(expected))) << "step " << k << ", lane " << l;
       }
   }
 }

@@ -100,9 +100,9 @@ TEST_P(Lanes, WhatOverflowsExcludesNothing) {
   constexpr std::size_t by_zero = 9, all_results = 13;
   for (std::size_t l = 0; l < IntervalBatch::size; ++l)
     for (std::size_t k = 7; k < all_results; ++k) {
-      const Interval& own = values[k].lanes[l];
-      EXPECT_TRUE(own.contains_zero()) << k;
-      EXPECT_TRUE(k == by_zero || (own.contains(-1e300) && own.contains(1e300))) << k;
+      const Interval& lane = values[k].lanes[l];
+      EXPECT_TRUE(lane.contains_zero()) << k;
+      EXPECT_TRUE(k == by_zero || (lane.contains(-1e300) && lane.contains(1e300))) << k;
     }
 }
 
@@ -130,11 +130,11 @@ TEST_P(Lanes, AreWhatJetsAreAlone) {
                                         reciprocal,     product * reciprocal,
                                         angle_of(a, b), product * reciprocal - product};
       for (std::size_t k = 0; k < alone.size(); ++k) {
-        const Jet own = values[2 + k].lane(l);
-        ASSERT_EQ(own.bounded, alone[k].bounded) << k;
-        unbounded += own.bounded ? 0 : 1;
-        ASSERT_TRUE(same(own.value, alone[k].value) && same(own.middle, alone[k].middle)) << k;
-        for (const std::size_t c : {0, 1}) ASSERT_TRUE(same(own.slope[c], alone[k].slope[c])) << k;
+        const Jet lane = values[2 + k].lane(l);
+        ASSERT_EQ(lane.bounded, alone[k].bounded) << k;
+        unbounded += lane.bounded ? 0 : 1;
+        ASSERT_TRUE(same(lane.value, alone[k].value) && same(lane.middle, alone[k].middle)) << k;
+        for (const std::size_t c : {0, 1}) ASSERT_TRUE(same(lane.slope[c], alone[k].slope[c])) << k;
       }
     }
   }
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Way{"ByAvx2", interval_batch::has_avx2, interval_batch::run_by_avx2, interval_batch::run_by_avx2},
                       Way{"ByAvx512", interval_batch::has_avx512, interval_batch::run_by_avx512,
                           interval_batch::run_by_avx512}),
-    [](const auto& own) { return std::string(own.param.name); });
+    [](const auto& candidate) { return std::string(candidate.param.name); });
 
 /// Cells all over the workspace and its boundary, in batches of every size.
 TEST(SheetCells, AreWhatCellsAreAlone) {
@@ -178,23 +178,23 @@ TEST(SheetCells, AreWhatCellsAreAlone) {
         continue;
       }
       alone.differentiate();
-      SheetCell& own = cells[lane];
-      ASSERT_EQ(own.lifted(), alone.lifted());
-      lifted += own.lifted().empty() ? 0 : 1;
+      SheetCell& cell = cells[lane];
+      ASSERT_EQ(cell.lifted(), alone.lifted());
+      lifted += cell.lifted().empty() ? 0 : 1;
       for (int j = 0; j < program.roots(); ++j) {
-        EXPECT_TRUE(same(own.square(j), alone.square(j)));
-        EXPECT_TRUE(same(own.root(j), alone.root(j)));
+        EXPECT_TRUE(same(cell.square(j), alone.square(j)));
+        EXPECT_TRUE(same(cell.root(j), alone.root(j)));
       }
       for (const int f : {0, 1}) {
-        EXPECT_TRUE(same(own.value(f), alone.value(f)));
-        EXPECT_TRUE(same(own.middle_value(f), alone.middle_value(f)));
-        EXPECT_TRUE(same(own.centred(f), alone.centred(f)));
-        for (int c = 0; c < own.dimension(); ++c) {
-          EXPECT_TRUE(same(own.slope(f, c), alone.slope(f, c)));
-          EXPECT_TRUE(same(own.tangent(f, c), alone.tangent(f, c)));
+        EXPECT_TRUE(same(cell.value(f), alone.value(f)));
+        EXPECT_TRUE(same(cell.middle_value(f), alone.middle_value(f)));
+        EXPECT_TRUE(same(cell.centred(f), alone.centred(f)));
+        for (int c = 0; c < cell.dimension(); ++c) {
+          EXPECT_TRUE(same(cell.slope(f, c), alone.slope(f, c)));
+          EXPECT_TRUE(same(cell.tangent(f, c), alone.tangent(f, c)));
         }
       }
-      EXPECT_EQ(own.is_beyond_a_rim(), alone.is_beyond_a_rim());
+      EXPECT_EQ(cell.is_beyond_a_rim(), alone.is_beyond_a_rim());
     }
   }
   EXPECT_GT(lifted, 50);

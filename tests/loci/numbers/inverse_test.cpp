@@ -14,7 +14,7 @@ TEST(Inverse, TimesItsMatrixIsOne) {
   std::uniform_real_distribution<double> entry(-1, 1);
   for (std::size_t n = 1; n <= 12; ++n) {
     std::vector<double> a(n * n), y(n * n);
-    for (double& own : a) own = entry(random);
+    for (double& candidate : a) candidate = entry(random);
     a[0] = 0;  // wants another row for its first pivot, from two rows on
     if (n == 1) a[0] = -3;
     std::vector<double> used = a;

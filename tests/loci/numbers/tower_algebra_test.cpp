@@ -18,10 +18,10 @@ constexpr sheet::testing::Ring r{4};
 
 /// s1^2 = x^2 + y^2 + 1, s2^2 = 2 + x s1.
 RootTower tower() {
-  RootTower own = sheet::testing::plane();
-  own.roots.push_back({"s1", "B1", core::RootRole::working_mode, r.x() * r.x() + r.y() * r.y() + r(1)});
-  own.roots.push_back({"s2", "B2", core::RootRole::working_mode, r(2) + r.x() * r.s(1)});
-  return own;
+  RootTower tower = sheet::testing::plane();
+  tower.roots.push_back({"s1", "B1", core::RootRole::working_mode, r.x() * r.x() + r.y() * r.y() + r(1)});
+  tower.roots.push_back({"s2", "B2", core::RootRole::working_mode, r(2) + r.x() * r.s(1)});
+  return tower;
 }
 
 double value(const Polynomial& p, double x, double y) {
@@ -39,9 +39,9 @@ double value(const Polynomial& p, double x, double y) {
 const Polynomial element = r.s(2) * r.s(1) + r.x() * r.s(2) - r.y() * r.s(1) + r(3);
 
 TEST(TowerAlgebra, ReducesPowersOfRoots) {
-  const Polynomial power = element * element * element, own = reduce(power, tower());
-  for (const int root : {2, 3}) EXPECT_LE(core::degree_in(own, root), 1);
-  EXPECT_NEAR(value(own, 0.3, -0.7), value(power, 0.3, -0.7), 1e-10);
+  const Polynomial power = element * element * element, polynomial = reduce(power, tower());
+  for (const int root : {2, 3}) EXPECT_LE(core::degree_in(polynomial, root), 1);
+  EXPECT_NEAR(value(polynomial, 0.3, -0.7), value(power, 0.3, -0.7), 1e-10);
 }
 
 TEST(TowerAlgebra, SplitsAlongARoot) {
@@ -58,19 +58,19 @@ TEST(TowerAlgebra, KnowsTheLastRootOfAnElement) {
 }
 
 TEST(TowerAlgebra, TheNormIsZeroWhereTheElementIs) {
-  const RootTower own = tower();
-  const Polynomial all = norm(element, own);
+  const RootTower root_tower = tower();
+  const Polynomial all = norm(element, root_tower);
   EXPECT_EQ(all.variables, 2);
-  EXPECT_LE(core::total_degree(all), norm_degree(element, own));
+  EXPECT_LE(core::total_degree(all), norm_degree(element, root_tower));
   // Along y = 0.25 the element changes its sign; there the norm is zero as well.
   const auto at = [&](double x) { return value(element - r.x() * r.x() * r.x() * r(4), x, 0.25); };
   double low = 0, high = 3;
   ASSERT_LT(at(low) * at(high), 0);
   for (int i = 0; i < 60; ++i) ((at((low + high) / 2) * at(low) > 0) ? low : high) = (low + high) / 2;
-  const Polynomial zero = norm(element - r.x() * r.x() * r.x() * r(4), own);
+  const Polynomial zero = norm(element - r.x() * r.x() * r.x() * r(4), root_tower);
   EXPECT_NEAR(value(zero, low, 0.25) / (1 + std::abs(value(zero, low + 0.1, 0.25))), 0, 1e-9);
   // A product's norm is the product of the norms, up to a number.
-  const Polynomial twice = norm(reduce(element * element, own), own);
+  const Polynomial twice = norm(reduce(element * element, root_tower), root_tower);
   EXPECT_NEAR(value(twice, 0.3, -0.7) * value(all, 1.1, 0.4) * value(all, 1.1, 0.4),
               value(twice, 1.1, 0.4) * value(all, 0.3, -0.7) * value(all, 0.3, -0.7),
               1e-6 * std::abs(value(twice, 1.1, 0.4) * value(all, 0.3, -0.7) * value(all, 0.3, -0.7)));

@@ -92,11 +92,11 @@ RC_GTEST_PROP(Univariate, FindsEveryRootThatItIsMadeOf, ()) {
   const Univariate p = with_roots({roots.begin(), roots.end()});
   std::vector<RealRoot> found = real_roots(p, -41, 41);
   RC_ASSERT(found.size() == roots.size());
-  auto own = roots.begin();
+  auto this_roots = roots.begin();
   for (RealRoot& root : found) {
-    RC_ASSERT(root.lower <= *own && *own <= root.upper);
-    RC_ASSERT(sign_at(with_roots({*own}), root) == 0);
-    ++own;
+    RC_ASSERT(root.lower <= *this_roots && *this_roots <= root.upper);
+    RC_ASSERT(sign_at(with_roots({*this_roots}), root) == 0);
+    ++this_roots;
   }
 }
 

@@ -29,20 +29,20 @@ TEST(RealRoots, ProductsOfKnownFactors) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> numerator(-40, 40), denominator(1, 7), count(1, 8);
-    std::vector<Rational> known;
+    std::vector<Rational> values;
     Univariate p = {Integer(1)};
     for (int k = count(random); k > 0; --k) {
       Rational root(numerator(random), denominator(random));
       root.canonicalize();
-      if (k % 3 == 0 && !known.empty()) root = known.back() + Rational(1, 1000000);
-      if (std::find(known.begin(), known.end(), root) != known.end()) continue;
-      known.push_back(root);
+      if (k % 3 == 0 && !values.empty()) root = values.back() + Rational(1, 1000000);
+      if (std::find(values.begin(), values.end(), root) != values.end()) continue;
+      values.push_back(root);
       p = times(p, {-root.get_num(), root.get_den()});
     }
     p = times(p, {Integer(3 + numerator(random) % 2), Integer(1), Integer(1)});  // x^2 + x + c, c >= 2
     const Rational lower = -3, upper = 3;
     std::vector<Rational> inside;
-    for (const Rational& root : known)
+    for (const Rational& root : values)
       if (lower <= root && root <= upper) inside.push_back(root);
     std::sort(inside.begin(), inside.end());
     std::vector<RealRoot> roots = real_roots(p, lower, upper);

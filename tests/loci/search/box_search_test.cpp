@@ -39,9 +39,9 @@ TEST(BoxSearch, TakesOnlyBoxesOfSmallKeys) {
   EXPECT_EQ(few.size(), 10u);
   double last = 0;
   for (const auto* const some : {&few, &small})
-    for (const auto& own : *some) {
-      EXPECT_LE(last, own.key);
-      last = own.key;
+    for (const auto& entry : *some) {
+      EXPECT_LE(last, entry.key);
+      last = entry.key;
     }
   EXPECT_LT(last, 0.5);
   EXPECT_GE(left.next().key, 0.5);
@@ -74,7 +74,7 @@ TEST(SearchMeter, CountsFromAnyThread) {
     threads.emplace_back([&] {
       for (int i = 0; i < 1000; ++i) meter.begin();
     });
-  for (std::thread& own : threads) own.join();
+  for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(meter.cost().cells, 4000);
 }
 

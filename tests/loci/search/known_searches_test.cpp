@@ -17,19 +17,19 @@ const Ring r{2};
 core::Polynomial circle(const core::Rational& x) { return (r.x() - r(x)) * (r.x() - r(x)) + r.y() * r.y() - r(1); }
 
 TEST(KnownSearches, SearchACurveOnce) {
-  KnownSearches known;
+  KnownSearches searches;
   int searched = 0;  // colours are asked for while a curve is searched
   const auto traced = [&](const core::Polynomial& curve, const core::Polynomial& cutter, double tolerance,
                           KnownSearches* kept) {
     SheetTraceOptions options;
     options.tolerance = tolerance;
-    options.known = kept;
+    options.searches = kept;
     options.colour = [&](const core::Point2&) { return ++searched, 0; };
     return trace_sheet(testing::plane(), {}, {-3, -3}, {3, 3}, {curve}, {Cutter{{cutter}}}, options);
   };
   std::vector<SheetTrace> kept;
   for (const double tolerance : {1e-4, 1e-5, 1e-6}) {
-    kept.push_back(traced(circle(0), circle(1), tolerance, &known));
+    kept.push_back(traced(circle(0), circle(1), tolerance, &searches));
     EXPECT_EQ(searched, 2);  // arcs, which the other circle cuts
   }
   searched = 0;
@@ -47,15 +47,15 @@ TEST(KnownSearches, SearchACurveOnce) {
   EXPECT_LT(2 * kept[0].arcs[0].arc.points.size(), kept[1].arcs[0].arc.points.size());
   // Another cutter, another search.
   searched = 0;
-  EXPECT_EQ(traced(circle(0), circle(core::Rational(3, 2)), 1e-4, &known).arcs.size(), 2u);
+  EXPECT_EQ(traced(circle(0), circle(core::Rational(3, 2)), 1e-4, &searches).arcs.size(), 2u);
   EXPECT_EQ(searched, 2);
 }
 
 TEST(KnownSearches, TellZeroSetsApart) {
-  KnownSearches known;
+  KnownSearches searches;
   const auto zeros = [&](const core::Polynomial& first, const core::Polynomial& second) {
     ZeroOptions options;
-    options.known = &known;
+    options.searches = &searches;
     return isolated_zeros(testing::plane(), {}, first, second, {-3, -3}, {3, 3}, options).zeros;
   };
   for (int i = 0; i < 2; ++i) {

@@ -119,7 +119,7 @@ TEST(Touch, SidesOfTheBoxAreSettledOnTheSheet) {
     double length;
   };
   const double pi = std::acos(-1.0);
-  for (const Case& known : {
+  for (const Case& entry : {
            Case{circle(0, 0, 1), 1, 2 * pi},                                     // touches all four from inside
            Case{circle(Rational(3, 2), 0, Rational(1, 2)), 0, 0},                // one from outside
            Case{circle(Rational(1, 2), Rational(1, 2), Rational(1, 2)), 1, pi},  // two from inside
@@ -128,13 +128,13 @@ TEST(Touch, SidesOfTheBoxAreSettledOnTheSheet) {
        }) {
     SheetTraceOptions options;
     options.tolerance = 1e-6;
-    const SheetTrace trace = trace_sheet(testing::plane(), {}, {-1, -1}, {1, 1}, {known.curve}, {}, options);
+    const SheetTrace trace = trace_sheet(testing::plane(), {}, {-1, -1}, {1, 1}, {entry.curve}, {}, options);
     EXPECT_TRUE(trace.certified);
-    ASSERT_EQ(trace.arcs.size(), known.arcs);
+    ASSERT_EQ(trace.arcs.size(), entry.arcs);
     double length = 0;
     for (const TracedArc& arc : trace.arcs) length += arc.arc.length;
-    if (known.length > 0) {
-      EXPECT_NEAR(length, known.length, 1e-5);
+    if (entry.length > 0) {
+      EXPECT_NEAR(length, entry.length, 1e-5);
     }
   }
 }

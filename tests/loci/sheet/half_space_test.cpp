@@ -19,7 +19,7 @@ HalfSpace drawn(std::mt19937& random, std::size_t coordinates) {
     sum += std::abs(way[c]);
   }
   if (sum == 0) way[0] = sum = 1;
-  for (double& own : way) own /= sum;
+  for (double& entry : way) entry /= sum;
   return HalfSpace::within(way, place(random));
 }
 
@@ -28,22 +28,22 @@ const PoseBox cell = {{0.25, 0.5}, {-1, 1}, {3, 3.5}};
 TEST(HalfSpaces, HaveTheirShareOfACell) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 200; ++trial) {
-    const HalfSpace own = drawn(random, 3);
+    const HalfSpace space = drawn(random, 3);
     constexpr int n = 30;
     int inside = 0;
     for (int i = 0; i < n * n * n; ++i) {
       const std::array<double, 3> e = {(i % n + 0.5) / n, (i / n % n + 0.5) / n, (i / n / n + 0.5) / n};
       std::array<double, 3> at{};
       for (std::size_t c = 0; c < 3; ++c) at[c] = cell[c][0] + e[c] * (cell[c][1] - cell[c][0]);
-      if (height(own, cell, at) <= 0) continue;
+      if (height(space, cell, at) <= 0) continue;
       ++inside;
-      const PoseBox around = box_around(own, cell);
+      const PoseBox around = box_around(space, cell);
       for (std::size_t c = 0; c < 3; ++c) EXPECT_TRUE(around[c][0] - 1e-9 <= at[c] && at[c] <= around[c][1] + 1e-9);
     }
-    EXPECT_NEAR(share_of(own), static_cast<double>(inside) / (n * n * n), 0.02);
-    if (own.empty()) continue;
-    const Pose pose = inner_pose(own, cell);
-    EXPECT_GT(height(own, cell, {pose[0], pose[1], pose[2]}), 0);
+    EXPECT_NEAR(share_of(space), static_cast<double>(inside) / (n * n * n), 0.02);
+    if (space.empty()) continue;
+    const Pose pose = inner_pose(space, cell);
+    EXPECT_GT(height(space, cell, {pose[0], pose[1], pose[2]}), 0);
   }
 }
 
@@ -53,10 +53,10 @@ TEST(HalfSpaces, AreNotLargerWithoutSmallEntries) {
   for (int trial = 0; trial < 500; ++trial) {
     std::array<double, Affine::noises> way{};
     for (std::size_t c = 0; c < 3; ++c) way[c] = place(random) * (c == 1 ? 1e-4 : 0.5);
-    const HalfSpace whole{way, 0.3 * place(random)}, own = HalfSpace::within(whole.way, whole.beyond);
+    const HalfSpace whole{way, 0.3 * place(random)}, narrowed = HalfSpace::within(whole.way, whole.beyond);
     for (int corner = 0; corner < 8; ++corner) {
       const std::array<double, 3> at = {cell[0][corner & 1], cell[1][corner >> 1 & 1], cell[2][corner >> 2 & 1]};
-      EXPECT_LE(height(own, cell, at), height(whole, cell, at) + 1e-12);
+      EXPECT_LE(height(narrowed, cell, at), height(whole, cell, at) + 1e-12);
     }
   }
 }
@@ -65,12 +65,12 @@ TEST(HalfSpaces, EndInAPolygonSeenFromOutside) {
   std::mt19937 random(7);
   int cut = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    const HalfSpace own = drawn(random, 3);
-    const Polygon polygon = cut_of(own, cell);
+    const HalfSpace space = drawn(random, 3);
+    const Polygon polygon = cut_of(space, cell);
     if (polygon.empty()) continue;
     ++cut;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      EXPECT_NEAR(height(own, cell, polygon[i]), 0, 1e-9);
+      EXPECT_NEAR(height(space, cell, polygon[i]), 0, 1e-9);
       const auto &a = polygon[0], &b = polygon[i], &c = polygon[(i + 1) % polygon.size()];
       std::array<double, 3> u{}, v{}, step = a;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -80,7 +80,7 @@ TEST(HalfSpaces, EndInAPolygonSeenFromOutside) {
       const std::array<double, 3> normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
                                             u[0] * v[1] - u[1] * v[0]};
       for (std::size_t k = 0; k < 3; ++k) step[k] += normal[k];
-      EXPECT_LE(height(own, cell, step), 1e-9) << "out of the part";
+      EXPECT_LE(height(space, cell, step), 1e-9) << "out of the part";
     }
   }
   EXPECT_GT(cut, 50);
@@ -98,9 +98,9 @@ TEST(HalfSpaces, ClipFacesOnBothSides) {
     return std::abs(twice) / 2;
   };
   for (int trial = 0; trial < 200; ++trial) {
-    const HalfSpace own = drawn(random, 3);
-    const double inside = area(clipped(corners_of(face), own, cell, 0, true)),
-                 outside = area(clipped(corners_of(face), own, cell, 0, false));
+    const HalfSpace space = drawn(random, 3);
+    const double inside = area(clipped(corners_of(face), space, cell, 0, true)),
+                 outside = area(clipped(corners_of(face), space, cell, 0, false));
     EXPECT_NEAR(inside + outside, 0.125, 1e-12);
   }
 }

@@ -17,8 +17,8 @@ ZeroCount count(const SheetProgram& program, const Interval& x, const Interval& 
   SheetCell cell(program, {});
   EXPECT_TRUE(cell.enter(x, y));
   cell.differentiate();
-  std::vector<Interval> own;
-  return krawczyk(cell, {}, image != nullptr ? *image : own);
+  std::vector<Interval> intervals;
+  return krawczyk(cell, {}, image != nullptr ? *image : intervals);
 }
 
 SheetProgram circle_and_line() {

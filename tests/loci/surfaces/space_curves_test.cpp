@@ -148,8 +148,8 @@ TEST(SpaceCurves, EndOnTheWorkspaceBoundary) {
   EXPECT_NEAR(curve.arcs[0].points.front()[2], -1.0 / 6, 1e-9);
   // The other sheet has none of it within the box but where s = 0.
   problem.modes = {{-1}};
-  for (const core::SpaceCurve& own : traced(problem).space_curves)
-    for (const SpaceArc& arc : own.arcs)
+  for (const core::SpaceCurve& space_curve : traced(problem).space_curves)
+    for (const SpaceArc& arc : space_curve.arcs)
       for (const core::Point3& at : arc.points) EXPECT_LT(at[2], -1.0 / 6 + 1e-9);
 }
 

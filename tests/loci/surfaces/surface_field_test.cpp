@@ -132,7 +132,7 @@ TEST_F(SideBySide, BoxesHaveTheirOwnEnclosures) {
     EXPECT_TRUE(std::equal(overs[k].begin(), overs[k].end(), alone.begin(), alone.end(),
                            [](const Field::Over& a, const Field::Over& b) { return same(a, b); }))
         << k;
-    for (const Field::Over& own : overs[k]) (!own.known ? unknown : own.steep ? steep : plain) += 1;
+    for (const Field::Over& over : overs[k]) (!over.known ? unknown : over.steep ? steep : plain) += 1;
   }
   for (const int count : {unknown, steep, plain}) EXPECT_GT(count, 25);
 }
@@ -190,14 +190,14 @@ TEST(Unexplained, CellsAreCutFurtherBeforeTheyAreLeft) {
 /// What is proven of a box holds at the points in it.
 TEST_F(SideBySide, BoxesHoldTheirPoints) {
   for (int k = 0; k < 400; ++k) {
-    const Box own = box();
-    const auto over = field_.over(own);
-    const Proof proof = field_.examine(own);
+    const Box whole = box();
+    const auto over = field_.over(whole);
+    const Proof proof = field_.examine(whole);
     int signs = 0;
     for (int s = 0; s < 20; ++s) {
       const Point share = point();
       Point at{};
-      for (std::size_t i = 0; i < 3; ++i) at[i] = own[i].lower() + share[i] * own[i].width();
+      for (std::size_t i = 0; i < 3; ++i) at[i] = whole[i].lower() + share[i] * whole[i].width();
       if (!field_.inside(at)) continue;
       EXPECT_FALSE(proof.outside) << k;
       const double value = field_.value(at);

@@ -447,8 +447,8 @@ TEST(Surfaces, WhatIsCertifiedOnTheBoundaryHasOneTopologyWhateverTheMesh) {
       for (int i = 2 - root; i >= 0; --i)
         for (int j = 2 - root - i; j >= 0; --j)
           for (int k = 2 - root - i - j; k >= 0; --k) {
-            const Rational own(coefficient(random) + (root == 1 && i + j + k == 0 ? 12 : 0), 7);
-            if (own != 0) p.terms.push_back(term(own, {i, j, k, root}));
+            const Rational value(coefficient(random) + (root == 1 && i + j + k == 0 ? 12 : 0), 7);
+            if (value != 0) p.terms.push_back(term(value, {i, j, k, root}));
           }
     add_singularity(problem, p);
     const LocusMap fine = trace(problem, 1.0 / 24), coarse = trace(problem, 1.0 / 12);

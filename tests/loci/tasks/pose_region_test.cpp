@@ -27,7 +27,7 @@ Pose random_pose(std::mt19937& random) {
 /// The least distance of a pose from 4000 poses of the task.
 double by_samples(const PoseRegion& region, const Pose& pose, const std::vector<Pose>& task) {
   double least = apart(pose, region.closest(pose));
-  for (const Pose& own : task) least = std::min(least, apart(pose, own));
+  for (const Pose& entry : task) least = std::min(least, apart(pose, entry));
   return least;
 }
 
@@ -163,9 +163,9 @@ TEST(PoseRegion, ValuesBesideTheShapeAreHeld) {
        {core::TaskShape(core::TaskBox{{0, 1}, {2, 2}}), core::TaskShape(core::TaskBall{{0, 0}, 1}),
         core::TaskShape(core::TaskPath{{{0, 0}, {1, 2}, {2, -1}}}), core::TaskShape(l_shape)}) {
     const PoseRegion alone(shape, metric), region(shape, wide, beside);
-    for (const Pose& own : region.samples()) {
-      EXPECT_LE(region.distance(own), 2 * region.hair());
-      EXPECT_LE(std::hypot(own[3], own[4]), 2 + 1e-12);
+    for (const Pose& pose : region.samples()) {
+      EXPECT_LE(region.distance(pose), 2 * region.hair());
+      EXPECT_LE(std::hypot(pose[3], pose[4]), 2 + 1e-12);
     }
     for (int trial = 0; trial < 200; ++trial) {
       Pose pose = random_pose(random);
@@ -176,10 +176,10 @@ TEST(PoseRegion, ValuesBesideTheShapeAreHeld) {
       EXPECT_TRUE(std::isinf(region.distance(pose)));
     }
     for (const PosePiece& piece : region.pieces(0.5)) {
-      const std::size_t own = piece.box.size() - 3;
+      const std::size_t third = piece.box.size() - 3;
       PoseBox box = piece.box;
       EXPECT_TRUE(std::isfinite(region.distance(piece, box)));
-      box[own + 1] = box[own + 2] = {1.5, 1.9};
+      box[third + 1] = box[third + 2] = {1.5, 1.9};
       EXPECT_TRUE(std::isinf(region.distance(piece, box))) << "in the square, and in no part of its circle";
     }
   }

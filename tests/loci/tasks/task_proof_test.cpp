@@ -30,20 +30,20 @@ struct Known {
 };
 
 Known within_three() {
-  Known known;
-  known.conditions.tower.coordinates = {"x", "y"};
+  Known within_three;
+  within_three.conditions.tower.coordinates = {"x", "y"};
   const core::Polynomial x = core::variable_polynomial(3, 0), y = core::variable_polynomial(3, 1);
-  known.conditions.tower.roots = {
+  within_three.conditions.tower.roots = {
       {.name = "s1", .point = "B", .square = core::constant_polynomial(3, 9) - x * x - y * y}};
-  known.distance = [](const Point2& p) { return std::abs(3 - std::hypot(p[0], p[1])); };
-  return known;
+  within_three.distance = [](const Point2& p) { return std::abs(3 - std::hypot(p[0], p[1])); };
+  return within_three;
 }
 
-int add(Known& known, const std::function<int(Builder&)>& make) {
+int add(Known& solution, const std::function<int(Builder&)>& make) {
   Builder build;
   const int result = make(build);
-  known.conditions.functions.push_back(build.line(result));
-  return static_cast<int>(known.conditions.functions.size()) - 1;
+  solution.conditions.functions.push_back(build.line(result));
+  return static_cast<int>(solution.conditions.functions.size()) - 1;
 }
 
 /// 1 - (x - a)^2 - (y - b)^2: zero on a circle.
@@ -56,51 +56,51 @@ int circle_about(Builder& b, const Rational& a, const Rational& c) {
 
 /// |A| vanishes on the unit circle about (2, 0), a couple on that about (0, 2) but for a factor with a sign.
 Known circles() {
-  Known known = within_three();
-  known.conditions.determinant = {add(known, [](Builder& b) { return circle_about(b, 2, 0); })};
+  Known three = within_three();
+  three.conditions.determinant = {add(three, [](Builder& b) { return circle_about(b, 2, 0); })};
   core::TaskCondition couple;
   couple.reactions = {{"A", core::Quantity::M}};
   couple.parts = {
-      {add(known, [](Builder& b) { return b.multiply(circle_about(b, 0, 2), b.add(b.constant(4), b.variable(2))); })}};
-  known.conditions.conditions = {couple};
-  known.distance = [](const Point2& p) {
+      {add(three, [](Builder& b) { return b.multiply(circle_about(b, 0, 2), b.add(b.constant(4), b.variable(2))); })}};
+  three.conditions.conditions = {couple};
+  three.distance = [](const Point2& p) {
     return std::min({std::abs(3 - std::hypot(p[0], p[1])), std::abs(1 - std::hypot(p[0] - 2, p[1])),
                      std::abs(1 - std::hypot(p[0], p[1] - 2))});
   };
-  return known;
+  return three;
 }
 
 /// A couple that vanishes with the root: its locus is the boundary.
 Known couple_on_the_boundary() {
-  Known known = within_three();
+  Known three = within_three();
   core::TaskCondition couple;
   couple.reactions = {{"A", core::Quantity::M}};
-  couple.parts = {{add(known, [](Builder& b) {
+  couple.parts = {{add(three, [](Builder& b) {
     return b.multiply(b.variable(2), b.add(b.constant(-7), b.multiply(b.variable(0), b.variable(1))));
   })}};
-  known.conditions.conditions = {couple};
-  return known;
+  three.conditions.conditions = {couple};
+  return three;
 }
 
 /// The force (x - t, y - 1) under loads 0 <= t <= 1 keeps 1/4: it is as large as its distance from a segment.
 Known force_under_a_range() {
-  Known known = within_three();
-  known.conditions.loads = 2;
+  Known three = within_three();
+  three.conditions.loads = 2;
   core::TaskCondition force;
   force.reactions = {{"B", core::Quantity::f}};
   force.least = Rational(1, 4);
-  const int x = add(known, [](Builder& b) { return b.variable(0); });
-  const int x_less = add(known, [](Builder& b) { return b.add(b.variable(0), b.constant(-1)); });
-  const int y = add(known, [](Builder& b) { return b.add(b.variable(1), b.constant(-1)); });
+  const int x = add(three, [](Builder& b) { return b.variable(0); });
+  const int x_less = add(three, [](Builder& b) { return b.add(b.variable(0), b.constant(-1)); });
+  const int y = add(three, [](Builder& b) { return b.add(b.variable(1), b.constant(-1)); });
   force.parts = {{x, y}, {x_less, y}};
-  force.denominator = add(known, [](Builder& b) { return b.constant(1); });
-  known.conditions.conditions = {force};
-  known.distance = [](const Point2& p) {
+  force.denominator = add(three, [](Builder& b) { return b.constant(1); });
+  three.conditions.conditions = {force};
+  three.distance = [](const Point2& p) {
     const double beside = p[0] - std::clamp(p[0], 0.0, 1.0);
     return std::min(std::abs(3 - std::hypot(p[0], p[1])), std::hypot(beside, p[1] - 1) - 0.25);
   };
-  known.told = 2e-4;
-  return known;
+  three.told = 2e-4;
+  return three;
 }
 
 std::vector<core::TaskShape> shapes() {
@@ -135,27 +135,27 @@ double least_over(const core::TaskShape& shape, const std::function<double(const
 }
 
 TEST(ProvenClearance, IsTheDistanceOfTheNearestLocusAndNeverMore) {
-  for (const Known& known : {within_three(), circles(), couple_on_the_boundary(), force_under_a_range()})
+  for (const Known& solution : {within_three(), circles(), couple_on_the_boundary(), force_under_a_range()})
     for (const core::TaskShape& shape : shapes()) {
       const TaskRegion region(shape);
-      const double distance = least_over(shape, known.distance);
+      const double distance = least_over(shape, solution.distance);
       const TaskClearance clearance =
-          proven_clearance(known.conditions, known.mode, region, 0, 20, {.most_cells = 40'000});
+          proven_clearance(solution.conditions, solution.mode, region, 0, 20, {.most_cells = 40'000});
       // Between the places that are looked at distances are told to so much.
       const double looked = 2e-6;
       EXPECT_LT(clearance.margin, distance + looked) << shape.index();
-      EXPECT_GT(clearance.margin, (1 - known.told) * distance - looked) << shape.index();
+      EXPECT_GT(clearance.margin, (1 - solution.told) * distance - looked) << shape.index();
       ASSERT_TRUE(clearance.at);
-      EXPECT_NEAR(region.signed_distance(*clearance.at), distance, 2 * known.told * distance + looked);
-      EXPECT_NEAR(known.distance(*clearance.at), 0, 2 * known.told * distance + looked) << "on a locus";
+      EXPECT_NEAR(region.signed_distance(*clearance.at), distance, 2 * solution.told * distance + looked);
+      EXPECT_NEAR(solution.distance(*clearance.at), 0, 2 * solution.told * distance + looked) << "on a locus";
     }
 }
 
 TEST(ProvenClearance, NamesWhatEndsIt) {
-  const Known known = circles();
+  const Known this_circles = circles();
   const auto ended = [&](const Rational& x, const Rational& y) {
     const TaskRegion region(core::TaskBox{{x, y}, {x + Rational(1, 10), y + Rational(1, 10)}});
-    return proven_clearance(known.conditions, known.mode, region, 0, 20, {.most_cells = 40'000});
+    return proven_clearance(this_circles.conditions, this_circles.mode, region, 0, 20, {.most_cells = 40'000});
   };
   EXPECT_EQ(ended(Rational(1, 2), 0).kind, core::LocusKind::direct_singularity);
   EXPECT_EQ(ended(0, Rational(1, 2)).condition, 0);
@@ -166,8 +166,8 @@ TEST(ProvenClearance, NamesWhatEndsIt) {
 TEST(TaskCellDoubts, HoldEveryPoseThatFails) {
   std::mt19937 random(5);
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
-  for (const Known& known : {within_three(), circles(), couple_on_the_boundary(), force_under_a_range()}) {
-    TaskCell cell(known.conditions, known.mode);
+  for (const Known& solution : {within_three(), circles(), couple_on_the_boundary(), force_under_a_range()}) {
+    TaskCell cell(solution.conditions, solution.mode);
     int failing = 0, cleared = 0;
     for (int n = 0; n < 1500; ++n) {
       const double size = std::exp(uniform(-6, 0)), x = uniform(-3.2, 3), y = uniform(-3.2, 3);
@@ -186,8 +186,8 @@ TEST(TaskCellDoubts, HoldEveryPoseThatFails) {
                   bound.slopes[1] * core::Interval(at[1] - doubt.middle[1]))
                      .lower() > 0;
         };
-        const bool holds = std::all_of(doubt.unproven.begin(), doubt.unproven.end(), [&](const auto& own) {
-          return std::any_of(own.any.begin(), own.any.end(), positive);
+        const bool holds = std::all_of(doubt.unproven.begin(), doubt.unproven.end(), [&](const auto& candidate) {
+          return std::any_of(candidate.any.begin(), candidate.any.end(), positive);
         });
         const auto [state, unmet] = cell.judge(core::Interval(at[0]), core::Interval(at[1]));
         failing += state != TaskCell::State::proven;

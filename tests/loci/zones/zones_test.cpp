@@ -126,14 +126,14 @@ TEST(ZonesBetween, ASketchHasTheSameZones) {
     const core::Zones sketch = zones(problem, trace(problem), true).map;
     ASSERT_EQ(sketch.zones.size(), certified.zones.size());
     for (std::size_t i = 0; i < sketch.zones.size(); ++i) {
-      const core::Zone &own = sketch.zones[i], &other = certified.zones[i];
-      EXPECT_NEAR(own.size, other.size, 1e-3 * other.size) << i;
+      const core::Zone &zone = sketch.zones[i], &other = certified.zones[i];
+      EXPECT_NEAR(zone.size, other.size, 1e-3 * other.size) << i;
       const bool is_sliver = other.ball.radius < 0.02;
-      EXPECT_LT(own.ball.radius, 1.001 * other.ball.radius) << i;
-      EXPECT_GT(own.ball.radius, (is_sliver ? 0.3 : 0.95) * other.ball.radius) << i;
-      EXPECT_TRUE(inside_ring(own.outer, Point2{own.sample[0], own.sample[1]})) << i;
-      for (const core::Polyline& ring : own.holes)
-        EXPECT_FALSE(inside_ring(ring, Point2{own.sample[0], own.sample[1]})) << i;
+      EXPECT_LT(zone.ball.radius, 1.001 * other.ball.radius) << i;
+      EXPECT_GT(zone.ball.radius, (is_sliver ? 0.3 : 0.95) * other.ball.radius) << i;
+      EXPECT_TRUE(inside_ring(zone.outer, Point2{zone.sample[0], zone.sample[1]})) << i;
+      for (const core::Polyline& ring : zone.holes)
+        EXPECT_FALSE(inside_ring(ring, Point2{zone.sample[0], zone.sample[1]})) << i;
     }
   }
 }
@@ -196,9 +196,9 @@ TEST(VoronoiCircles, HoldNoPoint) {
   const std::vector<core::Circle> circles = voronoi_circles(corners);
   ASSERT_FALSE(circles.empty());
   EXPECT_NEAR(circles.front().radius, 2.5, 1e-12);
-  for (const core::Circle& own : circles)
+  for (const core::Circle& circle : circles)
     for (const core::Point2& p : corners)
-      EXPECT_GE(std::hypot(p[0] - own.centre[0], p[1] - own.centre[1]), own.radius - 1e-12);
+      EXPECT_GE(std::hypot(p[0] - circle.centre[0], p[1] - circle.centre[1]), circle.radius - 1e-12);
 }
 
 /// v^2 = u^2 - u^16 / 1000, turned: it crosses itself in the origin, and is beyond the exact engine.

@@ -9,23 +9,24 @@ namespace {
 Mechanism drawn(const std::string& text) { return parse_mechanism(text, "sketch.yaml"); }
 
 TEST(DrawnForm, KeepsLengthsExact) {
-  const WrittenMechanism own = constructed_text(
+  const WrittenMechanism mechanism = constructed_text(
       with_line(with_line(drawn_four_bar(), "B: [30, 40]", "B: [62, 75]"), "C: [120, 90]", "C: [291, 204]"),
       "sketch.yaml");
-  EXPECT_NE(own.text.find("C: {dyad: [B, D], lengths: [sqrt(69082), sqrt(78097)], side: left}"), std::string::npos)
-      << own.text;
-  EXPECT_NE(own.text.find("sqrt(9469)*cos(theta)"), std::string::npos) << own.text;
-  EXPECT_TRUE(own.notes.empty());
+  EXPECT_NE(mechanism.text.find("C: {dyad: [B, D], lengths: [sqrt(69082), sqrt(78097)], side: left}"),
+            std::string::npos)
+      << mechanism.text;
+  EXPECT_NE(mechanism.text.find("sqrt(9469)*cos(theta)"), std::string::npos) << mechanism.text;
+  EXPECT_TRUE(mechanism.notes.empty());
 }
 
 /// The length that is given beats the drawing, which closes anew and says so.
 TEST(DrawnForm, ClosesAnewWithGivenLengths) {
-  const WrittenMechanism own = constructed_text(
+  const WrittenMechanism mechanism = constructed_text(
       with_line(drawn_four_bar(), "CD: {points: [C, D]}", "CD: {points: [C, D], length: 95}"), "sketch.yaml");
-  EXPECT_NE(own.text.find(", 95], side: left}"), std::string::npos) << own.text;
-  ASSERT_EQ(own.notes.size(), 1U);
-  EXPECT_NE(own.notes[0].find("closed anew"), std::string::npos);
-  EXPECT_NE(own.notes[0].find(" mm"), std::string::npos);
+  EXPECT_NE(mechanism.text.find(", 95], side: left}"), std::string::npos) << mechanism.text;
+  ASSERT_EQ(mechanism.notes.size(), 1U);
+  EXPECT_NE(mechanism.notes[0].find("closed anew"), std::string::npos);
+  EXPECT_NE(mechanism.notes[0].find(" mm"), std::string::npos);
 }
 
 /// Lengths of three points tell the triangle; the drawing tells its side.

@@ -14,7 +14,7 @@ const std::filesystem::path twins = root / "tests/mechanism/assembly/twins";
 
 std::vector<std::string> names_of_unknowns(const Mechanism& m) {
   std::vector<std::string> names;
-  for (const Unknown& own : unknowns(m)) names.push_back(unknown_name(m, own));
+  for (const Unknown& unknown : unknowns(m)) names.push_back(unknown_name(m, unknown));
   return names;
 }
 
@@ -61,14 +61,14 @@ TEST(DrawnTwins, AreWrittenAsConstructions) {
     EXPECT_EQ(written.text.find("drawn:"), std::string::npos);
     // What is constructed stays as it is, but for the comments.
     EXPECT_EQ(constructed_text(written.text, "own.yaml").text, without_comments(written.text));
-    const Mechanism twin = read_mechanism(path), own = parse_mechanism(written.text, "own.yaml");
-    ASSERT_EQ(twin.points.size(), own.points.size());
-    for (std::size_t p = 0; p < own.points.size(); ++p) {
-      EXPECT_EQ(twin.points[p].name, own.points[p].name);
-      EXPECT_EQ(twin.points[p].form.index(), own.points[p].form.index());
+    const Mechanism twin = read_mechanism(path), mechanism = parse_mechanism(written.text, "own.yaml");
+    ASSERT_EQ(twin.points.size(), mechanism.points.size());
+    for (std::size_t p = 0; p < mechanism.points.size(); ++p) {
+      EXPECT_EQ(twin.points[p].name, mechanism.points[p].name);
+      EXPECT_EQ(twin.points[p].form.index(), mechanism.points[p].form.index());
     }
-    EXPECT_EQ(working_mode(twin), working_mode(own));
-    EXPECT_GT(expect_same_places(own, twin, 20, 1e-15), 0);
+    EXPECT_EQ(working_mode(twin), working_mode(mechanism));
+    EXPECT_GT(expect_same_places(mechanism, twin, 20, 1e-15), 0);
   }
 }
 

@@ -28,11 +28,11 @@ std::string with_crank(const std::string& drawn, const std::string& links, const
 void expect_path(const std::string& text, const std::string& name, const std::function<Place(double)>& where,
                  double range = 2 * std::numbers::pi) {
   const Mechanism m = parse_mechanism(text, "drawing.yaml"),
-                  own = parse_mechanism(constructed_text(text, "drawing.yaml").text, "own.yaml");
+                  mechanism = parse_mechanism(constructed_text(text, "drawing.yaml").text, "own.yaml");
   int count = 0;
   for (int k = 0; k < 40; ++k) {
     const double theta = 0.05 + range * k / 40;
-    const auto at = places_at(m, {theta}), again = places_at(own, {theta});
+    const auto at = places_at(m, {theta}), again = places_at(mechanism, {theta});
     ASSERT_EQ(at.has_value(), again.has_value());
     if (!at) continue;
     ++count;

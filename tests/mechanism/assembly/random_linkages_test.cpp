@@ -185,9 +185,9 @@ class Linkage {
     std::vector<Point> points = points_;
     if (drawn) std::shuffle(points.begin(), points.end(), shuffle);
     text += drawn ? "drawn:\n" : "points:\n";
-    for (const Point& own : points)
-      text +=
-          "  " + own.name + ": " + (drawn ? "[" + text_of(own.at.x) + ", " + text_of(own.at.y) + "]" : own.form) + "\n";
+    for (const Point& point : points)
+      text += "  " + point.name + ": " +
+              (drawn ? "[" + text_of(point.at.x) + ", " + text_of(point.at.y) + "]" : point.form) + "\n";
     std::vector<Link> links = links_;
     if (drawn) std::shuffle(links.begin(), links.end(), shuffle);
     text += "links:\n";
@@ -227,7 +227,8 @@ class LinkageInSpace {
     std::vector<Point> points = points_;
     std::vector<std::string> links = links_;
     if (drawn) std::shuffle(points.begin(), points.end(), order), std::shuffle(links.begin(), links.end(), order);
-    for (const Point& own : points) text += "  " + own.name + ": " + (drawn ? place_text(own.at) : own.form) + "\n";
+    for (const Point& point : points)
+      text += "  " + point.name + ": " + (drawn ? place_text(point.at) : point.form) + "\n";
     text += "links:\n";
     for (const std::string& link : links) text += "  " + link + "\n";
     return text + "joints:\n" + joints_ + "end_effector: {link: crank, at: K}\n";

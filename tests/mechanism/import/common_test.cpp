@@ -80,12 +80,12 @@ TEST(MergeRigid, LeavesAFlatTriangle) {
 
 /// A motor for every freedom, on the ground where it can be.
 TEST(ChooseMotors, HoldsEveryFreedom) {
-  const Imported own = import_text(
+  const Imported imported = import_text(
       "M[J[R, P[0, 0], L[ground, a]], J[R, P[3, 4], L[a, b]], J[R, P[8, 4], L[b, c]], J[R, P[12, 3], L[c, d]], J[R, "
       "P[10, 0], L[d, ground]]]",
       "five_bar");
-  EXPECT_TRUE(has_note(own, "the source names no motor: P0 and P4 drive"));
-  EXPECT_EQ(mechanism_of(own).coordinates.size(), 2U);
+  EXPECT_TRUE(has_note(imported, "the source names no motor: P0 and P4 drive"));
+  EXPECT_EQ(mechanism_of(imported).coordinates.size(), 2U);
 }
 
 }  // namespace

@@ -33,27 +33,27 @@ std::vector<std::string> files() {
 class EveryFile : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryFile, IsReadOrRefusedByName) {
-  const auto known =
-      std::find_if(refused.begin(), refused.end(), [](const Refused& own) { return own.file == GetParam(); });
-  if (known != refused.end()) {
+  const auto found = std::find_if(refused.begin(), refused.end(),
+                                  [](const Refused& candidate) { return candidate.file == GetParam(); });
+  if (found != refused.end()) {
     const std::string why = refusal_of_file(GetParam());
-    EXPECT_NE(why.find(known->words), std::string::npos) << why;
+    EXPECT_NE(why.find(found->words), std::string::npos) << why;
     EXPECT_NE(why.find(std::filesystem::path(GetParam()).filename().string() + ":"), std::string::npos) << why;
     return;
   }
-  const Imported own = imported(GetParam());
-  EXPECT_FALSE(own.format.empty());
-  EXPECT_TRUE(import_format(own.text).empty());
+  const Imported file = imported(GetParam());
+  EXPECT_FALSE(file.format.empty());
+  EXPECT_TRUE(import_format(file.text).empty());
   if (GetParam() == "cuik/legs.world") return;  // six legs close together: another test
-  const Mechanism m = mechanism_of(own);
+  const Mechanism m = mechanism_of(file);
   EXPECT_FALSE(m.coordinates.empty());
-  EXPECT_TRUE(has_note(own, "the source gives no clearances"));
-  EXPECT_TRUE(has_note(own, "the end effector is "));
+  EXPECT_TRUE(has_note(file, "the source gives no clearances"));
+  EXPECT_TRUE(has_note(file, "the end effector is "));
 }
 
 /// The angle of a link's first two points, or between two links, as the workspace of an imported file has them.
-std::optional<double> drawn_angle(const Imported& own, const Mechanism& m, const std::string& coordinate) {
-  const auto drawn = places(own);
+std::optional<double> drawn_angle(const Imported& imported, const Mechanism& m, const std::string& coordinate) {
+  const auto drawn = places(imported);
   const auto direction = [&](const std::string& name) {
     for (const Link& link : m.links) {
       if (link.name != name || link.points.size() < 2) continue;
@@ -63,7 +63,7 @@ std::optional<double> drawn_angle(const Imported& own, const Mechanism& m, const
     }
     return 0.0;
   };
-  for (const Entry& entry : entries(parse_document(own.text, "own.yaml"))) {
+  for (const Entry& entry : entries(parse_document(imported.text, "own.yaml"))) {
     if (entry.key != "workspace") continue;
     for (const Entry& one : entries(entry.value)) {
       if (one.key != coordinate) continue;
@@ -81,19 +81,20 @@ std::optional<double> drawn_angle(const Imported& own, const Mechanism& m, const
 
 /// The construction that is found puts every point where it is drawn, to a billionth of the size.
 TEST_P(EveryFile, IsDrawnWhereItsConstructionPutsIt) {
-  if (std::any_of(refused.begin(), refused.end(), [](const Refused& own) { return own.file == GetParam(); }) ||
+  if (std::any_of(refused.begin(), refused.end(),
+                  [](const Refused& candidate) { return candidate.file == GetParam(); }) ||
       GetParam() == "cuik/legs.world")
     return;
-  const Imported own = imported(GetParam());
-  const Mechanism m = mechanism_of(own);
+  const Imported file = imported(GetParam());
+  const Mechanism m = mechanism_of(file);
   if (m.space == Space::spatial) return;
   std::vector<double> pose;
   for (const Coordinate& coordinate : m.coordinates) {
-    const auto angle = drawn_angle(own, m, coordinate.name);
+    const auto angle = drawn_angle(file, m, coordinate.name);
     if (!angle) return;  // a stroke: linkage_test.cpp
     pose.push_back(*angle);
   }
-  const auto drawn = places(own);
+  const auto drawn = places(file);
   double size = 0;
   for (const auto& [a, p] : drawn)
     for (const auto& [b, q] : drawn) size = std::max(size, apart(p, q));
@@ -149,14 +150,14 @@ TEST(OneFourBar, IsTheSameInEveryFormat) {
       {"dxf/four_bar_r2000.dxf", {"P1", "P2", "P3", "P4"}},
       {"pyslvs/crank_rocker.txt", {"P0", "P1", "P2", "P4"}}};
   const std::vector<std::vector<double>> right = {{0, 0}, {0.03, 0.04}, {0.12, 0.09}, {0.1, 0}};
-  for (const auto& [file, own] : names) {
+  for (const auto& [file, name] : names) {
     const Imported found = imported(file);
     const auto at = places(found);
     const double metres = core::to_double(value_in_si("1", "length", mechanism_of(found), {}));
     for (std::size_t i = 0; i < 4; ++i) {
-      ASSERT_TRUE(at.contains(own[i])) << file << " " << own[i];
+      ASSERT_TRUE(at.contains(name[i])) << file << " " << name[i];
       for (std::size_t k = 0; k < 2; ++k)
-        EXPECT_NEAR(at.at(own[i])[k] * metres, right[i][k], 0.12e-9) << file << " " << own[i];
+        EXPECT_NEAR(at.at(name[i])[k] * metres, right[i][k], 0.12e-9) << file << " " << name[i];
     }
   }
 }

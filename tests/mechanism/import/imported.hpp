@@ -29,12 +29,12 @@ inline std::string bytes_of(const std::string& path) {
 }
 
 inline Imported imported(const std::string& name) { return import_file(path_of(name)); }
-inline Mechanism mechanism_of(const Imported& own) { return parse_mechanism(own.text, "own.yaml"); }
+inline Mechanism mechanism_of(const Imported& imported) { return parse_mechanism(imported.text, "own.yaml"); }
 
 /// A section of the file, as it is written: {"C", "[120, 90]"}.
-inline std::map<std::string, std::string> section(const Imported& own, const std::string& name) {
+inline std::map<std::string, std::string> section(const Imported& imported, const std::string& name) {
   std::map<std::string, std::string> lines;
-  std::istringstream text(own.text);
+  std::istringstream text(imported.text);
   std::string line;
   bool inside = false;
   while (std::getline(text, line)) {
@@ -47,9 +47,9 @@ inline std::map<std::string, std::string> section(const Imported& own, const std
 }
 
 /// Where points are drawn, in the file's unit.
-inline std::map<std::string, std::vector<double>> places(const Imported& own) {
+inline std::map<std::string, std::vector<double>> places(const Imported& imported) {
   std::map<std::string, std::vector<double>> found;
-  for (const Entry& entry : entries(parse_document(own.text, "own.yaml"))) {
+  for (const Entry& entry : entries(parse_document(imported.text, "own.yaml"))) {
     if (entry.key != "drawn") continue;
     for (const Entry& point : entries(entry.value))
       for (const Value& part : elements(point.value)) found[point.key].push_back(std::stod(text_of(part)));
@@ -63,8 +63,8 @@ inline double apart(const std::vector<double>& a, const std::vector<double>& b) 
   return std::sqrt(sum);
 }
 
-inline bool has_note(const Imported& own, const std::string& words) {
-  for (const std::string& note : own.notes)
+inline bool has_note(const Imported& imported, const std::string& words) {
+  for (const std::string& note : imported.notes)
     if (note.find(words) != std::string::npos) return true;
   return false;
 }

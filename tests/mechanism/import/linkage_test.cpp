@@ -12,9 +12,9 @@ TEST(Linkage, HasPlacesIn96thsOfAnInch) {
 }
 
 TEST(Linkage, ScalesMillimetres) {
-  const Imported own = imported("linkage/millimetres.linkage2");
-  EXPECT_NE(own.text.find("units: {length: mm}"), std::string::npos);
-  EXPECT_EQ(places(own).at("C2"), (std::vector<double>{254, 203.2}));
+  const Imported file = imported("linkage/millimetres.linkage2");
+  EXPECT_NE(file.text.find("units: {length: mm}"), std::string::npos);
+  EXPECT_EQ(places(file).at("C2"), (std::vector<double>{254, 203.2}));
 }
 
 TEST(Linkage, ReadsAttributesWithoutSpaceBetweenThem) {
@@ -24,35 +24,35 @@ TEST(Linkage, ReadsAttributesWithoutSpaceBetweenThem) {
 }
 
 TEST(Linkage, NamesWhatItLeavesOut) {
-  const Imported own = imported("linkage/drawings_and_colours.linkage2");
-  EXPECT_TRUE(has_note(own, "drawings or measures: connector a label and link L9"));
-  EXPECT_TRUE(has_note(own, "color of <connector>, drawcircle of <connector>, linesize of <Link>"));
-  EXPECT_TRUE(places(own).contains("tip"));
+  const Imported file = imported("linkage/drawings_and_colours.linkage2");
+  EXPECT_TRUE(has_note(file, "drawings or measures: connector a label and link L9"));
+  EXPECT_TRUE(has_note(file, "color of <connector>, drawcircle of <connector>, linesize of <Link>"));
+  EXPECT_TRUE(places(file).contains("tip"));
 }
 
 TEST(Linkage, TakesADrawnConnectorForTheEndEffector) {
-  const Imported own = imported("linkage/tracer.linkage2");
-  EXPECT_NE(own.text.find("end_effector: {link: L1, at: C4}"), std::string::npos);
+  const Imported file = imported("linkage/tracer.linkage2");
+  EXPECT_NE(file.text.find("end_effector: {link: L1, at: C4}"), std::string::npos);
 }
 
 TEST(Linkage, PutsASliderInASlot) {
-  const Imported own = imported("linkage/slot.linkage2");
-  EXPECT_EQ(section(own, "joints").at("C1_slot"),
+  const Imported file = imported("linkage/slot.linkage2");
+  EXPECT_EQ(section(file, "joints").at("C1_slot"),
             "{slot: [L1, L0], at: C1, axis: [C2, C3], clearance: {gap: 20e-6 m}}");
-  EXPECT_EQ(section(own, "links").size(), 2U);
+  EXPECT_EQ(section(file, "links").size(), 2U);
 }
 
 TEST(Linkage, FindsThePinOfASlotOnTheGround) {
-  const Imported own = imported("linkage/pin_stands_in_a_slot.linkage2");
-  EXPECT_EQ(section(own, "joints").at("C3_slot").substr(0, 24), "{slot: [L1, ground], at:");
+  const Imported file = imported("linkage/pin_stands_in_a_slot.linkage2");
+  EXPECT_EQ(section(file, "joints").at("C3_slot").substr(0, 24), "{slot: [L1, ground], at:");
 }
 
 /// A link between two anchors is the ground; a slot in it has a direction in numbers.
 TEST(Linkage, FindsASlotInTheGround) {
-  const Imported own = imported("linkage/slot_in_the_ground.linkage2");
-  EXPECT_EQ(section(own, "joints").at("C2_slot"),
+  const Imported file = imported("linkage/slot_in_the_ground.linkage2");
+  EXPECT_EQ(section(file, "joints").at("C2_slot"),
             "{slot: [ground, L1], at: C2, axis: [1, 0], clearance: {gap: 20e-6 m}}");
-  EXPECT_TRUE(has_note(own, "the ground and link L2 are one"));
+  EXPECT_TRUE(has_note(file, "the ground and link L2 are one"));
   EXPECT_TRUE(has_note(imported("linkage/link_between_anchors.linkage2"), "the ground and link L3 are one"));
 }
 
@@ -93,11 +93,11 @@ TEST(Linkage, MergesWhatIsFastenedAndWhatIsBraced) {
 
 /// Sizes 1 and 2: the first wheel, which the motor drives, turns by -2 of the angle of the second.
 TEST(Linkage, MeshesGears) {
-  const Imported own = imported("linkage/gears.linkage2");
-  EXPECT_EQ(section(own, "joints").at("gear_L0_L1"), "{gear: [L0, L1], centres: [C0, C1], teeth: [20, 40]}");
-  EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
-  EXPECT_TRUE(has_note(own, "the source gives only the ratio"));
-  const Mechanism m = mechanism_of(own);
+  const Imported file = imported("linkage/gears.linkage2");
+  EXPECT_EQ(section(file, "joints").at("gear_L0_L1"), "{gear: [L0, L1], centres: [C0, C1], teeth: [20, 40]}");
+  EXPECT_EQ(section(file, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
+  EXPECT_TRUE(has_note(file, "the source gives only the ratio"));
+  const Mechanism m = mechanism_of(file);
   const double inch = 0.0254, start = std::atan2(1.25, -1), small = std::atan2(2, 1.5), turned = 0.35;
   const auto at = sample_points(m, {start + turned});
   int found = 0;
@@ -116,19 +116,19 @@ TEST(Linkage, MeshesGears) {
 }
 
 TEST(Linkage, MakesABeltOfAChainOfOneSize) {
-  const Imported own = imported("linkage/chain.linkage2");
-  EXPECT_EQ(section(own, "joints").at("chain_L0_L1"),
+  const Imported file = imported("linkage/chain.linkage2");
+  EXPECT_EQ(section(file, "joints").at("chain_L0_L1"),
             "{belt: [L0, L1], centres: [C0, C1], radii: [1.5, 1.5], tension: 100 N}");
-  EXPECT_TRUE(has_note(own, "a tension of 100 N were chosen"));
+  EXPECT_TRUE(has_note(file, "a tension of 100 N were chosen"));
 }
 
 /// Sizes 1 and 3: the first wheel turns by 3 of the angle of the second.
 TEST(Linkage, MakesABeltOfAChainOfTwoSizes) {
-  const Imported own = imported("linkage/chain_of_two_sizes.linkage2");
-  EXPECT_EQ(section(own, "joints").at("chain_L0_L1"),
+  const Imported file = imported("linkage/chain_of_two_sizes.linkage2");
+  EXPECT_EQ(section(file, "joints").at("chain_L0_L1"),
             "{belt: [L0, L1], centres: [C0, C1], radii: [0.75, 2.25], tension: 100 N}");
-  EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
-  const Mechanism m = mechanism_of(own);
+  EXPECT_EQ(section(file, "workspace").at("theta"), "{angle: [0, 360 deg], of: L1}");
+  const Mechanism m = mechanism_of(file);
   const double start = std::atan2(1.25, -1), small = std::atan2(2, 1.5), turned = 0.35;
   const auto at = sample_points(m, {start + turned});
   for (std::size_t p = 0; p < m.points.size(); ++p)
@@ -139,10 +139,10 @@ TEST(Linkage, MakesABeltOfAChainOfTwoSizes) {
 }
 
 TEST(Linkage, RollsAPlanetOnAWheelThatStands) {
-  const Imported own = imported("linkage/planet.linkage2");
-  EXPECT_EQ(section(own, "joints").at("gear_L1_L2"), "{gear: [ground, L2], centres: [C0, C1], teeth: [40, 20]}");
+  const Imported file = imported("linkage/planet.linkage2");
+  EXPECT_EQ(section(file, "joints").at("gear_L1_L2"), "{gear: [ground, L2], centres: [C0, C1], teeth: [40, 20]}");
   // The arm from its 36.87 deg on by a: the planet turns by 3 a.
-  const Mechanism m = mechanism_of(own);
+  const Mechanism m = mechanism_of(file);
   const double inch = 0.0254, start = std::atan2(3, 4), turned = 0.4;
   const auto at = sample_points(m, {start + turned});
   for (std::size_t p = 0; p < m.points.size(); ++p)

@@ -5,13 +5,13 @@ namespace clearloci::mechanism {
 namespace {
 
 TEST(Pmks, ReadsMassesAndCentres) {
-  const Imported own = imported("pmks/four_bar.txt");
-  const auto links = section(own, "links");
+  const Imported file = imported("pmks/four_bar.txt");
+  const auto links = section(file, "links");
   EXPECT_EQ(links.at("AB"), "{points: [A, B], mass: 1, inertia: 0.1}");
   EXPECT_EQ(links.at("BC"), "{points: [B, C], mass: 2, inertia: 0.2}");
-  EXPECT_EQ(section(own, "joints").at("A"),
+  EXPECT_EQ(section(file, "joints").at("A"),
             "{revolute: [ground, AB], at: A, actuated: true, clearance: {radial: 20e-6 m}}  # turns at -10 rpm");
-  EXPECT_NE(own.text.find("gravity: [0, -9.81]"), std::string::npos);
+  EXPECT_NE(file.text.find("gravity: [0, -9.81]"), std::string::npos);
 }
 
 TEST(Pmks, ReadsAnAddressAsItsText) {
@@ -25,9 +25,9 @@ TEST(Pmks, ReadsAnAddressAsItsText) {
 
 /// 100 g and 10 kg cm^2 with lengths in cm.
 TEST(Pmks, HasGramsWithCentimetres) {
-  const Imported own = imported("pmks/centimetres.txt");
-  EXPECT_NE(own.text.find("units: {length: cm}"), std::string::npos);
-  EXPECT_EQ(section(own, "links").at("AB"), "{points: [A, B], mass: 0.1, inertia: 0.001}");
+  const Imported file = imported("pmks/centimetres.txt");
+  EXPECT_NE(file.text.find("units: {length: cm}"), std::string::npos);
+  EXPECT_EQ(section(file, "links").at("AB"), "{points: [A, B], mass: 0.1, inertia: 0.001}");
 }
 
 TEST(Pmks, PutsASliderOnTheGround) {
@@ -38,33 +38,33 @@ TEST(Pmks, PutsASliderOnTheGround) {
 
 /// The text has 1.571 rad, and means a right angle.
 TEST(Pmks, RoundsTheDirectionOfAGuideToWhatWasMeant) {
-  const Imported own = imported("pmks/inclined_slider.txt");
-  EXPECT_EQ(section(own, "joints").at("D"), "{prismatic: [ground, CD], at: C, axis: [0, 1]}");
-  EXPECT_TRUE(has_note(own, "joint D is taken at 90 deg"));
+  const Imported file = imported("pmks/inclined_slider.txt");
+  EXPECT_EQ(section(file, "joints").at("D"), "{prismatic: [ground, CD], at: C, axis: [0, 1]}");
+  EXPECT_TRUE(has_note(file, "joint D is taken at 90 deg"));
 }
 
 TEST(Pmks, PutsAPinIntoASlotOfALink) {
-  const Imported own = imported("pmks/slot.txt");
-  EXPECT_EQ(section(own, "joints").at("P"), "{prismatic: [DH, BP], at: B, axis: [D, H]}");
-  const auto at = places(own);
+  const Imported file = imported("pmks/slot.txt");
+  EXPECT_EQ(section(file, "joints").at("P"), "{prismatic: [DH, BP], at: B, axis: [D, H]}");
+  const auto at = places(file);
   const auto &d = at.at("D"), &h = at.at("H"), &b = at.at("B");
   EXPECT_EQ((h[0] - d[0]) * (b[1] - d[1]) - (h[1] - d[1]) * (b[0] - d[0]), 0);
 }
 
 TEST(Pmks, MakesOneLinkOfWeldedOnes) {
   EXPECT_EQ(section(imported("pmks/plate_of_welded_links.txt"), "links").at("BC_CE"), "{points: [B, C, E]}  # BC-CE");
-  const Imported own = imported("pmks/welded_joint.txt");
-  EXPECT_EQ(section(own, "links").count("WE"), 0U);
-  EXPECT_EQ(section(own, "links").at("BCW"), "{points: [B, C, E]}");
-  EXPECT_TRUE(has_note(own, "welded: link WE"));
+  const Imported file = imported("pmks/welded_joint.txt");
+  EXPECT_EQ(section(file, "links").count("WE"), 0U);
+  EXPECT_EQ(section(file, "links").at("BCW"), "{points: [B, C, E]}");
+  EXPECT_TRUE(has_note(file, "welded: link WE"));
 }
 
 /// A force of 25 N along its arrow, inwards, that turns with link BC.
 TEST(Pmks, KeepsAForceThatTurns) {
-  const Imported own = imported("pmks/force_that_turns.txt");
-  const std::string& load = own.text;
+  const Imported file = imported("pmks/force_that_turns.txt");
+  const std::string& load = file.text;
   EXPECT_NE(load.find("{link: BC, at: Q_F1, force: '"), std::string::npos) << load;
-  const auto at = places(own);
+  const auto at = places(file);
   const auto &q = at.at("Q_F1"), &r = at.at("R_F1");
   EXPECT_NEAR(q[0], 0.075, 1e-12);
   EXPECT_NEAR(q[1], 0.065, 1e-12);
@@ -75,11 +75,11 @@ TEST(Pmks, KeepsAForceThatTurns) {
 }
 
 TEST(Pmks, PinsThreeLinksAtOnePlace) {
-  const Imported own = imported("pmks/triple_pin.txt");
-  const auto joints = section(own, "joints");
+  const Imported file = imported("pmks/triple_pin.txt");
+  const auto joints = section(file, "joints");
   EXPECT_EQ(joints.at("C").substr(0, 26), "{revolute: [BC, CD], at: C");
   EXPECT_EQ(joints.at("C_2").substr(0, 26), "{revolute: [BC, CE], at: C");
-  EXPECT_TRUE(has_note(own, "more than two links meet at C"));
+  EXPECT_TRUE(has_note(file, "more than two links meet at C"));
 }
 
 /// Every address that was cut short is refused by its place, or is none that is known.
@@ -93,8 +93,8 @@ TEST(Pmks, RefusesWhatWasCutShort) {
     std::string why;
     try {
       // A length that fits by chance may leave a whole mechanism, without its last links.
-      const Imported own = import_text(part, "part");
-      EXPECT_NE(own.text, import_text(whole, "part").text);
+      const Imported imported = import_text(part, "part");
+      EXPECT_NE(imported.text, import_text(whole, "part").text);
     } catch (const core::InputError& error) {
       why = error.what();
       ++cut_short;

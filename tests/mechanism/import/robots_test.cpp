@@ -8,9 +8,9 @@ namespace clearloci::mechanism {
 namespace {
 
 TEST(Urdf, ClosesALoopThatIsOpenInTheFile) {
-  const Imported own = imported("urdf/open_posture.urdf");
-  EXPECT_TRUE(has_note(own, "the loops do not close in the file's posture"));
-  const auto at = places(own);
+  const Imported file = imported("urdf/open_posture.urdf");
+  EXPECT_TRUE(has_note(file, "the loops do not close in the file's posture"));
+  const auto at = places(file);
   EXPECT_NEAR(apart(at.at("motor_A"), at.at("B")), 0.05, 3e-10);
   EXPECT_NEAR(apart(at.at("B"), at.at("loop_end")), std::hypot(0.09, 0.05), 3e-10);
   EXPECT_NEAR(apart(at.at("D"), at.at("loop_end")), std::hypot(0.02, 0.09), 3e-8);  // seven digits of the file
@@ -18,9 +18,9 @@ TEST(Urdf, ClosesALoopThatIsOpenInTheFile) {
 }
 
 TEST(Urdf, PutsDigitsThatWereCutOffTogether) {
-  const Imported own = imported("urdf/four_bar.urdf");
-  EXPECT_TRUE(has_note(own, "joints meet within"));
-  EXPECT_EQ(places(own).at("loop_end"), (std::vector<double>{0.12, 0.09}));
+  const Imported file = imported("urdf/four_bar.urdf");
+  EXPECT_TRUE(has_note(file, "joints meet within"));
+  EXPECT_EQ(places(file).at("loop_end"), (std::vector<double>{0.12, 0.09}));
 }
 
 /// Half a radian to both sides of the drawn 53.13 degrees.
@@ -34,10 +34,10 @@ TEST(Urdf, KeepsLimits) {
 }
 
 TEST(Urdf, TakesTransmissionsForMotorsAndALeafForTheTool) {
-  const Imported own = imported("urdf/serial_arm.urdf");
-  EXPECT_EQ(mechanism_of(own).coordinates.size(), 2U);
-  EXPECT_NE(own.text.find("end_effector: {link: fore, at: tool}"), std::string::npos);
-  EXPECT_TRUE(has_note(own, "<actuator> in <transmission> (2)"));
+  const Imported file = imported("urdf/serial_arm.urdf");
+  EXPECT_EQ(mechanism_of(file).coordinates.size(), 2U);
+  EXPECT_NE(file.text.find("end_effector: {link: fore, at: tool}"), std::string::npos);
+  EXPECT_TRUE(has_note(file, "<actuator> in <transmission> (2)"));
 }
 
 TEST(Urdf, RefusesByName) {
@@ -82,17 +82,17 @@ TEST(Urdf, TakesBallsFromTheFileOfLoops) {
 TEST(Urdf, ClosesLoopsByJointsForGazebo) {
   const std::string text = bytes_of(path_of("urdf/four_bar.urdf"));
   const auto within = [&](const std::string& joint) {
-    std::string own = text;
-    own.insert(own.find("</robot>"), "<gazebo>" + joint + "</gazebo>");
-    return own;
+    std::string changed = text;
+    changed.insert(changed.find("</robot>"), "<gazebo>" + joint + "</gazebo>");
+    return changed;
   };
-  const Imported own = import_text(
+  const Imported imported = import_text(
       within("<joint name='loop_end' type='revolute'><pose>0 0 0 0 0 0</pose><parent>foot</parent><child> end </child>"
              "<axis><xyz>0 1 0</xyz></axis></joint>"),
       "four_bar.urdf");
-  EXPECT_EQ(places(own).at("loop_end"), (std::vector<double>{0.12, 0.09}));
-  EXPECT_EQ(section(own, "joints").at("loop_end").substr(0, 26), "{revolute: [rocker, couple");
-  EXPECT_EQ(section(own, "joints").size(), 4U);
+  EXPECT_EQ(places(imported).at("loop_end"), (std::vector<double>{0.12, 0.09}));
+  EXPECT_EQ(section(imported, "joints").at("loop_end").substr(0, 26), "{revolute: [rocker, couple");
+  EXPECT_EQ(section(imported, "joints").size(), 4U);
   for (const char* wrong :
        {"<joint name='l' type='fixed'><parent>nobody</parent><child>end</child></joint>",
         "<joint name='l' type='gearbox'><parent>foot</parent><child>end</child></joint>",
@@ -140,49 +140,50 @@ TEST(Urdf, FixesABushThatTurnsIdly) {
   }
   ImportOptions options;
   options.side = "closed_loop: [[end, foot]]\ntype: ['6d']\nname_mot: motor\n";
-  const Imported own = import_text(text, "robot.urdf", options);
-  EXPECT_TRUE(has_note(own, "link end turns idly between pins end_weld and foot_weld and was fixed to link coupler"))
-      << own.text;
-  EXPECT_EQ(section(own, "links").size(), 3U);
-  EXPECT_EQ(section(own, "joints").size(), 4U);
+  const Imported imported = import_text(text, "robot.urdf", options);
+  EXPECT_TRUE(
+      has_note(imported, "link end turns idly between pins end_weld and foot_weld and was fixed to link coupler"))
+      << imported.text;
+  EXPECT_EQ(section(imported, "links").size(), 3U);
+  EXPECT_EQ(section(imported, "joints").size(), 4U);
 }
 
 TEST(Mjcf, MakesAPinOfTwoBalls) {
-  const Imported own = imported("mjcf/pin_of_two_connects.xml");
-  EXPECT_TRUE(has_note(own, "balls C and C2 between link coupler and link rocker are one pin"));
-  EXPECT_EQ(own.text.find("spatial"), std::string::npos);
+  const Imported file = imported("mjcf/pin_of_two_connects.xml");
+  EXPECT_TRUE(has_note(file, "balls C and C2 between link coupler and link rocker are one pin"));
+  EXPECT_EQ(file.text.find("spatial"), std::string::npos);
 }
 
 /// A ball of 1000 kg/m^3 at (0.12, 0.09), welded to a rocker of 0.5 kg at (0.1, 0): Steiner.
 TEST(Mjcf, AddsTheMassesOfWeldedBodies) {
-  const Imported own = imported("mjcf/weld.xml");
+  const Imported file = imported("mjcf/weld.xml");
   const double ball = 4000 * std::acos(-1.0) / 3 * 1e-9, rocker = 0.5, mass = ball + rocker;
   const double x = (ball * 0.12 + rocker * 0.1) / mass, y = ball * 0.09 / mass;
   const double inertia = 0.4 * ball * 1e-6 + ball * (std::pow(0.12 - x, 2) + std::pow(0.09 - y, 2)) +
                          rocker * (0.01 * 0.01 + 0.02 * 0.02) / 3 + rocker * (std::pow(0.1 - x, 2) + y * y);
-  const std::string link = section(own, "links").at("tip");
+  const std::string link = section(file, "links").at("tip");
   EXPECT_NEAR(std::stod(link.substr(link.find("mass: ") + 6)), mass, 1e-11);
   EXPECT_NEAR(std::stod(link.substr(link.find("inertia: ") + 9)), inertia, 1e-13);
-  EXPECT_NEAR(places(own).at("G_tip")[0], x, 2e-10);
-  EXPECT_NEAR(places(own).at("G_tip")[1], y, 2e-10);
+  EXPECT_NEAR(places(file).at("G_tip")[0], x, 2e-10);
+  EXPECT_NEAR(places(file).at("G_tip")[1], y, 2e-10);
 }
 
 /// A cylinder of aluminium by its default class.
 TEST(Mjcf, ReadsDefaultClasses) {
-  const Imported own = imported("mjcf/defaults.xml");
+  const Imported file = imported("mjcf/defaults.xml");
   const double pi = std::acos(-1.0), mass = 2700 * pi * 1e-4 * 0.3;
-  const std::string link = section(own, "links").at("a");
+  const std::string link = section(file, "links").at("a");
   EXPECT_NEAR(std::stod(link.substr(link.find("mass: ") + 6)), mass, 1e-11);
   EXPECT_NEAR(std::stod(link.substr(link.find("inertia: ") + 9)), mass * (1e-4 / 4 + 0.0225 / 3), 1e-13);
-  EXPECT_TRUE(has_note(own, "damping of <joint> (2)"));
-  EXPECT_NE(section(own, "workspace").at("theta2").find("57.295779513 deg"), std::string::npos);
+  EXPECT_TRUE(has_note(file, "damping of <joint> (2)"));
+  EXPECT_NE(section(file, "workspace").at("theta2").find("57.295779513 deg"), std::string::npos);
 }
 
 TEST(Mjcf, TakesTheKeyframeForThePosture) {
-  const Imported own = imported("mjcf/keyframe_and_degrees.xml");
-  EXPECT_TRUE(has_note(own, "the posture is that of keyframe home"));
-  EXPECT_NEAR(apart(places(own).at("A"), places(own).at("B")), 0.05, 3e-10);
-  EXPECT_GT(std::abs(places(own).at("B")[0] - 0.03), 1e-3);
+  const Imported file = imported("mjcf/keyframe_and_degrees.xml");
+  EXPECT_TRUE(has_note(file, "the posture is that of keyframe home"));
+  EXPECT_NEAR(apart(places(file).at("A"), places(file).at("B")), 0.05, 3e-10);
+  EXPECT_GT(std::abs(places(file).at("B")[0] - 0.03), 1e-3);
 }
 
 /// A capsule between two places has the moment of inertia of a cylinder and two half balls.
@@ -210,8 +211,8 @@ TEST(Mjcf, MakesAUniversalJointOfTwoHinges) {
   const std::string text =
       "<mujoco><worldbody><body name='a'><joint name='p' axis='1 0 0'/><joint name='q' axis='0 1 0'/>"
       "<body name='b' pos='0 0 1'><joint name='r' axis='1 0 0'/></body></body></worldbody></mujoco>";
-  const Imported own = import_text(text, "m.xml");
-  EXPECT_NE(section(own, "joints").at("p").find("universal: [ground, a], at: p, axes: [[1, 0, 0], [0, 1, 0]]"),
+  const Imported imported = import_text(text, "m.xml");
+  EXPECT_NE(section(imported, "joints").at("p").find("universal: [ground, a], at: p, axes: [[1, 0, 0], [0, 1, 0]]"),
             std::string::npos);
 }
 
@@ -225,13 +226,13 @@ TEST(Sdf, FindsThePlaneHoweverItLies) {
     pose.precision(17);
     pose << "<frame name=\"tilt\"><pose>" << turn(random) << " " << turn(random) << " " << turn(random) << " "
          << turn(random) << " " << turn(random) << " " << turn(random) << "</pose></frame>";
-    std::string own = text;
-    const std::size_t at = own.find("<frame name=\"tilt\">"), end = own.find("</frame>", at) + 8;
-    own.replace(at, end - at, pose.str());
-    const std::size_t axis = own.find("<xyz expressed_in=\"__model__\">0 -1 0</xyz>");
-    own.replace(axis, 42, "<xyz expressed_in=\"tilt\">0 0 1</xyz>");
-    const Imported found = import_text(own, "m.sdf");
-    EXPECT_EQ(found.text.find("spatial"), std::string::npos) << own;
+    std::string changed = text;
+    const std::size_t at = changed.find("<frame name=\"tilt\">"), end = changed.find("</frame>", at) + 8;
+    changed.replace(at, end - at, pose.str());
+    const std::size_t axis = changed.find("<xyz expressed_in=\"__model__\">0 -1 0</xyz>");
+    changed.replace(axis, 42, "<xyz expressed_in=\"tilt\">0 0 1</xyz>");
+    const Imported found = import_text(changed, "m.sdf");
+    EXPECT_EQ(found.text.find("spatial"), std::string::npos) << changed;
     const auto p = places(found);
     ASSERT_EQ(p.size(), 4U) << found.text;
     EXPECT_NEAR(apart(p.at("A"), p.at("B")), 0.05, 1e-9);
@@ -266,17 +267,18 @@ TEST(Sdf, RefusesByName) {
 TEST(Sdf, RefusesJointsThatCannotFollow) {
   const std::string text = bytes_of(path_of("sdf/four_bar_1_6.sdf"));
   for (const std::string place : {"</axis>", "</joint>"}) {
-    std::string own = text;
-    own.insert(own.find(place), place == "</axis>" ? "<mimic joint='C'/>" : "<drake:mimic joint='C'/>");
-    EXPECT_NE(refusal_of(own).find("joint A follows joint C, but no link has both"), std::string::npos)
-        << refusal_of(own);
+    std::string changed = text;
+    changed.insert(changed.find(place), place == "</axis>" ? "<mimic joint='C'/>" : "<drake:mimic joint='C'/>");
+    EXPECT_NE(refusal_of(changed).find("joint A follows joint C, but no link has both"), std::string::npos)
+        << refusal_of(changed);
   }
 }
 
 /// Where a point is when the drawn angle of `link`, by which the coordinate is named, has changed.
-std::array<double, 3> moved(const Imported& own, const std::string& point, const std::string& link, double turned) {
-  const Mechanism m = mechanism_of(own);
-  const auto drawn = places(own);
+std::array<double, 3> moved(const Imported& imported, const std::string& point, const std::string& link,
+                            double turned) {
+  const Mechanism m = mechanism_of(imported);
+  const auto drawn = places(imported);
   double start = 0;
   for (const Link& one : m.links) {
     if (one.name != link) continue;
@@ -292,21 +294,21 @@ std::array<double, 3> moved(const Imported& own, const std::string& point, const
 }
 
 /// A joint about one axis that turns with another one by a ratio: the tip, from its place in the posture on.
-void expect_turned(const Imported& own, const std::string& tip, const std::vector<double>& pin,
+void expect_turned(const Imported& imported, const std::string& tip, const std::vector<double>& pin,
                    const std::vector<double>& start, const std::string& link, double ratio) {
   const double turned = 0.37, x = start[0] - pin[0], y = start[1] - pin[1];
   const double c = std::cos(ratio * turned), s = std::sin(ratio * turned);
-  const auto at = moved(own, tip, link, turned);
+  const auto at = moved(imported, tip, link, turned);
   EXPECT_NEAR(at[0], pin[0] + c * x - s * y, 1e-9);
   EXPECT_NEAR(at[1], pin[1] + s * x + c * y, 1e-9);
 }
 
 /// The axes are opposite, so that fingers of a ratio of 1 turn apart.
 TEST(Mjcf, TurnsJointsThatFollow) {
-  const Imported own = imported("mjcf/joint_equality.xml");
-  EXPECT_EQ(section(own, "joints").at("R_follows"), "{gear: [right, left], centres: [R, L], teeth: [20, 20]}");
-  EXPECT_TRUE(has_note(own, "joint R follows joint L: a pair of gears stands for what joins"));
-  expect_turned(own, "right_tip", {0.02, 0}, {0.05, 0.08}, "left", -1);
+  const Imported file = imported("mjcf/joint_equality.xml");
+  EXPECT_EQ(section(file, "joints").at("R_follows"), "{gear: [right, left], centres: [R, L], teeth: [20, 20]}");
+  EXPECT_TRUE(has_note(file, "joint R follows joint L: a pair of gears stands for what joins"));
+  expect_turned(file, "right_tip", {0.02, 0}, {0.05, 0.08}, "left", -1);
   // R = 0.1 - 2 L about -z: turned to -0.1 rad first, and by twice the angle from then on.
   const Imported offset = imported("mjcf/joint_equality_with_offset.xml");
   const double c = std::cos(0.1), s = std::sin(-0.1);
@@ -316,37 +318,37 @@ TEST(Mjcf, TurnsJointsThatFollow) {
 }
 
 TEST(Mjcf, HoldsAJointThatFollowsNothing) {
-  const Imported own = imported("mjcf/joint_held.xml");
-  EXPECT_EQ(section(own, "joints").size(), 1U);
+  const Imported file = imported("mjcf/joint_held.xml");
+  EXPECT_EQ(section(file, "joints").size(), 1U);
   const double tip_x = 0.03 + 0.05 * std::cos(0.5), tip_y = 0.04 + 0.05 * std::sin(0.5);
-  EXPECT_LT(apart(places(own).at("tip"), {tip_x, tip_y}), 1e-9);
+  EXPECT_LT(apart(places(file).at("tip"), {tip_x, tip_y}), 1e-9);
 }
 
 TEST(Urdf, TurnsJointsThatFollow) {
   expect_turned(imported("urdf/mimic.urdf"), "tip", {0.1, 0}, {0.1, 0.08}, "left", -1);
-  const Imported own = imported("urdf/mimic_with_offset.urdf");
-  EXPECT_EQ(section(own, "joints").at("r_follows"), "{gear: [right, left], centres: [r, l], teeth: [20, -60]}");
-  expect_turned(own, "tip", {0.1, 0}, {0.1 - 0.08 * std::sin(0.5), 0.08 * std::cos(0.5)}, "left", 3);
+  const Imported file = imported("urdf/mimic_with_offset.urdf");
+  EXPECT_EQ(section(file, "joints").at("r_follows"), "{gear: [right, left], centres: [r, l], teeth: [20, -60]}");
+  expect_turned(file, "tip", {0.1, 0}, {0.1 - 0.08 * std::sin(0.5), 0.08 * std::cos(0.5)}, "left", 3);
 }
 
 /// rp follows l, which no link has with it; it turns against r on the right finger, which follows l too. Pads that turn
 /// back by what their fingers turn keep their direction.
 TEST(Urdf, TurnsJointsThatFollowByWayOfOthers) {
-  const Imported own = imported("urdf/mimic_by_another.urdf");
-  EXPECT_TRUE(has_note(own, "joint rp follows joint r: a belt stands for what joins"));
-  EXPECT_TRUE(has_note(own, "joint lp follows joint l: a belt stands for what joins"));
+  const Imported file = imported("urdf/mimic_by_another.urdf");
+  EXPECT_TRUE(has_note(file, "joint rp follows joint r: a belt stands for what joins"));
+  EXPECT_TRUE(has_note(file, "joint lp follows joint l: a belt stands for what joins"));
   const double turned = 0.37, c = std::cos(-turned), s = std::sin(-turned);
-  const auto at = moved(own, "tip", "left", turned);
+  const auto at = moved(file, "tip", "left", turned);
   EXPECT_NEAR(at[0], 0.03 + c * 0.02 - s * 0.06 - 0.01, 1e-9);
   EXPECT_NEAR(at[1], s * 0.02 + c * 0.06 + 0.03, 1e-9);
 }
 
 /// theta_2 = -theta_1 / 2: the motor's wheel turns twice as fast, and the coordinate is the other one's angle.
 TEST(Sdf, ReadsGearboxesAndJointsThatFollow) {
-  const Imported own = imported("sdf/gearbox.sdf");
-  EXPECT_EQ(section(own, "joints").at("B_follows"), "{gear: [large, small], centres: [B, A], teeth: [40, 20]}");
-  EXPECT_EQ(section(own, "workspace").at("theta"), "{angle: [0, 360 deg], of: large}");
-  expect_turned(own, "C", {0, 0}, {0.03, 0.04}, "large", -2);
+  const Imported file = imported("sdf/gearbox.sdf");
+  EXPECT_EQ(section(file, "joints").at("B_follows"), "{gear: [large, small], centres: [B, A], teeth: [40, 20]}");
+  EXPECT_EQ(section(file, "workspace").at("theta"), "{angle: [0, 360 deg], of: large}");
+  expect_turned(file, "C", {0, 0}, {0.03, 0.04}, "large", -2);
   const Imported fingers = imported("sdf/mimic_1_11.sdf");
   expect_turned(fingers, "G_right", {0.06, 0}, {0.08, 0.09}, "left", -1);
   std::string other = bytes_of(path_of("sdf/gearbox.sdf"));
@@ -369,11 +371,11 @@ TEST(Urdf, WithoutJointsIsToldSo) {
 
 TEST(Motors, ThatAreChosenAreNamedAsInTheFile) {
   // Two cranks on one pin.
-  const Imported own = import_text(
+  const Imported imported = import_text(
       "M[J[R, P[0.0, 0.0], L[ground, L1, L2]], J[R, P[-20.0, 30.0], L[L1, L3]], J[R, P[30.0, 25.0], L[L2, L4]], "
       "J[R, P[5.0, 70.0], L[L3, L4]]]",
       "m.txt");
-  EXPECT_TRUE(has_note(own, "the source names no motor: P0 and P0_2 drive the mechanism here")) << own.text;
+  EXPECT_TRUE(has_note(imported, "the source names no motor: P0 and P0_2 drive the mechanism here")) << imported.text;
 }
 
 }  // namespace

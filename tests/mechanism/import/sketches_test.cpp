@@ -5,18 +5,18 @@ namespace clearloci::mechanism {
 namespace {
 
 TEST(Dxf, MakesLinksOfLayersAndPinsOfCircles) {
-  const Imported own = imported("dxf/four_bar_r2000.dxf");
-  const auto joints = section(own, "joints");
+  const Imported file = imported("dxf/four_bar_r2000.dxf");
+  const auto joints = section(file, "joints");
   EXPECT_EQ(joints.at("P1").substr(0, 54), "{revolute: [ground, crank], at: P1, actuated: true, cl");
   EXPECT_EQ(joints.at("P2").substr(0, 36), "{revolute: [crank, coupler], at: P2,");
-  EXPECT_NE(own.text.find("end_effector: {link: coupler, at: P5}"), std::string::npos);
+  EXPECT_NE(file.text.find("end_effector: {link: coupler, at: P5}"), std::string::npos);
 }
 
 TEST(Dxf, ReadsR12WithItsPolylines) {
-  const Imported own = imported("dxf/four_bar_r12.dxf");
-  EXPECT_TRUE(has_note(own, "mm were taken"));
-  EXPECT_TRUE(has_note(own, "left out: TEXT (1)"));
-  EXPECT_EQ(places(own), places(imported("dxf/inches.dxf")));
+  const Imported file = imported("dxf/four_bar_r12.dxf");
+  EXPECT_TRUE(has_note(file, "mm were taken"));
+  EXPECT_TRUE(has_note(file, "left out: TEXT (1)"));
+  EXPECT_EQ(places(file), places(imported("dxf/inches.dxf")));
   EXPECT_NE(imported("dxf/inches.dxf").text.find("units: {length: in}"), std::string::npos);
 }
 
@@ -44,40 +44,40 @@ TEST(Pyslvs, RefusesByPlace) {
 
 /// The posture is found; the lengths are those of the expressions.
 TEST(Cuik, FindsAPostureInWhichAllJointsMeet) {
-  const Imported own = imported("cuik/four_bar.world");
-  EXPECT_TRUE(has_note(own, "the file has no posture"));
-  const auto at = places(own);
+  const Imported file = imported("cuik/four_bar.world");
+  EXPECT_TRUE(has_note(file, "the file has no posture"));
+  const auto at = places(file);
   EXPECT_NEAR(apart(at.at("r1"), at.at("r2")), 0.75, 3e-9);
   EXPECT_NEAR(apart(at.at("r2"), at.at("r3")), 1.2, 3e-9);
   EXPECT_NEAR(apart(at.at("r3"), at.at("r4")), 1, 3e-9);
   EXPECT_NEAR(apart(at.at("r1"), at.at("r4")), 1.25, 3e-9);
-  EXPECT_EQ(own.text, imported("cuik/four_bar.world").text);
+  EXPECT_EQ(file.text, imported("cuik/four_bar.world").text);
 }
 
 /// Six legs: each as long as its range says, from the base to the plate, whose own distances are 1 and the root of 2.
 TEST(Cuik, FindsAPlatformOnLegs) {
-  const Imported own = imported("cuik/legs.world");
-  const auto at = places(own);
+  const Imported file = imported("cuik/legs.world");
+  const auto at = places(file);
   EXPECT_NEAR(apart(at.at("leg1_b"), at.at("leg2_b")), 1, 5e-9);
   EXPECT_NEAR(apart(at.at("leg1_b"), at.at("leg3_b")), 1, 5e-9);
   EXPECT_NEAR(apart(at.at("leg2_b"), at.at("leg3_b")), std::sqrt(2), 5e-9);
   const double leg = apart(at.at("leg1_a"), at.at("leg1_b"));
   EXPECT_GT(leg, 0.5);
   EXPECT_LT(leg, 1.5);
-  EXPECT_EQ(section(own, "workspace").at("s1"), "{stroke: [0.5, 1.5], of: leg1}");
+  EXPECT_EQ(section(file, "workspace").at("s1"), "{stroke: [0.5, 1.5], of: leg1}");
 }
 
 /// Guides may turn about their axes in space: a plane is looked for first.
 TEST(Cuik, FindsAPlanarPostureOfALegWithAGuide) {
-  const Imported own = imported("cuik/guide_in_a_leg.world");
-  EXPECT_TRUE(has_note(own, "all links move in one plane"));
-  const auto at = places(own);
+  const Imported file = imported("cuik/guide_in_a_leg.world");
+  EXPECT_TRUE(has_note(file, "all links move in one plane"));
+  const auto at = places(file);
   EXPECT_NEAR(apart(at.at("r1"), at.at("r2")), 0.5, 3e-9);
   const double leg = apart(at.at("r3"), at.at("r2"));
   EXPECT_GT(leg, 0.6);
   EXPECT_LT(leg, 1.4);
-  EXPECT_EQ(section(own, "workspace").at("s"), "{stroke: [0.6, 1.4], of: p4}");
-  for (const char* word : {"white", "25", "cos"}) EXPECT_FALSE(has_note(own, word)) << word;
+  EXPECT_EQ(section(file, "workspace").at("s"), "{stroke: [0.6, 1.4], of: p4}");
+  for (const char* word : {"white", "25", "cos"}) EXPECT_FALSE(has_note(file, word)) << word;
 }
 
 /// Of a rhombus the loop can fold, with both ends of a link at one place: another posture is taken.

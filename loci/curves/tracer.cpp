@@ -1,0 +1,224 @@
+#include "loci/curves/tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/dense_terms.hpp"
+#include "loci/curves/vertices.hpp"
+
+namespace clearloci::loci::sheet {
+namespace {
+
+// The curve is traced in a box that is wider by about this share, the same on no two sides, so that its edges are in
+// general position; then it is cut at the sides of the box itself. Wide enough that what touches a side leaves the
+// wider box at two places well apart, and narrow enough to cost nothing.
+constexpr double box_margin = 1e-3;
+
+constexpr std::array<double, 4> margin_shares = {-1.137, 1.291, -1.073, 1.419};
+
+// Of an open cell that may be out of reach.
+constexpr int most_halvings_of_open = 8;
+
+core::StraightLine as_line(const SheetFunction& function) {
+  if (!function.line.empty()) return function.line;
+  core::StraightLineBuilder builder;
+  std::vector<int> variables;
+  for (int v = 0; v < function.polynomial.variables; ++v) variables.push_back(builder.variable(v));
+  return builder.line(builder.polynomial(function.polynomial, variables));
+}
+
+}  // namespace
+
+SheetFunction square_of(const core::RootTower& tower, int root, const std::vector<Star>& special) {
+  const core::Root& root_of_line = tower.roots[static_cast<std::size_t>(root)];
+  bool by_line = std::any_of(special.begin(), special.end(),
+                             [&](const Star& star) { return star.apex && star.power_of_root(root) > 0; });
+  if (root_of_line.role == core::RootRole::working_mode)
+    for (std::size_t j = 0; j < tower.roots.size(); ++j)
+      by_line = by_line || core::depends_on(root_of_line.square, 2 + static_cast<int>(j));
+  return {without_denominators(root_of_line.square, tower), by_line ? root_of_line.line : core::StraightLine{}};
+}
+
+Tracer::Tracer(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<core::Rational>& lower,
+               const std::vector<core::Rational>& upper, const SheetFunction& sheet, const SheetTraceOptions& options)
+    : tower_(tower),
+      mode_(mode),
+      options_(options),
+      own_(subtower(tower, mode, {sheet.polynomial})),
+      sheet_(sheet),
+      bases_(bases(tower)) {
+  curve_ = narrowed(sheet, own_);
+  Interval* const as_interval = nullptr;
+  const Interval x = hull(constant_as(lower[0], as_interval), constant_as(upper[0], as_interval));
+  const Interval y = hull(constant_as(lower[1], as_interval), constant_as(upper[1], as_interval));
+  box_ = {x.lower(), x.upper(), y.lower(), y.upper()};
+  for (int i = 0; i < 4; ++i) sides_[i] = (i % 2 == 0 ? lower : upper)[static_cast<std::size_t>(i / 2)];
+  size_ = std::max(x.width(), y.width());
+  wide_ = box_;
+  for (int i = 0; i < 4; ++i) wide_[i] += margin_shares[i] * box_margin * size_;
+}
+
+void Tracer::find(const std::vector<Cutter>& cutters) {
+  Partition parts = parts_of(own_);
+  TreeOptions tree;
+  tree.most_cells = options_.most_cells;
+  tree.extended = !options_.sketch;
+  tree.stop = options_.stop;
+  tree.whole_or_nothing = options_.whole_or_nothing;
+  graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+  if (graph_.open_at_corner && !options_.sketch) {
+    skewed_ = true;
+    parts = parts_of(own_);
+    graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+  }
+  own_stars_ = parts.stars;
+  if (graph_.stopped && options_.whole_or_nothing) return;
+  for (Crossing& crossing : graph_.crossings)
+    if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && !cutters.empty())
+      crossing.label = core::ArcEnd::direct_singularity;
+  std::vector<Cut> cuts;
+  for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
+  for (const int j : own_.dropped)
+    if (!tower_.roots[static_cast<std::size_t>(j)].is_angle())  // no sheet ends there
+      cuts.push_back({square_of(tower_, j, options_.special), core::ArcEnd::boundary, true});
+  add_box_cuts(cuts);
+  if (!graph_.stretches.empty())
+    for (const Cut& cut : cuts) apply(cut, parts);
+  settle_clusters();
+  std::vector<Chain> pieces;
+  for (Chain& chain : chains(graph_)) {
+    const core::Point2 inner = point_inside(graph_, chain.legs, size_);
+    if (options_.colour) chain.colour = options_.colour(inner);
+    if (wanted(inner, along_side(chain.colour), cuts)) pieces.push_back(std::move(chain));
+  }
+  pieces_ = join_at_junctions(graph_, std::move(pieces));
+}
+
+SheetTrace Tracer::trace(double tolerance) const {
+  if (graph_.stopped && options_.whole_or_nothing) return left_open();
+  SheetTrace trace;
+  trace.isolated_points = isolated_points_;
+  std::vector<PlaneCell> undecided = graph_.undecided;
+  for (const Chain& chain : pieces_) trace.arcs.push_back(place(chain, tolerance, undecided));
+  std::erase_if(undecided, [&](const PlaneCell& cell) { return !meets_box(cell); });
+  if (!undecided.empty() && !own_.dropped.empty()) {
+    const SheetProgram whole(tower_, std::vector<core::Polynomial>{});
+    SheetCell look(whole, mode_);
+    std::erase_if(undecided, [&](const PlaneCell& cell) { return is_out_of_reach(look, cell, most_halvings_of_open); });
+  }
+  for (const PlaneCell& cell : open_places(undecided, size_))
+    trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
+  trace.certified = trace.undecided.empty();
+  // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
+  trace.stopped = options_.stop && options_.stop();
+  if (options_.certificate) trace.claims.push_back(claim());
+  return trace;
+}
+
+SheetTrace Tracer::left_open() const {
+  SheetTrace trace;
+  trace.certified = false;
+  for (const PlaneCell& cell : graph_.undecided)
+    trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
+  return trace;
+}
+
+core::SheetClaim Tracer::claim() const {
+  const Patch& plane = graph_.patches[0];
+  std::vector<int> ends(plane.tree->leaves().size(), 0);
+  for (const Stretch& stretch : graph_.stretches) {
+    if (stretch.patch != 0 || stretch.leaf < 0) continue;
+    for (const StretchEnd& end : stretch.ends)
+      if (const Crossing::Kind kind = graph_.crossings[end.crossing].kind;
+          kind != Crossing::Kind::cut && kind != Crossing::Kind::edge)
+        ++ends[stretch.leaf];
+  }
+  core::SheetClaim claim;
+  claim.function = widened(as_line(curve_), own_);
+  claim.domain = {plane.domain.x.lower(), plane.domain.x.upper(), plane.domain.y.lower(), plane.domain.y.upper()};
+  claim.cells = plane.tree->preorder(ends);
+  for (core::CellNode& node : claim.cells)
+    if (node.kind == core::CellNode::Kind::graph && node.axis >= 2) node.axis = 2 + own_.kept[node.axis - 2];
+  return claim;
+}
+
+TracedArc Tracer::place(const Chain& chain, double tolerance, std::vector<PlaneCell>& undecided) const {
+  TracedArc traced;
+  traced.colour = chain.colour;
+  traced.inner = point_inside(graph_, chain.legs, size_);
+  traced.arc.closed = chain.closed;
+  traced.arc.ends = chain.ends;
+  const auto colour = static_cast<std::size_t>(chain.colour);
+  if (colour < options_.closed_form.size() && options_.closed_form[colour]) {
+    const Leg &first = chain.legs.front(), &last = chain.legs.back();
+    traced.arc.points = {graph_.crossings[first.stretch->ends[first.forward ? 0 : 1].crossing].at, traced.inner,
+                         graph_.crossings[last.stretch->ends[last.forward ? 1 : 0].crossing].at};
+    return traced;
+  }
+  PlacedArc placed = place_vertices(graph_, own_.mode, chain.legs, tolerance, size_);
+  undecided.insert(undecided.end(), placed.open.begin(), placed.open.end());
+  traced.arc.length = placed.length;
+  traced.arc.points = std::move(placed.points);
+  return traced;
+}
+
+void Tracer::add_box_cuts(std::vector<Cut>& cuts) const {
+  const int n = tower_.variables();
+  for (int i = 0; i < 4; ++i) {
+    const core::Polynomial line = core::variable_polynomial(n, i / 2) - core::constant_polynomial(n, sides_[i]);
+    const core::Polynomial sign = core::constant_polynomial(n, i % 2 == 0 ? 1 : -1);
+    cuts.push_back({{sign * line}, core::ArcEnd::box, true, i});
+  }
+}
+
+bool Tracer::is_out_of_reach(SheetCell& look, const PlaneCell& cell, int halvings) {
+  if (!look.enter(cell.x, cell.y)) return true;
+  if (halvings == 0) return false;
+  const bool wide = cell.x.width() > cell.y.width();
+  const Interval& range = wide ? cell.x : cell.y;
+  const Interval parts[] = {{range.lower(), range.middle()}, {range.middle(), range.upper()}};
+  return std::all_of(std::begin(parts), std::end(parts), [&](const Interval& part) {
+    return is_out_of_reach(look, wide ? PlaneCell{part, cell.y} : PlaneCell{cell.x, part}, halvings - 1);
+  });
+}
+
+int Tracer::along_side(int colour) const {
+  const auto c = static_cast<std::size_t>(colour);
+  return c < options_.along_side.size() ? options_.along_side[c] : -1;
+}
+
+void Tracer::settle_clusters() {
+  for (const Cluster& cluster : graph_.clusters) {
+    const Patch& patch = graph_.patches[cluster.patch];
+    const double width = std::max(cluster.cell.x.width(), cluster.cell.y.width());
+    const double size = std::max(patch.domain.x.width(), patch.domain.y.width());
+    if (width > widest_place * size) continue;
+    const std::optional<core::Point2> place = critical_point(*patch.program, own_.mode, cluster.cell, size);
+    if (!place) continue;
+    const core::Point2 at = patch.chart.to_plane((*place)[0], (*place)[1]);
+    if (cluster.node >= 0) graph_.crossings[cluster.node].at = at;
+    const bool is_known = std::any_of(isolated_points_.begin(), isolated_points_.end(), [&](const core::Point2& other) {
+      return std::hypot(other[0] - at[0], other[1] - at[1]) <= same_place * size_;
+    });
+    if (cluster.lonely && !is_known && meets_box({at[0], at[1]})) isolated_points_.push_back(at);
+  }
+}
+
+bool Tracer::wanted(const core::Point2& inner, int along, const std::vector<Cut>& cuts) {
+  for (const Cut& cut : cuts) {
+    if (!cut.keep || (cut.side >= 0 && cut.side == along)) continue;
+    if (cut.side >= 0) {
+      const core::Rational off = core::Rational(inner[static_cast<std::size_t>(cut.side / 2)]) - sides_[cut.side];
+      if (cut.side % 2 == 0 ? off < 0 : off > 0) return false;
+      continue;
+    }
+    const Subtower sub = subtower(tower_, mode_, {cut.sheet.polynomial});
+    const SheetProgram program(sub.tower, {narrowed(cut.sheet.polynomial, sub)});
+    const std::optional<int> sign = PointSign(program, sub.mode)(inner[0], inner[1]);
+    if (!sign || *sign < 0) return false;
+    if (*sign == 0) graph_.undecided.push_back({inner[0], inner[1]});
+  }
+  return true;
+}
+
+}  // namespace clearloci::loci::sheet
