@@ -100,11 +100,11 @@ std::optional<PrecisePoints> precise_posture(const Mechanism& mechanism, const s
   const Placement<PreciseNumbers> placed(mechanism, sides, {values});
   PrecisePoints points;
   for (const auto& point : placed.points()) {
-    std::array<mpf_class, 3>& own = points.emplace_back();
-    for (std::size_t i = 0; i < own.size(); ++i) {
+    std::array<mpf_class, 3>& place = points.emplace_back();
+    for (std::size_t i = 0; i < place.size(); ++i) {
       if (mpfr_number_p(point[i].get()) == 0) return std::nullopt;
-      own[i].set_prec(precise_bits);
-      mpfr_get_f(own[i].get_mpf_t(), point[i].get(), MPFR_RNDN);
+      place[i].set_prec(precise_bits);
+      mpfr_get_f(place[i].get_mpf_t(), point[i].get(), MPFR_RNDN);
     }
   }
   return points;

@@ -219,15 +219,15 @@ TEST(Zones, OfASketchDoNotDependOnTheRoundingOfVertices) {
       for (const core::Zone& zone : loci::zones(traced.problem, traced.map, true).map.zones) list.push_back(zone.size);
       return list;
     };
-    const std::vector<double> own = areas();
-    EXPECT_GE(own.size(), 2U);
+    const std::vector<double> drawn = areas();
+    EXPECT_GE(drawn.size(), 2U);
     for (core::LocusCurve& curve : traced.map.curves)
       for (core::Arc& arc : curve.arcs)
         for (core::Point2& at : arc.points)
           for (double& c : at) c += steps(random) * std::numeric_limits<double>::epsilon();
     const std::vector<double> moved = areas();
-    ASSERT_EQ(moved.size(), own.size());
-    for (std::size_t z = 0; z < own.size(); ++z) EXPECT_NEAR(moved[z], own[z], traced.map.tolerance) << z;
+    ASSERT_EQ(moved.size(), drawn.size());
+    for (std::size_t z = 0; z < drawn.size(); ++z) EXPECT_NEAR(moved[z], drawn[z], traced.map.tolerance) << z;
   }
 }
 
