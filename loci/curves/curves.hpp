@@ -16,3 +16,4 @@
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/pose_zeros.hpp"
 #include "loci/curves/sheet_maps.hpp"
+#include "loci/curves/simple_zeros.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/root_tower.hpp"
-#include "loci/numbers/multi_interval.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci {
 

@@ -5,7 +5,6 @@
 
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
-#include "loci/curves/simple_zeros.hpp"
 #include "loci/numbers/numbers.hpp"
 #include "loci/points/sheet_roots.hpp"
 
