@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace clearloci::numeric {
@@ -16,6 +17,10 @@ constexpr std::array<double, 3> distances = {1e-5, 1e-5 * approach_step, 1e-5 * 
 /// An arc is approached from no farther than this part of its length, lest the zeros be others'. Where that is below
 /// `least_distance` of the box, rounding errors of vertices would tell: the arc is left undecided.
 constexpr double share_of_length = 1e-3, least_distance = 1e-6;
+
+/// Beyond the rounding of vertices: an arc whose other side is reached this close to it, and no farther, is no
+/// boundary, but one is so near that nothing tends to anything before it.
+constexpr double beside_vertices = 1e-11;
 
 /// Exponents of t are multiples of a half: nearer than this to one they are taken for it.
 constexpr double exponent_doubt = 0.2;
@@ -89,16 +94,21 @@ std::vector<Approach> approaches(const NumericModel& model, std::span<const int>
   const double nearer = std::min(1.0, share_of_length * length / (distances.front() * size));
   if (nearer * distances.front() < least_distance) return ways;
   for (const ArcPlace& place : places_of(curve, arc.points)) {
+    const auto beside = [&](double t) {
+      const std::array pose = {place.at[0] - t * place.along[1], place.at[1] + t * place.along[0]};
+      return bounded_numerators(model, pose, mode);
+    };
+    std::vector<Approach> both;
+    bool near_boundary = false;
     for (const double side : {1.0, -1.0}) {
       Approach way{place.at, {-place.along[1], place.along[0]}, {}};
-      for (const double distance : distances) {
-        const double t = side * nearer * distance * size;
-        const std::array pose = {place.at[0] - t * place.along[1], place.at[1] + t * place.along[0]};
-        way.at.push_back(bounded_numerators(model, pose, mode));
-      }
+      for (const double distance : distances) way.at.push_back(beside(side * nearer * distance * size));
       if (std::all_of(way.at.begin(), way.at.end(), [](const BoundedNumerators& n) { return n.reachable; }))
-        ways.push_back(std::move(way));
+        both.push_back(std::move(way));
+      else
+        near_boundary = near_boundary || beside(side * beside_vertices * size).reachable;
     }
+    if (!near_boundary) std::move(both.begin(), both.end(), std::back_inserter(ways));
   }
   return ways;
 }

@@ -52,6 +52,17 @@ TEST(OnceDisputed, AChordBesideABend) {
   hold_one("witness/coupler_with_large_roots", "A1", core::Quantity::fx, request, 200, 10000);
 }
 
+// fy vanishes along an arc 7e-10 rad beside the workspace boundary; seen from 1e-7 rad it tends to 9.4 N. The witness
+// disputed the arc. What vanishes along the boundary itself is approached from one side as before.
+TEST(OnceDisputed, AnArcNextToTheBoundary) {
+  LociRequest request;
+  request.joints = {"B2"};
+  request.quantities = {core::Quantity::fy};
+  const Validation validation = validate_loci(corpus("witness/component_beside_the_boundary"), request, {60, 60});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.arcs_held, 2u);
+}
+
 // Its curve ends in a node on the workspace boundary: the end alone fails the last check, not the arcs that lead there.
 TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
   LociRequest request;
