@@ -186,9 +186,10 @@ class Placement {
   Vector beside(const OffsetPoint& form) {
     const Vector& first = point(form.first);
     const Vector u = unit(minus(point(form.second), first));
-    const Vector along = plus(first, times(expression(form.along), u));
-    if (m_.space == Space::spatial) return along;
-    return plus(along, times(expression(form.left), {algebra_.negate(u[1]), u[0], constant(0)}));
+    Vector result = plus(first, times(expression(form.along), u));
+    if (m_.space != Space::spatial)
+      result = plus(result, times(expression(form.left), {algebra_.negate(u[1]), u[0], constant(0)}));
+    return result;
   }
 
   const Mechanism& m_;
