@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace clearloci::numeric {
@@ -93,23 +92,22 @@ std::vector<Approach> approaches(const NumericModel& model, std::span<const int>
     length += std::hypot(arc.points[i][0] - arc.points[i - 1][0], arc.points[i][1] - arc.points[i - 1][1]);
   const double nearer = std::min(1.0, share_of_length * length / (distances.front() * size));
   if (nearer * distances.front() < least_distance) return ways;
+  bool near_boundary = false;
   for (const ArcPlace& place : places_of(curve, arc.points)) {
     const auto beside = [&](double t) {
       const std::array pose = {place.at[0] - t * place.along[1], place.at[1] + t * place.along[0]};
       return bounded_numerators(model, pose, mode);
     };
-    std::vector<Approach> both;
-    bool near_boundary = false;
     for (const double side : {1.0, -1.0}) {
       Approach way{place.at, {-place.along[1], place.along[0]}, {}};
       for (const double distance : distances) way.at.push_back(beside(side * nearer * distance * size));
       if (std::all_of(way.at.begin(), way.at.end(), [](const BoundedNumerators& n) { return n.reachable; }))
-        both.push_back(std::move(way));
+        ways.push_back(std::move(way));
       else
         near_boundary = near_boundary || beside(side * beside_vertices * size).reachable;
     }
-    if (!near_boundary) std::move(both.begin(), both.end(), std::back_inserter(ways));
   }
+  if (near_boundary) ways.clear();
   return ways;
 }
 
