@@ -123,9 +123,15 @@ bool Curve::is_graph_here(int variable) const {
 }
 
 bool Curve::is_graph(const Rectangle& cell, int variable) {
-  if (!sheet.enter(range(cell.x0, cell.x1), range(cell.y0, cell.y1), variable - 2)) return true;
-  sheet.differentiate();
-  return is_graph_here(variable);
+  const auto is_graph_with = [&](int lift) {
+    if (!sheet.enter(range(cell.x0, cell.x1), range(cell.y0, cell.y1), lift)) return true;
+    sheet.differentiate();
+    return is_graph_here(variable);
+  };
+  if (is_graph_with(variable - 2)) return true;
+  // Slopes by a small root are none through it: where others stand on it, they tell more.
+  return variable < 2 && std::any_of(variables_.begin() + 2, variables_.end(),
+                                     [&](int candidate) { return is_graph_with(candidate - 2); });
 }
 
 /// Looks at a leaf; one that is not shown to be the graph it claims to be is cut into parts that are, or are free.
