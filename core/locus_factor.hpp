@@ -34,6 +34,11 @@ struct NodeForm {
   std::vector<StraightLine> probes;  ///< one a part but for the last
 };
 
+/// Of a numerator or of |A|, and of nothing else.
+inline bool is_of_determinants(FactorRole role) {
+  return role == FactorRole::reaction || role == FactorRole::direct_singularity;
+}
+
 /// One factor of a numerator, of |A|, or of a Qj.
 struct LocusFactor {
   FactorRole role = FactorRole::reaction;

@@ -45,6 +45,15 @@ std::optional<double> root_value(const Root& root, int sign, std::span<const dou
   return sign * std::sqrt(square);
 }
 
+std::vector<std::size_t> roots_under(const Polynomial& p, const RootTower& tower) {
+  const auto has_root = [&](const Polynomial& element, std::size_t j) {
+    return depends_on(element, static_cast<int>(tower.coordinates.size() + j));
+  };
+  return roots_under(
+      tower.roots.size(), [&](std::size_t j) { return has_root(p, j); },
+      [&](std::size_t k, std::size_t j) { return has_root(tower.roots[k].square, j); });
+}
+
 StraightLine line_of_angle(const StraightLine& sine, const StraightLine& cosine) {
   StraightLineBuilder builder;
   const int y = builder.append(sine), x = builder.append(cosine);

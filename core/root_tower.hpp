@@ -78,6 +78,21 @@ struct RootTower {
 /// The value of a root, signed, from those of the variables before it; nothing where its square is negative.
 std::optional<double> root_value(const Root& root, int sign, std::span<const double> at);
 
+/// The roots, in the tower's order, that an element holds or that occur under those that it holds. `holds(j)`: whether
+/// the element holds root j, `under(k, j)`: whether the square of root k does.
+template <class Holds, class Under>
+std::vector<std::size_t> roots_under(std::size_t roots, const Holds& holds, const Under& under) {
+  std::vector<bool> used(roots, false);
+  std::vector<std::size_t> list;
+  for (std::size_t j = roots; j-- > 0;) {
+    used[j] = holds(j);
+    for (std::size_t k = j + 1; k < roots && !used[j]; ++k) used[j] = used[k] && under(k, j);
+    if (used[j]) list.insert(list.begin(), j);
+  }
+  return list;
+}
+std::vector<std::size_t> roots_under(const Polynomial& p, const RootTower& tower);
+
 /// The square of an angle's root, of multiples of its sine and cosine by the same positive factor.
 StraightLine line_of_angle(const StraightLine& sine, const StraightLine& cosine);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/errors.hpp"
 #include "symbolic/dependent_roots.hpp"
@@ -240,16 +241,10 @@ const std::vector<double>& Elimination::degree_weights() const {
 template <class P>
 double Elimination::norm_degree(const P& sheet) const {
   const auto& roots = geometry_->roots();
-  std::vector<bool> used(roots.size(), false);
-  double degree = sheet.weighted_degree(degree_weights());
-  // The squares of roots that occur bring in the earlier roots.
-  for (std::size_t j = roots.size(); j-- > 0;) {
-    used[j] = sheet.depends_on(roots[j].variable);
-    for (std::size_t k = j + 1; k < roots.size(); ++k)
-      used[j] = used[j] || (used[k] && roots[k].square.depends_on(roots[j].variable));
-    if (used[j]) degree *= 2;
-  }
-  return degree;
+  const std::vector<std::size_t> under = core::roots_under(
+      roots.size(), [&](std::size_t j) { return sheet.depends_on(roots[j].variable); },
+      [&](std::size_t k, std::size_t j) { return roots[k].square.depends_on(roots[j].variable); });
+  return std::ldexp(sheet.weighted_degree(degree_weights()), static_cast<int>(under.size()));
 }
 
 template <class P>

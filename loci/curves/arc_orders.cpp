@@ -371,9 +371,7 @@ std::optional<Germ> ArcOrders::germ(const Polynomial& p, int side) {
 }
 
 std::optional<int> ArcOrders::slope_of(const core::LocusFactor& factor) {
-  const bool divides_norm =
-      factor.role == core::FactorRole::reaction || factor.role == core::FactorRole::direct_singularity;
-  if (!divides_norm || sign_at_point(factor.sheet) != 0) return std::nullopt;
+  if (!core::is_of_determinants(factor.role) || sign_at_point(factor.sheet) != 0) return std::nullopt;
   const std::vector<Polynomial>& curves = factor.implicit;
   if (!rule_)
     return std::find(curves.begin(), curves.end(), algebra_->curve()) == curves.end()

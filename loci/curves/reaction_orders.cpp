@@ -48,7 +48,7 @@ std::vector<int> factors_on(const LocusProblem& problem, const core::Polynomial&
   std::vector<int> list;
   for (std::size_t f = 0; f < problem.factors.size(); ++f) {
     const LocusFactor& factor = problem.factors[f];
-    if (factor.role != FactorRole::reaction && factor.role != FactorRole::direct_singularity) continue;
+    if (!core::is_of_determinants(factor.role)) continue;
     if (factor.implicit.empty() ||
         std::find(factor.implicit.begin(), factor.implicit.end(), curve) != factor.implicit.end())
       list.push_back(static_cast<int>(f));

@@ -304,10 +304,9 @@ class Gathering {
       if (!point) continue;
       ArcOrders arc(problem_.tower, mode(share), algebras_.of(implicit), *point);
       orders = reaction_orders(problem_, arc, factors_on(problem_, implicit));
-      const FactorRole role = factor(share).role;
-      const bool own_too = role != FactorRole::reaction && role != FactorRole::direct_singularity;
-      orders.decided = orders.decided && (own_too || std::find(orders.vanishes.begin(), orders.vanishes.end(),
-                                                               share.factor) != orders.vanishes.end());
+      const bool is_other = !core::is_of_determinants(factor(share).role);
+      orders.decided = orders.decided && (is_other || std::find(orders.vanishes.begin(), orders.vanishes.end(),
+                                                                share.factor) != orders.vanishes.end());
       if (!orders.decided) continue;
       look(arc);
       break;

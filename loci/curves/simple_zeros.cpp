@@ -35,21 +35,6 @@ core::Interval in_doubles(const MultiInterval& value) { return {value.lower(), v
 
 std::size_t variable_of(const RootTower& tower, std::size_t root) { return tower.coordinates.size() + root; }
 
-/// The roots that a polynomial holds, and those in their squares, in the tower's order.
-std::vector<std::size_t> roots_under(const Polynomial& p, const RootTower& tower) {
-  std::vector<bool> used(tower.roots.size(), false);
-  for (std::size_t j = used.size(); j-- > 0;) {
-    const int variable = static_cast<int>(variable_of(tower, j));
-    used[j] = core::depends_on(p, variable);
-    for (std::size_t k = j + 1; k < used.size(); ++k)
-      used[j] = used[j] || (used[k] && core::depends_on(tower.roots[k].square, variable));
-  }
-  std::vector<std::size_t> roots;
-  for (std::size_t j = 0; j < used.size(); ++j)
-    if (used[j]) roots.push_back(j);
-  return roots;
-}
-
 /// A polynomial at a point of the plane: its coefficients at the products of roots, each a set of bits of the roots of
 /// a list.
 class AtPoint {

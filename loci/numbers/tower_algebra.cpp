@@ -1,6 +1,7 @@
 #include "loci/numbers/tower_algebra.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/errors.hpp"
 
@@ -83,17 +84,7 @@ double norm_degree(const Polynomial& p, const core::RootTower& tower) {
     return degree;
   };
   for (const core::Root& root : tower.roots) weights.push_back(weighted(root.square) / 2);
-  double degree = weighted(p);
-  std::vector<bool> used(tower.roots.size(), false);
-  for (std::size_t j = tower.roots.size(); j-- > 0;) {
-    const int variable = static_cast<int>(coordinates + j);
-    used[j] = core::depends_on(p, variable);
-    // The squares of roots that occur bring in the earlier roots.
-    for (std::size_t k = j + 1; k < tower.roots.size(); ++k)
-      used[j] = used[j] || (used[k] && core::depends_on(tower.roots[k].square, variable));
-    if (used[j]) degree *= 2;
-  }
-  return degree;
+  return std::ldexp(weighted(p), static_cast<int>(core::roots_under(p, tower).size()));
 }
 
 }  // namespace clearloci::loci

@@ -33,10 +33,6 @@ constexpr double heavy_degree = 48;
 /// A sign at a zero that is known by its enclosure alone was not told by intervals.
 struct NotTold {};
 
-bool is_reaction_or_determinant(const LocusFactor& factor) {
-  return factor.role == FactorRole::reaction || factor.role == FactorRole::direct_singularity;
-}
-
 /// The configurations of one mode at one value of the coordinate.
 class RootPlace {
  public:
@@ -82,7 +78,7 @@ class RootPlace {
     const Polynomial& p = factor.sheet;
     if (const int quick = evaluate(p, values_).sign(); quick != 0 || p.is_zero()) return quick;
     const bool norm_vanishes =
-        root_ != nullptr && is_reaction_or_determinant(factor) &&
+        root_ != nullptr && is_of_determinants(factor.role) &&
         std::any_of(factor.implicit.begin(), factor.implicit.end(),
                     [&](const Polynomial& curve) { return sign_at(univariate_signed(curve), *root_) == 0; });
     return norm_vanishes && vanishes_where_norm_does(p, tower_, values_) ? 0 : sign(p);
@@ -226,7 +222,7 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::Workin
     if (has_angle(factor.sheet, problem.tower)) {
       proven = false;
       if (factor.role == FactorRole::reaction) untold.push_back(&factor);
-    } else if (is_reaction_or_determinant(factor)) {
+    } else if (is_of_determinants(factor.role)) {
       compared.push_back(static_cast<int>(f));
     }
   }
@@ -268,7 +264,7 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor
   for (const auto& [sheet, power] : problem.factors[factor].cleared) look_at(sheet);
   vanishing[factor] = true;
   margins[factor] = problem.factors[factor].role == FactorRole::margin;
-  const bool compared = is_reaction_or_determinant(problem.factors[factor]);
+  const bool compared = is_of_determinants(problem.factors[factor].role);
   const ReactionOrders orders = compared ? orders_at_simple_zero(problem, static_cast<int>(factor)) : ReactionOrders{};
   std::vector<EdgeLabel> labels = labels_from(problem, orders, vanishing, margins);
   for (EdgeLabel& label : labels) label.proven = proven;
