@@ -117,16 +117,7 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
   if (lengths && sheets)
     for (std::size_t i = 0; i < maps.size(); ++i) parts.push_back({derived[i].problem, maps[i]});
   if (lengths) return loci::join_sheets(problems, std::move(maps), modes);
-  if (problems.size() > 1) {
-    // Sides of a fold have a root of their own each.
-    std::size_t kept = modes.front().size();
-    for (core::LocusMap& map : maps) {
-      loci::drop_own_roots(map);
-      kept = map.tower.roots.size();
-    }
-    for (core::WorkingMode& mode : modes) mode.resize(kept, 1);
-  }
-  core::LocusMap map = loci::join_charts(problems, std::move(maps), modes, request.tolerance);
+  core::LocusMap map = loci::join_charts(problems, std::move(maps), std::move(modes), request.tolerance);
   name_coordinates(mechanism, map);
   return map;
 }

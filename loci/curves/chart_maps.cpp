@@ -335,8 +335,14 @@ bool is_same(const LocusCurve& a, const LocusCurve& b) {
 double chart_tolerance(double tolerance) { return tolerance / 4; }
 
 LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector<LocusMap> maps,
-                     const std::vector<core::WorkingMode>& modes, double tolerance) {
+                     std::vector<core::WorkingMode> modes, double tolerance) {
   core::ensure(!charts.empty() && charts.size() == maps.size(), "a map for each chart");
+  // Sides of a fold have a root of their own each: modes are compared without, vertices are checked with it.
+  const std::vector<LocusMap> traced = maps;
+  if (charts.size() > 1) {
+    for (LocusMap& map : maps) drop_own_roots(map);
+    for (core::WorkingMode& mode : modes) mode.resize(maps.front().tower.roots.size(), 1);
+  }
   if (charts.front()->tower.coordinates.size() == 1) return join_point_charts(charts, maps, modes);
   core::ensure(charts.front()->charts.size() == 2, "two free coordinates, some of them angles");
   const Seams seams = seams_of(charts);
@@ -352,7 +358,7 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   const double reach = vertex_reach(box[0], box[1]);
   std::vector<std::set<std::size_t>> charts_with;  // by curve of the joined map
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    Unrolled unrolled_chart(*charts[m], maps[m], tolerance, reach);
+    Unrolled unrolled_chart(*charts[m], traced[m], tolerance, reach);
     joined.complete = joined.complete && maps[m].complete;
     joined.out_of_time = joined.out_of_time || maps[m].out_of_time;
     for (core::OpenRegion region : maps[m].open) {

@@ -17,6 +17,6 @@ double chart_tolerance(double tolerance);
 /// charts and keep their polynomial where they are in one chart only. Box and names of the coordinates are left to the
 /// caller.
 core::LocusMap join_charts(const std::vector<const core::LocusProblem*>& charts, std::vector<core::LocusMap> maps,
-                           const std::vector<core::WorkingMode>& modes, double tolerance);
+                           std::vector<core::WorkingMode> modes, double tolerance);
 
 }  // namespace clearloci::loci
