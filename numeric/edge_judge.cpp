@@ -42,6 +42,17 @@ int EdgeJudge::crossings_between(const LineReaction& reaction, double a, double 
   return sum;
 }
 
+/// Crossings at which the reaction vanishes without changing its sign.
+int EdgeJudge::touches_between(const LineReaction& reaction, double a, double b) {
+  int sum = 0;
+  for (const Passage& p : near_) {
+    const int weight = reaction.weights[static_cast<std::size_t>(p.curve)];
+    if (!p.crosses || p.at < a || b <= p.at || weight % 2 == 0) continue;
+    if (witness_.touches_zero(reaction.columns, p.at, std::max(reach_, (p.high - p.low) / 2))) sum += weight;
+  }
+  return sum;
+}
+
 bool EdgeJudge::boundary_between(double a, double b) const {
   return std::any_of(near_.begin(), near_.end(), [&](const Passage& p) {
     return boundary_[static_cast<std::size_t>(p.curve)] != 0 && p.low <= b && p.high >= a;
@@ -81,6 +92,8 @@ Finding EdgeJudge::compare(const LineReaction& reaction, double a, double b) {
   const auto finding = [&](Outcome outcome) { return Finding{outcome, crossings, change == Parity::odd}; };
   if (agrees(change, crossings)) return finding(Outcome::held);
   if (change != Parity::unknown && witness_.cancels(reaction.columns, a, b)) return finding(Outcome::held);
+  if (const int touches = touches_between(reaction, a, b); touches > 0 && agrees(change, crossings - touches))
+    return finding(Outcome::held);
   const bool sure =
       change != Parity::unknown && !boundary_between(a, b) && witness_.reachable_between(a, b, dense_samples);
   return finding(sure ? Outcome::disputed : Outcome::undecided);

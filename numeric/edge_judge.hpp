@@ -50,6 +50,7 @@ class EdgeJudge {
 
   void turn_to(int edge);
   int crossings_between(const LineReaction& reaction, double a, double b) const;
+  int touches_between(const LineReaction& reaction, double a, double b);
   bool boundary_between(double a, double b) const;
   double leave_passages(const LineReaction& reaction, double from, int direction) const;
   std::optional<double> clear_position(const LineReaction& reaction, double from, std::span<const int> directions,

@@ -114,6 +114,20 @@ bool LineWitness::cancels_at_flip(const WitnessColumns& columns, double a, doubl
   return false;
 }
 
+bool LineWitness::touches_zero(const WitnessColumns& columns, double position, double reach) {
+  if (!columns.single() || !reachable(position)) return false;
+  constexpr double part = 0.25;  // where the zero is as far off as may be, 1/49 of the value 8 times as far away
+  const double value = std::abs(force(columns, position)[0]);
+  for (double radius = 8 * reach; radius <= 128 * reach; radius *= 2) {
+    const double before = position - radius, after = position + radius;
+    if (!decided(columns, before) || !decided(columns, after)) continue;
+    const double n = force(columns, before)[0], m = force(columns, after)[0];
+    if ((n > 0) != (m > 0)) return false;
+    if (value < part * std::min(std::abs(n), std::abs(m))) return true;
+  }
+  return false;
+}
+
 int LineWitness::determinant_sign(double position) {
   const Bounded& d = at(position).determinant;
   return std::abs(d.value) <= d.error ? 0 : d.value > 0 ? 1 : -1;

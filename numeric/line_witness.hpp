@@ -75,6 +75,9 @@ class LineWitness {
   /// doing so: there the quotient changes sign. For a single component.
   bool cancels(const WitnessColumns& columns, double a, double b);
 
+  /// Whether the numerator of a single component vanishes within `reach` of a position and keeps its sign.
+  bool touches_zero(const WitnessColumns& columns, double position, double reach);
+
  private:
   ForceNumerators force(const WitnessColumns& columns, double position);
   int determinant_sign(double position);  ///< 0: undecided

@@ -273,6 +273,17 @@ TEST(OnceDisputed, AShortArc) { hold("witness/mirrored_short_arc", true); }
 // Bases a billionth of the legs apart: the exact engine cannot tell signs there and says so.
 TEST(OnceDisputed, LegsThatAreNearlyCoaxial) { hold("witness/kite_near_coaxial", false); }
 
+// The link at A3 is parallel to x along a circle of which both ends of its height have a maximum: fy vanishes there and
+// keeps its sign.
+TEST(OnceDisputed, ZerosWithoutAChangeOfSign) {
+  LociRequest request;
+  request.all_working_modes = true;
+  hold_one("witness/stacked_5r_touching_zero", "Q", core::Quantity::fy, request);
+}
+
+// Sides of a fold have a root of their own each, which vertices over an angle were checked without: the program crashed.
+TEST(OnceDisputed, SidesOfAFoldOverAnAngle) { hold("witness/platform_turning_on_a_fold", true); }
+
 void all_is_certified(const std::string& name) {
   SCOPED_TRACE(name);
   const core::LocusMap map = trace_loci(corpus(name), {});
