@@ -363,6 +363,7 @@ class ArcCheck {
   struct Left {
     const Piece* piece;
     Rectangle box;
+    double low, high;  ///< of the part: the piece's variable
   };
 
   /// Boxes that cover a part of a path, cut until `settle` is content or they are tiny: those are left. `sheet`: the
@@ -393,11 +394,16 @@ class ArcCheck {
         if (entered && variable >= 2 &&
             (sheet.root(variable - 2).upper() < low || high < sheet.root(variable - 2).lower()))
           continue;
-        if (settle(Left{&piece, box}, entered)) continue;
+        if (settle(Left{&piece, box, low, high}, entered)) continue;
         for (const Rectangle& half : halves(box)) open.push_back(half);
       }
     }
     return true;
+  }
+
+  bool is_in(const Left& left, const Place& place) const {
+    const Interval at = curve_.key(left.piece->leaf, place);
+    return at.upper() >= left.low && at.lower() <= left.high;
   }
 
   /// A part that no arc covers is outside of the box or the workspace, or makes nothing wanted vanish; false: nothing
@@ -416,6 +422,8 @@ class ArcCheck {
       const Point2 middle = {0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1)};
       if (std::min(distance(middle, gap.a), distance(middle, gap.b)) < 20 * tiny) return true;
       const std::optional<Place> place = curve_.place_on(*left.piece, box);
+      // Next to the boundary a root varies much in a small box: the place may be one before or after the part.
+      if (place && !is_in(left, *place)) return true;
       const bool inside = place && box_[0] < place->x.lower() && place->x.upper() < box_[1] &&
                           box_[2] < place->y.lower() && place->y.upper() < box_[3] && all.enter(place->x, place->y) &&
                           all.is_inner();

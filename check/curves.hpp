@@ -84,6 +84,9 @@ class Curve {
   /// The point of a graph near a box in its cell, if it is found.
   std::optional<Place> place_on(const Piece& piece, const Rectangle& near);
 
+  /// The variable of a leaf's graph at a place.
+  Interval key(int leaf, const Place& place);
+
   const CertificateFile& c;
   const SheetCells& claim;
   const core::StraightLine& program;
@@ -114,7 +117,6 @@ class Curve {
   void count_ends() const;
   void string_together();
   int leaf_at(const Place& place) const;
-  Interval key(int leaf, const Place& place);
   void attach(int leaf, int junction);
   core::CellNode::Kind kind(int leaf) const { return leaves_[static_cast<std::size_t>(leaf)].claim.kind; }
 
