@@ -9,6 +9,7 @@
 #include "analysis/pose_answer.hpp"
 #include "analysis/pose_efforts.hpp"
 #include "analysis/pose_tensions.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
 #include "core/errors.hpp"
 #include "core/rational.hpp"
@@ -245,6 +246,7 @@ Pose solve_pose(const mechanism::Mechanism& mechanism, const std::vector<core::R
 }
 
 Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request) {
+  check_least(request.min_force, request.min_couple);
   return solve_pose(model.content().mechanism, exact_values(at), request);
 }
 

@@ -1,4 +1,6 @@
 // Reactions at many poses, as a table (clearloci/pose.hpp).
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -6,6 +8,7 @@
 #include "analysis/pose.hpp"
 #include "analysis/pose_answer.hpp"
 #include "analysis/singular_modes.hpp"
+#include "core/errors.hpp"
 #include "core/rational.hpp"
 #include "numeric/reactions.hpp"
 
@@ -66,6 +69,8 @@ Reactions reactions(const Model& model, std::span<const double> poses, const Dya
   const std::size_t width = mechanism.coordinates.size();
   if (width == 0 || poses.size() % width != 0)
     require_values(mechanism, width == 0 ? poses.size() : poses.size() % width);
+  if (!std::all_of(poses.begin(), poses.end(), [](double value) { return std::isfinite(value); }))
+    throw core::InputError({mechanism.file}, "a value of a pose is no number", "give finite numbers");
   const DyadSides sides = sides_of(mechanism, working_mode);
   require_regular(mechanism, sides);
   return mechanism.space == mechanism::Space::spatial ? reactions_in_space(mechanism, poses, sides)

@@ -61,19 +61,59 @@ std::vector<core::RationalPose> poses_of(const core::TaskShape& shape) {
   return {};
 }
 
+void check_polygon(const mechanism::Mechanism& mechanism, const core::TaskPolygon& polygon) {
+  for (const std::size_t c : polygon.across)
+    if (c >= mechanism.coordinates.size() || mechanism.coordinates[c].angle)
+      refuse_foreign(mechanism, "a polygon lies in two lengths");
+  if (polygon.across[0] == polygon.across[1]) refuse_foreign(mechanism, "a polygon lies in two lengths");
+  if (polygon.corners.size() < 3) throw InputError({}, "the polygon has no three corners", "give three at least");
+  if (!polygon.above.empty()) check_size(mechanism, polygon.above.size());
+  if (const auto side = core::crossed_side(polygon))
+    throw InputError({}, "the polygon crosses itself: side " + std::to_string(*side + 1),
+                     "give its corners in their order round it");
+}
+
+void check_mesh(const mechanism::Mechanism& mechanism, const core::TaskMesh& mesh) {
+  if (mechanism.coordinates.size() != 3) refuse_foreign(mechanism, "a mesh is one of three lengths");
+  if (mesh.triangles.empty()) throw InputError({}, "the mesh has no triangles", "give a closed surface");
+  for (const std::array<double, 3>& corner : mesh.corners)
+    for (const double value : corner)
+      if (!std::isfinite(value)) throw InputError({}, "a corner of the mesh is no point", "give finite numbers");
+  for (const std::array<int, 3>& triangle : mesh.triangles)
+    for (const int corner : triangle)
+      if (corner < 0 || static_cast<std::size_t>(corner) >= mesh.corners.size())
+        throw InputError({}, "a triangle of the mesh has no corner " + std::to_string(corner),
+                         "count its corners from 0");
+  if (const auto open = core::open_surface(mesh))
+    throw InputError({}, "the surface of the mesh " + *open, "give a watertight one");
+}
+
+/// What joints of free effort are asked to exert.
+void check_preload(const mechanism::Mechanism& mechanism, const core::Task& task) {
+  const std::vector<mechanism::JointIndex> joints = mechanism::preloaded_joints(mechanism);
+  for (std::size_t i = 0; i < task.preload.size(); ++i) {
+    const std::string& name = task.preload[i].first;
+    const bool is_free = std::any_of(joints.begin(), joints.end(), [&](const mechanism::JointIndex j) {
+      return mechanism.joints[static_cast<std::size_t>(j)].name == name;
+    });
+    if (!is_free) refuse_foreign(mechanism, "no joint of free effort is called " + name);
+    for (std::size_t k = 0; k < i; ++k)
+      if (task.preload[k].first == name) throw InputError({}, name + " has two efforts", "give one");
+  }
+  if (task.controlled_preload && joints.empty()) refuse_foreign(mechanism, "no joint has a free effort");
+  if (task.knows_load && !task.controlled_preload)
+    throw InputError({}, "only a preload that varies with the pose may vary with the load",
+                     "set controlled_preload, or leave knows_load out");
+}
+
 void check_shape(const mechanism::Mechanism& mechanism, const core::Task& task) {
   const std::size_t count = mechanism.coordinates.size();
   const std::vector<core::RationalPose> poses = poses_of(task.shape);
   for (const core::RationalPose& pose : poses) check_size(mechanism, pose.size());
-  if (std::holds_alternative<core::TaskMesh>(task.shape)) {
-    if (count != 3) refuse_foreign(mechanism, "a mesh is one of three lengths");
-    return;
-  }
+  if (const auto* mesh = std::get_if<core::TaskMesh>(&task.shape)) return check_mesh(mechanism, *mesh);
   if (poses.empty()) throw InputError({}, "the task has no pose", "give one at least");
   if (const auto* ball = std::get_if<core::TaskBall>(&task.shape)) check_positive(ball->radius, "the radius", "m");
-  if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape))
-    for (const std::size_t c : polygon->across)
-      if (c >= count || mechanism.coordinates[c].angle) refuse_foreign(mechanism, "a polygon lies in two lengths");
+  if (const auto* polygon = std::get_if<core::TaskPolygon>(&task.shape)) check_polygon(mechanism, *polygon);
   std::vector<Rational> weights;
   for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
     weights.push_back(coordinate.angle ? task.angle_length.value_or(1) : Rational(1));
@@ -93,6 +133,11 @@ double finest_tolerance(const mechanism::Mechanism& mechanism) {
   return spacings * (largest > 0 ? largest : 1);
 }
 
+void check_least(const std::optional<Rational>& min_force, const std::optional<Rational>& min_couple) {
+  check_positive(min_force, "min_force", "N");
+  check_positive(min_couple, "min_couple", "N m");
+}
+
 void check_request(const mechanism::Mechanism& mechanism, const LociRequest& request) {
   const double finest = finest_tolerance(mechanism);
   if (!(request.tolerance >= finest && std::isfinite(request.tolerance))) {
@@ -102,13 +147,14 @@ void check_request(const mechanism::Mechanism& mechanism, const LociRequest& req
   }
   if (!(request.mesh_size > 0 && std::isfinite(request.mesh_size)))
     throw InputError({}, "the mesh size is no positive number", "give a part of the box, such as 0.03");
-  check_positive(request.min_force, "min_force", "N");
-  check_positive(request.min_couple, "min_couple", "N m");
+  check_least(request.min_force, request.min_couple);
+  if (request.quantities.empty()) throw InputError({}, "no quantity is asked for", "give one of f, M, F, N, T, ...");
   check_sides(mechanism, request);
 }
 
 void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request) {
   check_request(mechanism, request.loci);
+  check_cells(request.zone_cells);
   if (request.grid.empty()) return;
   const std::size_t count = mechanism.coordinates.size();
   if (request.grid.size() != count)
@@ -117,6 +163,10 @@ void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& re
                          std::to_string(count) + " coordinates are free",
                      "give one for each");
   check_nodes(request.grid, 1);
+}
+
+void check_cells(long cells) {
+  if (cells < 1) throw InputError({}, std::to_string(cells) + " cells are looked at", "give one at least");
 }
 
 void check_nodes(const std::vector<int>& nodes, int least) {
@@ -135,14 +185,16 @@ void check_task(const mechanism::Mechanism& mechanism, const core::Task& task) {
   check_positive(task.angle_length, "angle_length", "m");
   check_shape(mechanism, task);
   check_margin(task.margin);
-  check_positive(task.min_force, "min_force", "N");
-  check_positive(task.min_couple, "min_couple", "N m");
+  check_least(task.min_force, task.min_couple);
   check_positive(task.pose_error, "pose_error", "m");
   for (const core::Tolerance& tolerance : task.tolerances) {
     const auto& parameters = mechanism.parameters;
     if (std::none_of(parameters.begin(), parameters.end(),
                      [&](const auto& candidate) { return candidate.name == tolerance.parameter; }))
       refuse_foreign(mechanism, "there is no parameter '" + tolerance.parameter + "'");
+    if (std::count_if(task.tolerances.begin(), task.tolerances.end(),
+                      [&](const core::Tolerance& other) { return other.parameter == tolerance.parameter; }) > 1)
+      throw InputError({}, tolerance.parameter + " has two tolerances", "give one");
     if (tolerance.below > 0 || tolerance.above < 0)
       throw InputError({}, "the tolerance of " + tolerance.parameter + " leaves out its own value",
                        "give one below and one above 0");
@@ -153,9 +205,13 @@ void check_task(const mechanism::Mechanism& mechanism, const core::Task& task) {
     if (task.loads->first.size() != dimension || task.loads->second.size() != dimension)
       refuse_foreign(mechanism, "its loads have other components");
   }
+  check_preload(mechanism, task);
   for (const core::LoadWithin& within : task.loads_within) {
     if (within.load >= mechanism.loads.size())
       refuse_foreign(mechanism, "there is no load " + std::to_string(within.load + 1));
+    if (std::count_if(task.loads_within.begin(), task.loads_within.end(),
+                      [&](const core::LoadWithin& other) { return other.load == within.load; }) > 1)
+      throw InputError({}, "load " + std::to_string(within.load + 1) + " is varied twice", "give one entry a load");
     if (within.force < 0 || within.couple < 0)
       throw InputError({}, "what a load may differ by is negative", "give 0 or more");
   }

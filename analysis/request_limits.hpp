@@ -18,6 +18,12 @@ void check_request(const mechanism::Mechanism& mechanism, const LociRequest& req
 void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request);
 void check_task(const mechanism::Mechanism& mechanism, const core::Task& task);
 
+/// What joints are to keep, N and N m, where it is given.
+void check_least(const std::optional<Rational>& min_force, const std::optional<Rational>& min_couple);
+
+/// Cells that zones by cells look at: one at least.
+void check_cells(long cells);
+
 /// Nodes of a grid along each coordinate: two at least, and together no more than memory holds.
 void check_nodes(const std::vector<int>& nodes, int least);
 

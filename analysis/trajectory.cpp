@@ -1,7 +1,9 @@
 #include "analysis/trajectory.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -200,8 +202,9 @@ void check(const TrajectoryRequest& request) {
   require_positive(request.period, "period", "s");
   require_positive(request.min_force, "least force", "N");
   for (const double period : request.periods) require_positive(period, "period of a sweep", "s");
-  if (!std::is_sorted(request.periods.begin(), request.periods.end()))
-    throw core::InputError({}, "the periods of a sweep are not in order", "give them ascending");
+  if (std::adjacent_find(request.periods.begin(), request.periods.end(), std::greater_equal<>()) !=
+      request.periods.end())
+    throw core::InputError({}, "the periods of a sweep are not in order", "give them ascending, each once");
   constexpr int most_samples = 10'000'000;
   if (request.samples < 10 || request.samples > most_samples)
     throw core::InputError({}, std::to_string(request.samples) + " instants a cycle", "give 10 to 10000000");
@@ -215,8 +218,13 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   if (const std::optional<Framed> framed = framed_where_far(mechanism))
     return from_frame(follow_trajectory(framed->mechanism, in_frame(trajectory, framed->frame), request), mechanism,
                       framed->frame);
+  const auto check_deadline = [&request] {
+    if (request.deadline && std::chrono::steady_clock::now() > *request.deadline)
+      throw core::LimitReached("the time limit was reached");
+  };
   const DyadSides sides = sides_of(mechanism, request.working_mode);
   require_regular(mechanism, sides);
+  check_deadline();
   const FlankMotions motions(mechanism, trajectory, sides, request.samples);
   const numeric::Motion& motion = motions.motion();
   const double duration = trajectory.speed ? motion.timeline.length() / core::to_double(*trajectory.speed)
@@ -226,6 +234,7 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   numeric::LossThresholds thresholds =
       numeric::default_thresholds(motion, motions.samples(std::numeric_limits<double>::infinity()));
   if (request.min_force) thresholds.force = *request.min_force;
+  check_deadline();
 
   TrajectoryResult result;
   result.mechanism = mechanism.name;
@@ -240,8 +249,10 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   result.min_force = thresholds.force;
   for (const mechanism::Joint& joint : mechanism.joints) result.joints.push_back(joint.name);
   result.losses = losses_of(motion, motions.contact_losses(period, thresholds));
+  check_deadline();
   result.stages = stages_of(motion, period, motions.critical_periods(thresholds));
   for (std::string& note : motions.slack_notes(samples, period)) result.notes.push_back(std::move(note));
+  check_deadline();
   result.samples = table_of(motion, samples, period);
   if (!request.periods.empty()) add_sweep(motions, thresholds, request.periods, result);
   return result;

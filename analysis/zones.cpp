@@ -235,6 +235,7 @@ core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest&
 Zones find_zones(const Model& model, const ZoneRequest& request) {
   const Model::Content& content = model.content();
   check_request(content.mechanism, request.loci);
+  check_cells(request.cells);
   return find_zones(content.mechanism, request, nullptr, content.member ? &content.shared->family() : nullptr);
 }
 

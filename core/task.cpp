@@ -2,9 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace clearloci::inline core {
+namespace {
+
+using Corner = std::array<Rational, 2>;
+
+/// Twice the area of a triangle: its sign is that of the turn.
+Rational turn(const Corner& a, const Corner& b, const Corner& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool between(const Corner& a, const Corner& b, const Corner& p) {
+  for (std::size_t c = 0; c < 2; ++c)
+    if (p[c] < std::min(a[c], b[c]) || p[c] > std::max(a[c], b[c])) return false;
+  return true;
+}
+
+/// Whether two closed segments share a point.
+bool meet(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+  const int s1 = sgn(turn(a, b, c)), s2 = sgn(turn(a, b, d)), s3 = sgn(turn(c, d, a)), s4 = sgn(turn(c, d, b));
+  if (s1 * s2 < 0 && s3 * s4 < 0) return true;
+  return (s1 == 0 && between(a, b, c)) || (s2 == 0 && between(a, b, d)) || (s3 == 0 && between(c, d, a)) ||
+         (s4 == 0 && between(c, d, b));
+}
+
+}  // namespace
 
 std::string kind_of(const TaskShape& shape) {
   if (const auto* ball = std::get_if<TaskBall>(&shape)) return ball->centre.size() == 2 ? "circle" : "ball";
@@ -115,6 +141,40 @@ std::string to_string(Verdict verdict) {
       break;
   }
   return "undecided";
+}
+
+std::optional<std::size_t> crossed_side(const TaskPolygon& polygon) {
+  const std::size_t n = polygon.corners.size();
+  std::vector<Corner> corners;
+  for (const RationalPose& corner : polygon.corners)
+    corners.push_back({corner[polygon.across[0]], corner[polygon.across[1]]});
+  const auto at = [&](std::size_t i) -> const Corner& { return corners[i % n]; };
+  for (std::size_t i = 0; i < n; ++i) {
+    // A side and the next share their corner; they must not run back on each other.
+    bool crossed = turn(at(i), at(i + 1), at(i + 2)) == 0 && !between(at(i), at(i + 2), at(i + 1));
+    for (std::size_t k = i + 2; k < n && !crossed; ++k)
+      if (k + 1 < n || i > 0) crossed = meet(at(i), at(i + 1), at(k), at(k + 1));
+    if (crossed) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> open_surface(const TaskMesh& mesh) {
+  std::map<std::pair<int, int>, int> passed;
+  for (const std::array<int, 3>& triangle : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int from = triangle[k], to = triangle[(k + 1) % 3];
+      passed[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  std::size_t open = 0;
+  const std::pair<int, int>* first = nullptr;
+  for (const auto& [edge, sum] : passed)
+    if (sum != 0 && ++open == 1) first = &edge;
+  if (open == 0) return std::nullopt;
+  const std::array<double, 3>& at = mesh.corners[static_cast<std::size_t>(first->first)];
+  return "is not closed: of " + std::to_string(passed.size()) + " edges " + std::to_string(open) +
+         " have triangles on one side only, or such as turn against each other, the first at (" +
+         std::to_string(at[0]) + ", " + std::to_string(at[1]) + ", " + std::to_string(at[2]) + ") m";
 }
 
 }  // namespace clearloci::inline core

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,14 @@ std::array<RationalPose, 2> bounds(const TaskShape& shape, const std::vector<Rat
 
 /// Of two lengths, its outline, rounded, the first point repeated at the end, circles by chords; of a path the path.
 Polyline outline(const TaskShape& shape);
+
+/// The first side that meets another one than those next to it, or runs back on the next; corners are distinct from the
+/// ones before.
+std::optional<std::size_t> crossed_side(const TaskPolygon& polygon);
+
+/// "is not closed: ...", where an edge is not passed as often one way as the other: else every point off the surface
+/// has a number of times that the surface winds around it.
+std::optional<std::string> open_surface(const TaskMesh& mesh);
 
 /// Values rounded to doubles.
 std::vector<double> rounded(const RationalPose& pose);

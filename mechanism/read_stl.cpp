@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
-#include <map>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
 
+#include "core/task.hpp"
 #include "mechanism/read.hpp"
 
 namespace clearloci::mechanism {
@@ -151,29 +151,6 @@ core::TaskMesh joined(const std::vector<Corner>& corners, const std::string& fil
   return mesh;
 }
 
-/// Closed where every edge is passed as often one way as the other: then every point off the surface has a number of
-/// times that the surface winds around it.
-void require_closed(const core::TaskMesh& mesh) {
-  std::map<std::pair<int, int>, int> passed;
-  for (const std::array<int, 3>& triangle : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int from = triangle[k], to = triangle[(k + 1) % 3];
-      passed[std::minmax(from, to)] += from < to ? 1 : -1;
-    }
-  std::size_t open = 0;
-  const std::pair<int, int>* first = nullptr;
-  for (const auto& [edge, sum] : passed)
-    if (sum != 0 && ++open == 1) first = &edge;
-  if (open == 0) return;
-  const std::array<double, 3>& at = mesh.corners[static_cast<std::size_t>(first->first)];
-  throw InputError({mesh.file, 0, 0},
-                   "the surface of the STL file is not closed: of " + std::to_string(passed.size()) + " edges " +
-                       std::to_string(open) + " have triangles on one side only, or such as turn against each other, " +
-                       "the first at (" + std::to_string(at[0]) + ", " + std::to_string(at[1]) + ", " +
-                       std::to_string(at[2]) + ") m",
-                   "export a watertight solid");
-}
-
 }  // namespace
 
 core::TaskMesh parse_stl(const std::string& bytes, const std::string& file, double unit) {
@@ -181,7 +158,8 @@ core::TaskMesh parse_stl(const std::string& bytes, const std::string& file, doub
   core::TaskMesh mesh = joined(corners, file, unit);
   if (mesh.triangles.empty())
     throw InputError({file, 0, 0}, "the STL file has no triangles", "export a watertight solid");
-  require_closed(mesh);
+  if (const auto open = core::open_surface(mesh))
+    throw InputError({file, 0, 0}, "the surface of the STL file " + *open, "export a watertight solid");
   return mesh;
 }
 

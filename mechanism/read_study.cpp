@@ -18,10 +18,6 @@ using core::Study;
 using core::StudyGoal;
 using core::StudyMethod;
 
-/// Designs are numbered and kept one by one.
-constexpr long most_designs = 1'000'000'000;
-constexpr std::size_t most_varied = 16;
-
 std::vector<std::string> parameter_names(const Mechanism& mechanism) {
   std::vector<std::string> names;
   for (const Parameter& parameter : mechanism.parameters) names.push_back(parameter.name);

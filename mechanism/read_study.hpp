@@ -1,12 +1,17 @@
 // From a study file (docs/guide/studies.md) to a Study.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "clearloci/study.hpp"
 #include "mechanism/mechanism.hpp"
 
 namespace clearloci::mechanism {
+
+/// Designs are numbered and kept one by one.
+inline constexpr long most_designs = 1'000'000'000;
+inline constexpr std::size_t most_varied = 16;
 
 /// Throws core::InputError, with file, line, column, problem and mend, for whatever is wrong with the file or with a
 /// task that it names, which is found beside it.

@@ -89,6 +89,8 @@ std::vector<core::LoadWithin> read_loads_within(const Mechanism& mechanism, cons
                            std::to_string(mechanism.loads.size()),
                        "count its loads from 1");
     core::LoadWithin within{static_cast<std::size_t>(number.get_num().get_ui()) - 1};
+    if (std::any_of(all.begin(), all.end(), [&](const core::LoadWithin& one) { return one.load == within.load; }))
+      throw InputError(which.where, "load " + core::to_string(number) + " is varied twice", "write one entry a load");
     if (auto radius = keys.find("radius")) {
       radius->field = "force";  // not the length that a circle's radius is
       within.force = read_number(mechanism, *radius, Sign::not_negative).value;

@@ -111,25 +111,6 @@ core::TaskPath read_path(const Mechanism& mechanism, const Value& value) {
   return path;
 }
 
-/// Twice the area of a triangle: its sign is that of the turn.
-Rational turn(const RationalPose& a, const RationalPose& b, const RationalPose& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-bool between(const RationalPose& a, const RationalPose& b, const RationalPose& p) {
-  for (std::size_t c = 0; c < 2; ++c)
-    if (p[c] < std::min(a[c], b[c]) || p[c] > std::max(a[c], b[c])) return false;
-  return true;
-}
-
-/// Whether two closed segments share a point.
-bool meet(const RationalPose& a, const RationalPose& b, const RationalPose& c, const RationalPose& d) {
-  const int s1 = sgn(turn(a, b, c)), s2 = sgn(turn(a, b, d)), s3 = sgn(turn(c, d, a)), s4 = sgn(turn(c, d, b));
-  if (s1 * s2 < 0 && s3 * s4 < 0) return true;
-  return (s1 == 0 && between(a, b, c)) || (s2 == 0 && between(a, b, d)) || (s3 == 0 && between(c, d, a)) ||
-         (s4 == 0 && between(c, d, b));
-}
-
 /// Over more than two coordinates `others` has the ranges of those that are no lengths.
 core::TaskPolygon read_polygon(const Mechanism& mechanism, const Value& value, const std::optional<Value>& others) {
   std::vector<std::size_t> lengths, angles;
@@ -157,18 +138,12 @@ core::TaskPolygon read_polygon(const Mechanism& mechanism, const Value& value, c
   constexpr std::size_t most = 1000;  // every side is held against every other, exactly
   if (n > most)
     throw InputError(value.where, value.what + " has " + std::to_string(n) + " corners", "write 1000 at most");
-  const auto at = [&](std::size_t i) -> const RationalPose& { return points[i % n].first; };
-  for (std::size_t i = 0; i < n; ++i) {
-    // A side and the next share their corner; they must not run back on each other.
-    const bool back = turn(at(i), at(i + 1), at(i + 2)) == 0 && !between(at(i), at(i + 2), at(i + 1));
-    bool crossed = back;
-    for (std::size_t k = i + 2; k < n && !crossed; ++k)
-      if (k + 1 < n || i > 0) crossed = meet(at(i), at(i + 1), at(k), at(k + 1));
-    if (crossed)
-      throw InputError(points[i].second, value.what + " crosses itself: side " + std::to_string(i + 1),
-                       "write its corners in their order round it");
-  }
   core::TaskPolygon polygon;
+  for (const auto& [point, where] : points) polygon.corners.push_back(point);
+  if (const std::optional<std::size_t> side = core::crossed_side(polygon))
+    throw InputError(points[*side].second, value.what + " crosses itself: side " + std::to_string(*side + 1),
+                     "write its corners in their order round it");
+  polygon.corners.clear();
   polygon.across = {lengths[0], lengths[1]};
   core::TaskBox range;
   range.lower.assign(mechanism.coordinates.size(), Rational(0));

@@ -21,6 +21,7 @@
 #include "studies/prove.hpp"
 #include "studies/search.hpp"
 #include "studies/study_judge.hpp"
+#include "studies/study_limits.hpp"
 #include "studies/work.hpp"
 
 namespace clearloci {
@@ -56,6 +57,7 @@ void complete(const StudyProblem& problem, const Designs& designs, StudyResult& 
 }
 
 StudyResult begun(const Model& model, const core::Study& study) {
+  check_study(model.content().mechanism, study);
   StudyResult result;
   result.mechanism = model.name();
   result.study = study;
@@ -245,6 +247,11 @@ std::string value_words(const Model& model, const std::string& parameter, const 
 std::vector<Model::Value> values_of(const Model& model, const StudyResult& result, const StudyDesign& design) {
   std::vector<Model::Value> values;
   const core::Study& study = result.study;
+  check_study(model.content().mechanism, study);
+  if (design.values.size() != study.vary.size() ||
+      !std::all_of(design.values.begin(), design.values.end(), [](double value) { return std::isfinite(value); }))
+    throw core::InputError({study.file}, "the design has not one value for each parameter that varies",
+                           "pass a design of the study's result");
   const bool numbered = study.method.kind == Kind::grid || study.method.kind == Kind::sample;
   const std::vector<core::Rational> exact =
       numbered ? Designs(study).values(design.index) : std::vector<core::Rational>{};
@@ -271,6 +278,7 @@ std::uint64_t design_count(const core::Study& study) {
 std::string judge_designs(const Model& model, const core::Study& study, std::uint64_t first, std::uint64_t count,
                           int threads) {
   require_numbered(study);
+  check_study(model.content().mechanism, study);
   const Designs designs(study);
   const StudyProblem problem(model, study);
   const std::uint64_t end = first + std::min(count, designs.count() - std::min(first, designs.count()));
@@ -294,9 +302,9 @@ std::string judge_designs(const Model& model, const core::Study& study, std::uin
 
 StudyResult study_result(const Model& model, const core::Study& study, const std::string& lines) {
   require_numbered(study);
+  StudyResult result = begun(model, study);
   const Designs designs(study);
   const StudyProblem problem(model, study);
-  StudyResult result = begun(model, study);
   result.figures = problem.figures();
   std::vector<bool> done(designs.count(), false);
   for (std::size_t at = 0; at < lines.size();) {

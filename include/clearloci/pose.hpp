@@ -167,8 +167,8 @@ namespace clearloci {
 struct PoseRequest {
   DyadSides working_mode = {};  ///< empty: the file's
   bool iterate = false;         ///< also `actual`
-  /// Rates of the coordinates, one each, m/s and m/s^2 or rad/s and rad/s^2; empty: at rest. Of planar mechanisms, and
-  /// not with `iterate`. Reactions, take-up and error then are those with the links' inertia.
+  /// Rates of the coordinates, one each, m/s and m/s^2 or rad/s and rad/s^2; empty: at rest. Not
+  /// with `iterate`. Reactions, take-up and error then are those with the links' inertia.
   std::vector<double> velocity = {};
   std::vector<double> acceleration = {};
   /// What the efforts of free actuators are to keep in every joint, N and N m.

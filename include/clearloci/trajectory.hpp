@@ -1,6 +1,6 @@
 // What happens along a motion? Reactions with the links' inertia, take-up, actual path, and where the parts of a joint
 // lose contact, along a trajectory file; from which cycle time on they no longer do; and the pose error over a range of
-// cycle times (docs/background/method.md section 7). Of planar mechanisms.
+// cycle times (docs/background/method.md section 7).
 //
 //     const clearloci::Model model = clearloci::Model::read("manipulator.yaml");
 //     const clearloci::TrajectoryResult motion = follow_trajectory(model, "path.yaml", {.period = 0.8});
@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -120,11 +121,13 @@ struct TrajectoryRequest {
   int samples = 2000;                    ///< instants a cycle, from 10 on
   std::optional<double> min_force = {};  ///< N; else 1 % of the largest contact force at rest
   std::vector<double> periods = {};      ///< s, ascending: those of the sweep; empty: none
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};  ///< looked at from step to step
 };
 
 /// `path`: the trajectory file. Throws InputError, with file, line, column, problem and mend, for whatever is wrong
 /// with it; where its working mode has a determinant of zero everywhere; where the path
-/// leaves the workspace or meets a direct singularity; and where a number of the request is wrong.
+/// leaves the workspace or meets a direct singularity; and where a number of the request is wrong. Throws LimitReached
+/// where the deadline comes first.
 TrajectoryResult follow_trajectory(const Model& model, const std::string& path, const TrajectoryRequest& request = {});
 
 /// The same for a text; `file` is the name that errors show.

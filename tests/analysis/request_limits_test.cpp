@@ -1,6 +1,7 @@
 // What no analysis can answer is an InputError at the public functions, whatever the numbers are.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 #include "clearloci/errors.hpp"
 #include "clearloci/export.hpp"
 #include "clearloci/mechanism.hpp"
+#include "clearloci/pose.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
 #include "tests/source_dir.hpp"
@@ -50,6 +52,60 @@ TEST(RequestLimits, ATaskIsOneOfTheMechanism) {
   Task load = task;
   load.loads_within = {{.load = 7, .force = 1}};
   EXPECT_THROW(verify(model, load), InputError);
+}
+
+/// A task over the five-bar's box, of which `change` makes one that cannot be answered.
+template <class Change>
+void refuses(const Model& model, const TaskShape& shape, const Change& change) {
+  Task task;
+  task.shape = shape;
+  EXPECT_NO_THROW(verify(model, task));
+  change(task);
+  EXPECT_THROW(verify(model, task), InputError);
+}
+
+TEST(RequestLimits, ATaskAsksForWhatThereIs) {
+  const Model model = example("five_bar.yaml");
+  const TaskBox box{{Rational(1, 10), Rational(-8, 10)}, {Rational(4, 10), Rational(-6, 10)}};
+  refuses(model, box, [](Task& task) { task.preload = {{"A1", 1000}}; });
+  refuses(model, box, [](Task& task) { task.controlled_preload = true; });
+  refuses(model, box, [](Task& task) { task.knows_load = true; });
+  refuses(model, box, [](Task& task) { task.loads_within = {{.load = 0, .force = 5}, {.load = 0, .force = 100}}; });
+  refuses(model, box, [](Task& task) {
+    const Tolerance tolerance{"L", Rational(-1, 1000), Rational(1, 1000)};
+    task.tolerances = {tolerance, tolerance};
+  });
+}
+
+TEST(RequestLimits, APolygonIsSimple) {
+  const Model model = example("five_bar.yaml");
+  const RationalPose a = {Rational(1, 10), Rational(-8, 10)}, b = {Rational(4, 10), Rational(-8, 10)},
+                     c = {Rational(4, 10), Rational(-6, 10)}, d = {Rational(1, 10), Rational(-6, 10)};
+  refuses(model, TaskPolygon{{a, b, c, d}}, [&](Task& task) { task.shape = TaskPolygon{{a, c, b, d}}; });
+  refuses(model, TaskPolygon{{a, b, c, d}}, [&](Task& task) { task.shape = TaskPolygon{{a, b, c, d}, {0, 0}}; });
+  refuses(model, TaskPolygon{{a, b, c, d}}, [&](Task& task) { task.shape = TaskPolygon{{a, b}}; });
+}
+
+TEST(RequestLimits, AMeshIsAClosedSurface) {
+  const Model model = example("three_ruu.yaml");
+  const TaskMesh solid{"solid",
+                       {{0, 0, -0.6}, {0.01, 0, -0.6}, {0, 0.01, -0.6}, {0, 0, -0.59}},
+                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  const auto changed = [&](const auto& change) {
+    refuses(model, solid, [&](Task& task) { change(std::get<TaskMesh>(task.shape)); });
+  };
+  changed([](TaskMesh& mesh) { mesh = {}; });
+  changed([](TaskMesh& mesh) { mesh.triangles.pop_back(); });
+  changed([](TaskMesh& mesh) { mesh.triangles[0][0] = 9; });
+  changed([](TaskMesh& mesh) { mesh.corners[0][0] = std::nan(""); });
+}
+
+TEST(RequestLimits, NumbersOfRequestsAreOnesToWorkWith) {
+  const Model model = example("five_bar.yaml"), linkage = example("four_bar.yaml");
+  EXPECT_THROW(trace_loci(model, {.quantities = {}}), InputError);
+  for (const long cells : {0L, -1L}) EXPECT_THROW(find_zones(linkage, {.cells = cells}), InputError) << cells;
+  EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.min_force = Rational(-2)}), InputError);
+  EXPECT_THROW(reactions(model, std::array{std::nan(""), 1.0}), InputError);
 }
 
 TEST(RequestLimits, AGridIsOneThatMemoryHolds) {

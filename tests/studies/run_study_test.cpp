@@ -66,6 +66,43 @@ TEST(Study, SaysOfEveryDesignWhatVerifySays) {
     }
 }
 
+TEST(Study, IsRefusedWhereItIsNone) {
+  const Model model = five_bar();
+  const Study good = parse_study(study_text("{grid: [2, 2]}"), model);
+  const auto refuses = [&](const auto& change) {
+    Study study = good;
+    change(study);
+    EXPECT_THROW(run_study(model, study), InputError);
+    EXPECT_THROW(judge_designs(model, study, 0, 1), InputError);
+  };
+  using Kind = StudyMethod::Kind;
+  refuses([](Study& study) { study.vary.clear(); });
+  refuses([](Study& study) { study.vary[0].name = "nobody"; });
+  refuses([](Study& study) { study.vary[1] = study.vary[0]; });
+  refuses([](Study& study) { std::swap(study.vary[0].lower, study.vary[0].upper); });
+  refuses([](Study& study) { study.tasks.clear(); });
+  refuses([](Study& study) { study.tasks.front().shape = TaskBox{}; });
+  refuses([](Study& study) { study.method.counts = {3}; });
+  refuses([](Study& study) { study.method.counts = {0, 3}; });
+  refuses([](Study& study) { study.method.counts = {2'000'000'000, 2'000'000'000}; });
+  refuses([](Study& study) { study.method = {Kind::sample, {}, 0}; });
+  refuses([](Study& study) { study.method = {Kind::search, {}, 0}; });
+  refuses([](Study& study) { study.require = {{Figure::margin, -1}}; });
+}
+
+TEST(Study, DesignsAreThoseOfItsResult) {
+  const Model model = five_bar();
+  const StudyResult result = run_study(model, parse_study(study_text("{grid: [2, 2]}"), model));
+  const Model other = Model::read(source_dir() + "/examples/four_bar.yaml");
+  EXPECT_NO_THROW(design_model(model, result, result.designs.front()));
+  EXPECT_THROW(design_model(other, result, result.designs.front()), InputError);
+  for (const std::vector<double>& values : {std::vector<double>{}, {std::nan(""), 0.5}}) {
+    StudyDesign design = result.designs.front();
+    design.values = values;
+    EXPECT_THROW(design_text(model, result, design), InputError);
+  }
+}
+
 TEST(Study, HasTheSameAnswerWhateverTheThreads) {
   const Model model = five_bar();
   const Study study = parse_study(study_text("{sample: 100}"), model);

@@ -148,12 +148,13 @@ Json answer_modes(const Json& body, const Watch& watch) {
   return {{"modes", std::move(list)}, {"dyads", dyads}};
 }
 
-Json answer_trajectory(const Json& body, const Watch&) {
+Json answer_trajectory(const Json& body, const Watch& watch) {
   const Fields fields(body);
   const Model model = model_of(fields);
   TrajectoryRequest request;
   request.working_mode = sides_of(fields);
   request.samples = fields.count("samples", 600, 10, most_poses);
+  request.deadline = watch.deadline;
   if (fields.has("period")) request.period = fields.number("period", 1, 1e-3, 1e6);
   const TrajectoryResult result =
       follow_trajectory_text(model, fields.text("trajectory"), request, fields.files("files"));
