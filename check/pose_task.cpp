@@ -13,6 +13,7 @@
 #include "check/pose_cell.hpp"
 #include "check/pose_signs.hpp"
 #include "core/errors.hpp"
+#include "mechanism/free_cables.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -263,15 +264,34 @@ class PoseTaskCheck {
     load.couple = couple.front();
   }
 
+  /// Tensions of as many cables as the model leaves free are chosen; of which, each cell of a law says.
+  void choose_cables(const std::vector<std::string>& joints) {
+    std::vector<mechanism::JointIndex> free;
+    std::size_t before = 0, chosen = 0;
+    for (const mechanism::JointIndex j : mechanism::cables_of(m_)) {
+      const mechanism::Joint& cable = m_.joints[static_cast<std::size_t>(j)];
+      const bool is_fixed = cable.effort && (!cable.free_effort || cable.free_effort->given);
+      const bool is_chosen = std::find(joints.begin(), joints.end(), cable.name) != joints.end();
+      if (is_fixed && is_chosen) throw FalseClaim("law: '" + cable.name + "' has no free effort");
+      before += cable.effort && !is_fixed ? 1U : 0U;
+      chosen += is_chosen ? 1U : 0U;
+      if (is_fixed || is_chosen) free.push_back(j);
+    }
+    if (before != chosen) throw FalseClaim(fmt::format("law: {} cables have a free tension, not {}", before, chosen));
+    mechanism::set_free_cables(m_, free);
+  }
+
   /// The first of them, and shares of what the others differ by from it.
   void give_efforts(const std::vector<Efforts>& efforts) {
+    choose_cables(efforts.front().joints);
     first_share_ = names_.size();
     for (std::size_t k = 1; k < efforts.size(); ++k) add_variable(fmt::format("share {} of efforts", k), 0, 1);
-    for (std::size_t j = 0; j < claim_.law->joints.size(); ++j) {
+    for (std::size_t j = 0; j < efforts.front().joints.size(); ++j) {
+      const std::string& name = efforts.front().joints[j];
       const auto joint = std::find_if(m_.joints.begin(), m_.joints.end(),
-                                      [&](const auto& candidate) { return candidate.name == claim_.law->joints[j]; });
+                                      [&](const auto& candidate) { return candidate.name == name; });
       if (joint == m_.joints.end() || !joint->free_effort || joint->free_effort->given)
-        throw FalseClaim("law: '" + claim_.law->joints[j].substr(0, 40) + "' has no free effort");
+        throw FalseClaim("law: '" + name.substr(0, 40) + "' has no free effort");
       const Expression first = effort_of(efforts.front(), j);
       Expression effort = first;
       for (std::size_t k = 1; k < efforts.size(); ++k) {
@@ -436,7 +456,11 @@ std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Dead
     std::vector<PoseTaskClaim::Law::Efforts> efforts;
     for (const std::size_t i : place.cells)
       if (std::find(efforts.begin(), efforts.end(), law.efforts[i]) == efforts.end()) efforts.push_back(law.efforts[i]);
-    if (efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, shown, &place.place, efforts).run();
+    const bool same = std::all_of(efforts.begin(), efforts.end(),
+                                  [&](const auto& one) { return one.joints == efforts.front().joints; });
+    // Tensions within their bounds are so in any convex combination, whichever are chosen.
+    if (!same && !claim.demands.empty()) throw FalseClaim("law: cells with other cables meet under a demand");
+    if (same && efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, shown, &place.place, efforts).run();
   }
   return count;
 }

@@ -50,9 +50,9 @@ struct PoseTaskClaim {
   std::vector<std::string> unchecked;
   /// Free efforts that are constant in each cell of poses, in N or N m.
   struct Law {
-    std::vector<std::string> joints;
     std::vector<Cell> cells;
     struct Efforts {
+      std::vector<std::string> joints;                    ///< whose efforts are chosen; those of others follow
       std::vector<std::vector<core::Rational>> at_loads;  ///< at the load, or at the first and the last of loads_from
       std::vector<std::vector<core::Rational>> gains;     ///< of each part of loads_within: what it adds, a unit
       bool operator==(const Efforts&) const = default;

@@ -79,16 +79,22 @@ class PoseTaskReader : ClaimReader {
       if (all.push_back(rationals(value)); all.back().size() != joints) fail("a law has not one effort a joint");
     return all;
   }
+  std::vector<std::string> joints(const Json& json) const {
+    std::vector<std::string> names;
+    for (const Json& joint : list(json, most_variables)) names.push_back(text(joint));
+    return names;
+  }
   PoseTaskClaim::Law law(const Json& json, std::size_t coordinates) const {
     PoseTaskClaim::Law law;
-    for (const Json& joint : list(at(json, "joints"), most_variables)) law.joints.push_back(text(joint));
+    const std::vector<std::string> usual = joints(at(json, "joints"));
     for (const Json& each : list(at(json, "cells"), most_law_cells)) {
       const std::vector<Rational> lower = rationals(item(each, 0)), upper = rationals(item(each, 1));
       if (lower.size() != coordinates || upper.size() != coordinates) fail("a cell of a law is of other coordinates");
       Cell& cell = law.cells.emplace_back();
       for (std::size_t c = 0; c < coordinates; ++c) cell.push_back({around(lower[c])[0], around(upper[c])[1]});
+      const std::vector<std::string> names = each.size() > 4 ? joints(item(each, 4)) : usual;
       law.efforts.push_back(
-          {efforts(item(each, 2), 2, law.joints.size()), efforts(item(each, 3), most_variables, law.joints.size())});
+          {names, efforts(item(each, 2), 2, names.size()), efforts(item(each, 3), most_variables, names.size())});
       if (law.efforts.back().at_loads.empty()) fail("a cell of a law has no efforts");
     }
     return law;

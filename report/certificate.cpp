@@ -187,6 +187,7 @@ Json law_of(const std::vector<core::PreloadLawCell>& law) {
     for (const std::vector<double>& values : cell.efforts) efforts.push_back(exact_list(values));
     for (const std::vector<double>& values : cell.gains) gains.push_back(exact_list(values));
     cells.push_back({exact_list(cell.lower), exact_list(cell.upper), std::move(efforts), std::move(gains)});
+    if (cell.joints != law.front().joints) cells.back().push_back(cell.joints);  // other cables are chosen here
   }
   return {{"joints", law.front().joints}, {"cells", std::move(cells)}};
 }

@@ -14,6 +14,7 @@ import numpy
 from preload_statics import Mechanism, dyad, feasible_depth
 from program import SOURCE, InOwnFolder, run
 
+EXAMPLES = SOURCE / "examples"
 FIRST = int(os.environ.get("CLEARLOCI_PRELOAD_FIRST", "0"))
 SEEDS = range(FIRST, FIRST + int(os.environ.get("CLEARLOCI_PRELOAD_INPUTS", "4")))
 
@@ -409,6 +410,29 @@ class Certificates(InOwnFolder):
             cell[2] = [[str(turns), "0"]]
         (self.folder / "c.cert").write_text(json.dumps(certificate), encoding="utf-8")
         self.run_program("check", "m.yaml", "c.cert", status=1)
+
+    def test_cells_that_choose_other_cables_are_certified(self):
+        for name in ("point", "three_cables"):
+            model = EXAMPLES / "cables" / f"{name}.yaml"
+            side = "0.6" if name == "point" else "0.1"
+            task = f"format: 1\nbox: {{x: [-{side}, {side}], y: [-{side}, {side}]}}\npreload: controlled\n"
+            (self.folder / "t.yaml").write_text(task, encoding="utf-8")
+            self.run_program("verify", model, "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out")
+            self.run_program("check", model, "c.cert")
+        self.run_program(
+            "verify", EXAMPLES / "cables" / "point.yaml", EXAMPLES / "cables" / "task_of_point.yaml",
+            "--certificate", "c.cert", "--quiet", "-o", "out",
+        )  # fmt: skip
+        certificate = json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+        cell = next(cell for cell in certificate["pose_task"]["law"]["cells"] if len(cell) > 4)
+        right = cell[4]
+        self.expect(certificate, 0, EXAMPLES / "cables" / "point.yaml")
+        for wrong in ([right[0], right[0]], right[:1], [*right, "K3"], ["K9", right[1]]):
+            cell[4] = wrong
+            self.expect(certificate, 1 if len(wrong) == 2 else 2, EXAMPLES / "cables" / "point.yaml")
+        cell[4] = right
+        cell[2] = [["99", "5"]]
+        self.expect(certificate, 1, EXAMPLES / "cables" / "point.yaml")
 
     def refuted(self, mechanism, more):
         (self.folder / "m.yaml").write_text(mechanism.text(), encoding="utf-8")
