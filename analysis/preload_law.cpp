@@ -33,7 +33,12 @@ double nearest_to_zero(const EffortCorridor& corridor) {
 class LawSearch {
  public:
   LawSearch(const Model& model, WantedEffort wanted, const Task& task, const VerifyRequest& request)
-      : model_(model), wanted_(std::move(wanted)), task_(task), request_(request), box_(core::bounds(task.shape)) {
+      : model_(model),
+        wanted_(std::move(wanted)),
+        task_(task),
+        request_(request),
+        box_(core::bounds(task.shape)),
+        own_gap_(own_gap(model.content().mechanism, wanted_.joint, request_of(task, request.loci))) {
     task_.controlled_preload = false;
     const std::size_t n = box_[0].size();
     const loci::pose::PoseMetric metric{std::vector<double>(n, 1.0), std::vector<bool>(n, true)};
@@ -62,8 +67,15 @@ class LawSearch {
 
   Model with(const std::string& law) const { return model_.with({{wanted_.parameter, law}}); }
 
+  /// Somewhere it does not take up the play of its own motor.
+  bool is_within_own_gap(const std::array<double, 2>& within) const {
+    return own_gap_ && (own_gap_->to > 0 ? within[0] < own_gap_->to && within[1] > -own_gap_->to
+                                         : within[0] <= 0 && within[1] >= 0);
+  }
+
   void try_law(const std::string& law, const std::array<double, 2>& within) {
-    if (out_of_time() || within[0] < core::to_double(wanted_.lower) || within[1] > core::to_double(wanted_.upper))
+    if (out_of_time() || is_within_own_gap(within) || within[0] < core::to_double(wanted_.lower) ||
+        within[1] > core::to_double(wanted_.upper))
       return;
     ++laws_;
     if (request_.loci.progress) request_.loci.progress(0, "preload");
@@ -86,6 +98,9 @@ class LawSearch {
       if (corridor.empty()) return;
       needed = std::max(needed, nearest_to_zero(corridor));
     }
+    // Any effort takes up the play of its own motor, however small: as small as constant ones are told apart.
+    if (own_gap_ && needed == 0)
+      needed = std::max(std::abs(core::to_double(wanted_.lower)), std::abs(core::to_double(wanted_.upper))) / (1 << 16);
     for (const double stretch : stretches) {
       const double most = needed > 0 ? stretch * needed : infinity;
       std::vector<std::vector<double>> poses;
@@ -170,6 +185,7 @@ class LawSearch {
   Task task_;
   const VerifyRequest& request_;
   std::array<core::RationalPose, 2> box_;
+  std::optional<numeric::EffortGap> own_gap_;
   std::vector<EffortPattern> patterns_;
   std::optional<core::PreloadLaw> found_;
   long laws_ = 0;

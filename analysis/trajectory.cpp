@@ -191,6 +191,16 @@ void add_sweep(const FlankMotions& motions, const numeric::LossThresholds& thres
     result.loss_curves.push_back({joint_name(motions.motion(), curve.joint), curve.quantity, std::move(curve.lines)});
 }
 
+/// "end_ahead of G2 is zero all along the path: ...".
+std::vector<std::string> idle_notes(const numeric::Motion& motion) {
+  std::vector<std::string> notes;
+  for (std::size_t j = 0; j < motion.columns.size(); ++j)
+    for (const core::Quantity quantity : numeric::idle_quantities(motion, j))
+      notes.push_back(core::to_string(quantity) + " of " + motion.model.mechanism.joints[j].name +
+                      " is zero all along the path: its take-up, and with it the pose error, is undefined");
+  return notes;
+}
+
 // ---- Request
 
 void require_positive(const std::optional<double>& value, const std::string& what, const std::string& unit) {
@@ -252,6 +262,7 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   check_deadline();
   result.stages = stages_of(motion, period, motions.critical_periods(thresholds));
   for (std::string& note : motions.slack_notes(samples, period)) result.notes.push_back(std::move(note));
+  for (std::string& note : idle_notes(motion)) result.notes.push_back(std::move(note));
   check_deadline();
   result.samples = table_of(motion, samples, period);
   if (!request.periods.empty()) add_sweep(motions, thresholds, request.periods, result);

@@ -95,7 +95,9 @@ Motion motion_of(const mechanism::Mechanism& mechanism, Timeline timeline, std::
 
 Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                       std::vector<int> mode) {
-  return motion_of(mechanism, compile_timeline(trajectory, mechanism), std::move(mode));
+  Motion motion = motion_of(mechanism, compile_timeline(trajectory, mechanism), std::move(mode));
+  motion.idle = idle_unknowns(motion);
+  return motion;
 }
 
 Motion compile_motion(const mechanism::Mechanism& mechanism, std::vector<int> mode) {

@@ -370,7 +370,20 @@ class LastLoss {
 
 }  // namespace
 
-std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t joint) {
+bool is_idle(const Motion& motion, std::size_t joint, core::Quantity quantity) {
+  const JointColumns& columns = motion.columns[joint];
+  const auto zero = [&](int column) {
+    return column < 0 || (!motion.idle.empty() && motion.idle[static_cast<std::size_t>(column)]);
+  };
+  if (core::is_guide_end(quantity)) return zero(columns.normal) && zero(columns.tilt);
+  if (quantity != core::Quantity::f) return zero(columns.couple);
+  return columns.fx < 0 ? zero(columns.normal) : zero(columns.fx) && zero(columns.fy) && zero(columns.fz);
+}
+
+namespace {
+
+/// What may lose contact.
+std::vector<core::Quantity> with_clearance(const Motion& motion, std::size_t joint) {
   const JointClearance& clearance = motion.clearances[joint];
   const JointColumns& columns = motion.columns[joint];
   std::vector<core::Quantity> watched;
@@ -383,6 +396,20 @@ std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t
   if (clearance.gap > 0 && columns.normal >= 0)
     for (const auto& [end, sign] : mechanism::guide_end_signs) watched.push_back(end);
   return watched;
+}
+
+}  // namespace
+
+std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t joint) {
+  std::vector<core::Quantity> watched = with_clearance(motion, joint);
+  std::erase_if(watched, [&](core::Quantity quantity) { return is_idle(motion, joint, quantity); });
+  return watched;
+}
+
+std::vector<core::Quantity> idle_quantities(const Motion& motion, std::size_t joint) {
+  std::vector<core::Quantity> idle = with_clearance(motion, joint);
+  std::erase_if(idle, [&](core::Quantity quantity) { return !is_idle(motion, joint, quantity); });
+  return idle;
 }
 
 LossThresholds default_thresholds(const Motion& motion, const std::vector<std::vector<Instant>>& samples) {

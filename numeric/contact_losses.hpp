@@ -40,10 +40,14 @@ struct ContactLoss {
   double earles_wu = 0;  ///< of a minimum, rad/(N s); infinite where the force vanishes
 };
 
-/// What is watched of a joint: f with a radial clearance, M or F with play in its actuator, the force of a
-/// gear, the ends of a guide's
-/// contact with a gap.
+/// A joint's quantity is zero all along the path (Motion::idle).
+bool is_idle(const Motion& motion, std::size_t joint, core::Quantity quantity);
+
+/// What is watched of a joint: f with a radial clearance, M or F with play in its actuator, the force of a gear, the
+/// ends of a guide's contact with a gap; but for what is idle.
 std::vector<core::Quantity> watched_quantities(const Motion& motion, std::size_t joint);
+/// Those that are idle: contact is never made there, and the take-up is undefined.
+std::vector<core::Quantity> idle_quantities(const Motion& motion, std::size_t joint);
 
 /// Of the joints with a clearance, in order of time.
 std::vector<ContactLoss> contact_losses(const Motion& motion, const std::vector<std::vector<Instant>>& samples,

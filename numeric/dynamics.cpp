@@ -69,7 +69,7 @@ void check_instants(const Motion& motion, const std::vector<std::vector<Instant>
 }
 
 /// Places, and the equations there, of coordinates that are known.
-void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
+void solve_at(const Motion& motion, const Interval& stretch, Instant& result, std::vector<bool>* zero = nullptr) {
   const NumericModel& model = motion.model;
   std::vector<Series> inputs = result.coordinates;
   for (const int sign : motion.mode) inputs.emplace_back(sign);
@@ -100,7 +100,7 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result) {
   }
   for (const auto& axis : model.couple_axes)
     result.couple_axes.push_back(axis ? values_of(vector(*axis)) : Vector3d::Zero());
-  if (result.reachable) solve_equations(motion, stretch, registers, result);
+  if (result.reachable) solve_equations(motion, stretch, registers, result, zero);
 }
 
 }  // namespace
@@ -112,15 +112,39 @@ Instant instant_of(const Motion& motion, const std::vector<Series>& coordinates)
   return result;
 }
 
-Instant instant(const Motion& motion, std::size_t interval, double tau) {
+namespace {
+
+Instant instant(const Motion& motion, std::size_t interval, double tau, std::vector<bool>* zero) {
   const Interval& stretch = motion.timeline.intervals[interval];
   Instant result;
   result.tau = tau;
   result.interval = interval;
   result.distance = distance_at(motion.timeline, stretch, tau);
   result.coordinates = coordinates_at(motion.timeline, stretch, tau);
-  solve_at(motion, stretch, result);
+  solve_at(motion, stretch, result, zero);
   return result;
+}
+
+}  // namespace
+
+Instant instant(const Motion& motion, std::size_t interval, double tau) {
+  return instant(motion, interval, tau, nullptr);
+}
+
+std::vector<bool> idle_unknowns(const Motion& motion) {
+  constexpr std::array shares = {0.2361, 0.5858, 0.8284};  // off the middle, where symmetric designs have zeros
+  std::vector<bool> idle(motion.model.unknowns.size(), true);
+  bool told = false;
+  for (std::size_t k = 0; k < motion.timeline.intervals.size(); ++k) {
+    const Interval& stretch = motion.timeline.intervals[k];
+    for (const double share : shares) {
+      std::vector<bool> zero;
+      (void)instant(motion, k, stretch.begin + share * (stretch.end - stretch.begin), &zero);
+      for (std::size_t u = 0; u < zero.size(); ++u) idle[u] = idle[u] && zero[u];
+      told = told || !zero.empty();
+    }
+  }
+  return told ? idle : std::vector<bool>(idle.size(), false);
 }
 
 std::vector<JointReaction> joint_reactions(const Motion& motion, const Instant& at, const Eigen::VectorXd& values) {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "numeric/wrench_rows.hpp"
@@ -95,6 +97,24 @@ class InstantEquations {
     instant.at_rest_rate = lu.solve(rest_.rate - A_rate_ * instant.at_rest);
     instant.inertial_rate = lu.solve(inertial_.rate - A_rate_ * instant.inertial);
     instant.influence = lu.solve(unit_wrenches_on_the_end_effector()).transpose();
+    for (std::size_t k = 0; k < motion_.idle.size(); ++k)
+      if (motion_.idle[k])
+        for (Eigen::VectorXd* part :
+             {&instant.at_rest, &instant.inertial, &instant.at_rest_rate, &instant.inertial_rate})
+          (*part)(static_cast<Eigen::Index>(k)) = 0;
+  }
+
+  /// Zero within a bound of what rounding of A, b and the solution leaves: |A^-1| (|A| |w| + |b|), times so much.
+  std::vector<bool> zeros(const Instant& instant) const {
+    constexpr double rounding = 1e-13;
+    const Eigen::MatrixXd inverse = A_.inverse().cwiseAbs(), size = A_.cwiseAbs();
+    std::vector<bool> zero(static_cast<std::size_t>(size_), true);
+    for (const auto& [values, right] : {std::pair(&instant.at_rest, &rest_), {&instant.inertial, &inertial_}}) {
+      const Eigen::VectorXd bound = rounding * (inverse * (size * values->cwiseAbs() + right->value.cwiseAbs()));
+      for (Eigen::Index k = 0; k < size_; ++k)
+        if (!(std::abs((*values)(k)) <= bound(k))) zero[static_cast<std::size_t>(k)] = false;
+    }
+    return zero;
   }
 
  private:
@@ -239,8 +259,10 @@ void refuse_rotation(const mechanism::Link& link) {
 }
 
 void solve_equations(const Motion& motion, const Interval& stretch, const std::vector<Series>& registers,
-                     Instant& instant) {
-  InstantEquations(motion, stretch, registers).solve(instant);
+                     Instant& instant, std::vector<bool>* zero) {
+  InstantEquations equations(motion, stretch, registers);
+  equations.solve(instant);
+  if (zero != nullptr) *zero = equations.zeros(instant);
 }
 
 }  // namespace clearloci::numeric

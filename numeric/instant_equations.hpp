@@ -15,8 +15,9 @@ constexpr double slender_rod = -1;  ///< in place of an inertia: that of a rod b
 inline Vector3d values_of(const PointSeries& v) { return {v[0].value(), v[1].value(), v[2].value()}; }
 
 /// Sets |A|, the static and the inertial part of the reactions with their derivatives, and H. `registers`: of the
-/// model's tape at the instant; what is carried is that of the stretch.
+/// model's tape at the instant; what is carried is that of the stretch. Those of idle unknowns are 0. `zero`: which
+/// unknowns are zero in both parts, to the rounding of the solution.
 void solve_equations(const Motion& motion, const Interval& stretch, const std::vector<Series>& registers,
-                     Instant& instant);
+                     Instant& instant, std::vector<bool>* zero = nullptr);
 
 }  // namespace clearloci::numeric

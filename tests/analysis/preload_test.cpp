@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "clearloci/error.hpp"
 #include "clearloci/errors.hpp"
 #include "clearloci/loci.hpp"
@@ -62,6 +65,22 @@ TEST(FreeEffort, NoneIsTheSmallestWhereNoneIsNeeded) {
   ASSERT_TRUE(answer.preload && answer.preload->value);
   EXPECT_EQ(answer.preload->value->front(), 0);
   EXPECT_EQ(answer.preload->size[1], 0);
+}
+
+// A law of no effort leaves the play of its own motor open at every pose.
+TEST(FreeEffort, ALawTakesUpThePlayOfItsOwnMotor) {
+  const std::string text = replaced(with_free_effort, "actuated: {effort: free}, clearance: {radial: 10e-6}",
+                                    "actuated: {effort: free}, clearance: {radial: 10e-6, angular: 1e-3}");
+  const std::string task_text = "format: 1\nbox: {x: [0.2, 0.35], y: [-0.75, -0.65]}\npreload: controlled\n";
+  for (const std::string& model_text : {with_free_effort, text}) {
+    const Model model = Model::parse(model_text, "m.yaml");
+    const Verification answer = verify(model, parse_task(task_text, model), {.depth = VerifyDepth::verdict});
+    ASSERT_TRUE(answer.verified());
+    ASSERT_TRUE(answer.preload && answer.preload->law);
+    const auto& [least, most] = answer.preload->law->within;
+    EXPECT_EQ(model_text == text, least > 0 || most < 0) << least << " to " << most;
+    EXPECT_LT(std::max(std::abs(least), std::abs(most)), 0.1);
+  }
 }
 
 TEST(FreeEffort, IsLookedForWithinItsBounds) {
