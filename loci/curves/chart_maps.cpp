@@ -54,12 +54,23 @@ std::array<std::vector<double>, 2> joined_box(const std::vector<const LocusProbl
   return box;
 }
 
+/// The map's modes with the roots of the problem that say nothing of postures, which the map may have without
+/// (drop_own_roots): these are positive.
+LocusMap with_all_roots(LocusMap map, const LocusProblem& problem) {
+  for (LocusCurve& curve : map.curves) curve.mode.resize(problem.tower.roots.size(), 1);
+  return map;
+}
+
 /// One chart's map with angles in place of their t.
 class Unrolled {
  public:
   /// `reach`: by how much a vertex over the angles may be off.
   Unrolled(const LocusProblem& problem, const LocusMap& map, double tolerance, double reach)
-      : problem_(problem), map_(map), projections_(problem, map), tolerance_(tolerance), reach_(reach) {}
+      : problem_(problem),
+        map_(with_all_roots(map, problem)),
+        projections_(problem, map_),
+        tolerance_(tolerance),
+        reach_(reach) {}
 
   Point2 place(const Point2& at) const {
     Point2 result = at;
@@ -165,7 +176,7 @@ class Unrolled {
   }
 
   const LocusProblem& problem_;
-  const LocusMap& map_;
+  const LocusMap map_;
   CurveProjections projections_;
   std::map<int, std::deque<ArcCheck>> checks_;
   double tolerance_, reach_;
