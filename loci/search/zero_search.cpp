@@ -25,7 +25,8 @@ constexpr double lifted_inflation = 0.6, root_inflation = 0.2;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
 // Cells this much wider than the smallest that cannot be told anything about may be next to a touch. Where it is none,
-// trials say nothing for long.
+// trials say nothing for long: so many are made among cells of one size, so that large ones do not use up those of
+// small ones.
 constexpr double worth_a_touch = 1e10;
 constexpr std::size_t most_touch_trials = 256;
 // Enough that what is left of them after a first look fills batches again.
@@ -95,6 +96,7 @@ void ZeroSearch::give_up(std::vector<Box>& live) {
   for (State& state : states_) {
     state.before = state.live;
     state.live = 0;
+    state.touch_trials = 0;
   }
   for (const Box& box : live) ++states_[box.search].live;
   // Along a curve each halving leaves at least four in three; where fewer are left the end is near.

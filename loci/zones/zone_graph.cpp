@@ -315,6 +315,7 @@ class Builder {
       return true;
     }
     sheet::ZeroOptions effort = effort_;
+    effort.touching = true;
     effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
     if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
     for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));
@@ -394,7 +395,8 @@ class Builder {
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
     for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
-    for (const sheet::PlaneCell& cell : found.at_cones) node_at({cell.x.middle(), cell.y.middle()});
+    for (const auto* const places : {&found.touches, &found.at_cones})
+      for (const sheet::PlaneCell& cell : *places) node_at({cell.x.middle(), cell.y.middle()});
     return !found.gave_up &&
            std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::PlaneCell& cell) {
              const Point2 at = {cell.x.middle(), cell.y.middle()};
