@@ -28,6 +28,20 @@ void collect_tangents(const core::Expression& e, std::vector<core::Expression>& 
   if (!is_turned) tangents.push_back(e.arguments()[0]);
 }
 
+/// A power of two that takes the largest coefficient of the two to about 1: enclosures with a fixed number of digits
+/// (loci/numbers/multi_interval.hpp) would know nothing of a way that is too short.
+core::Rational unit_of(const Poly& x, const Poly& y) {
+  core::Rational unit = 0;
+  for (const Poly* const part : {&x, &y}) {
+    if (part->is_zero()) continue;
+    const core::Polynomial plain = part->plain();
+    const core::Rational own =
+        core::scaled_for_doubles(plain).terms.front().coefficient / plain.terms.front().coefficient;
+    if (unit == 0 || own < unit) unit = own;
+  }
+  return unit == 0 ? core::Rational(1) : unit;
+}
+
 }  // namespace
 
 const TorsionAngle& Geometry::torsion_angle(std::size_t spring) const {
@@ -123,6 +137,9 @@ void Geometry::place_torsion_angle(TorsionAngle& angle) {
     x = x.exact_quotient(common);
     y = y.exact_quotient(common);
   }
+  const core::Rational unit = unit_of(x, y);
+  x = x.scaled(unit);
+  y = y.scaled(unit);
   angle.natural = GiNaC::ex(symbol(ring_->name(angle.variable)));
   if (const std::optional<TowerPoint> same = same_angle(x, y)) {
     angle.place = same;

@@ -337,7 +337,8 @@ double chart_tolerance(double tolerance) { return tolerance / 4; }
 LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector<LocusMap> maps,
                      std::vector<core::WorkingMode> modes, double tolerance) {
   core::ensure(!charts.empty() && charts.size() == maps.size(), "a map for each chart");
-  // Sides of a fold have a root of their own each: modes are compared without, vertices are checked with it.
+  // Sides of a fold, whole forces and margins have roots of their own: modes are compared without, vertices are checked
+  // with them.
   const std::vector<LocusMap> traced = maps;
   if (charts.size() > 1) {
     for (LocusMap& map : maps) drop_own_roots(map);

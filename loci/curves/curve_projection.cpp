@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "loci/curves/plane_curve.hpp"
+#include "loci/curves/tracer.hpp"
 #include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
@@ -31,13 +32,26 @@ core::Point2 unit(double x, double y) {
   return length > 0 && std::isfinite(length) ? core::Point2{x / length, y / length} : core::Point2{};
 }
 
+/// What is followed: the factor, or where that is a root alone the root's square, for beside the boundary the root says
+/// badly where it is zero.
+sheet::SheetFunction followed_function(const core::RootTower& tower, const core::LocusFactor& factor) {
+  const std::vector<core::Term>& terms = factor.sheet.terms;
+  for (std::size_t j = 0; j < tower.roots.size() && terms.size() == 1; ++j) {
+    std::vector<int> alone(terms.front().exponents.size(), 0);
+    alone[2 + j] = 1;
+    if (!tower.roots[j].is_angle() && terms.front().exponents == alone)
+      return sheet::square_of(tower, static_cast<int>(j), {});
+  }
+  return {factor.sheet, factor.line};
+}
+
 }  // namespace
 
 /// Newton's method on the lifted curve, in the plane across its tangent.
 struct CurveProjection::OnSheet {
-  OnSheet(const core::LocusProblem& problem, const core::LocusCurve& curve, const core::LocusFactor& factor)
-      : part(sheet::subtower(problem.tower, curve.mode, {factor.sheet})),
-        program(part.tower, std::vector{sheet::narrowed(sheet::SheetFunction{factor.sheet, factor.line}, part)}),
+  OnSheet(const core::LocusProblem& problem, const core::LocusCurve& curve, const sheet::SheetFunction& function)
+      : part(sheet::subtower(problem.tower, curve.mode, {function.polynomial})),
+        program(part.tower, std::vector{sheet::narrowed(function, part)}),
         size(size_of(problem)),
         follower(program, size),
         registers(program.registers<double>()) {}
@@ -174,7 +188,8 @@ CurveProjection::CurveProjection(const core::LocusProblem& problem, const core::
   if (!self.circles.empty() || self.line) return;
   const bool low = !curve.implicit.is_zero() && core::total_degree(curve.implicit) <= low_degree;
   if (low || factor == nullptr) self.plane = std::make_unique<PlaneCurve>(curve.implicit);
-  if (factor != nullptr) self.sheet = std::make_unique<OnSheet>(problem, curve, *factor);
+  if (factor != nullptr)
+    self.sheet = std::make_unique<OnSheet>(problem, curve, followed_function(problem.tower, *factor));
 }
 
 CurveProjection::~CurveProjection() = default;

@@ -318,9 +318,16 @@ class Builder {
     effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
     if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
     for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));
-    if (first != second && !share_a_curve(*first, *second))
-      return add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
-                                             {second->sheet, second->line}, lower, upper, effort));
+    if (first != second && !share_a_curve(*first, *second)) {
+      const auto search = [&] {
+        return sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, {second->sheet, second->line},
+                                     lower, upper, effort);
+      };
+      sheet::ZeroSet found = search();
+      // Trials for touches are dear where there is none.
+      effort.touching = !found.undecided.empty();
+      return add_zeros(effort.touching ? search() : found);
+    }
     // Curves of one factor, and of two that vanish on one curve besides, are told apart in the plane; the tower knows
     // where it is undefined.
     const auto widened = [&](const core::Polynomial& p) { return core::with_variables(p, problem_.tower.variables()); };
@@ -394,7 +401,8 @@ class Builder {
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
     for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
-    for (const sheet::PlaneCell& cell : found.at_cones) node_at({cell.x.middle(), cell.y.middle()});
+    for (const auto* const places : {&found.touches, &found.at_cones})
+      for (const sheet::PlaneCell& cell : *places) node_at({cell.x.middle(), cell.y.middle()});
     return !found.gave_up &&
            std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::PlaneCell& cell) {
              const Point2 at = {cell.x.middle(), cell.y.middle()};

@@ -212,9 +212,9 @@ std::vector<Judgement> run(const LawRun& run) {
   };
   std::ofstream state;
   if (!run.state.empty()) state.open(run.state, std::ios::app);
-  const int families = static_cast<int>(all_families.size());
+  const int families = static_cast<int>(run.families.size());
   for (int i = 0; i < run.designs; ++i) {
-    const Family family = all_families[static_cast<std::size_t>(i % families)];
+    const Family family = run.families[static_cast<std::size_t>(i % families)];
     const int index = run.first + i / families;
     if (is_known_index(family, index)) continue;
     const LawDesign design = law_design(run.seed, family, index);

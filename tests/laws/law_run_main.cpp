@@ -1,8 +1,8 @@
 // The long run of the law (docs/background/exactness.md):
 //     law_run --designs 2000 --state run.state --keep folder
 // A run that was stopped goes on with the same command. --first i begins each family with its i-th design, --seed n
-// draws others, --patience s is the CPU time that each question to the program may take. --show FAMILY INDEX prints one
-// design with its options, and judges nothing.
+// draws others, --family n takes designs of that family alone, --patience s is the CPU time that each question to the
+// program may take. --show FAMILY INDEX prints one design with its options, and judges nothing.
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string key = argv[i], value = argv[i + 1];
     if (key == "--designs") law_run.designs = std::stoi(value);
+    if (key == "--family") law_run.families = {all_families.at(std::stoul(value))};
     if (key == "--first") law_run.first = std::stoi(value);
     if (key == "--seed") law_run.seed = std::stoi(value);
     if (key == "--patience") law_run.patience = std::stoi(value);
