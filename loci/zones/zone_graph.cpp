@@ -15,6 +15,7 @@
 #include "loci/search/search.hpp"
 #include "loci/sheet/sheet.hpp"
 #include "loci/zones/circle_crossings.hpp"
+#include "loci/zones/margin_crossings.hpp"
 #include "loci/zones/near_passes.hpp"
 #include "loci/zones/segment_crossings.hpp"
 
@@ -318,9 +319,13 @@ class Builder {
     effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
     if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
     for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));
-    if (first != second && !share_a_curve(*first, *second))
-      return add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line},
-                                             {second->sheet, second->line}, lower, upper, effort));
+    if (first != second && !share_a_curve(*first, *second)) {
+      // Where only polynomials are asked for, the second factor's own is.
+      sheet::SheetFunction other = {second->sheet, difference_of_margins(*first, *second)};
+      if (other.line.empty()) other.line = second->line;
+      return add_zeros(
+          sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, other, lower, upper, effort));
+    }
     // Curves of one factor, and of two that vanish on one curve besides, are told apart in the plane; the tower knows
     // where it is undefined.
     const auto widened = [&](const core::Polynomial& p) { return core::with_variables(p, problem_.tower.variables()); };
