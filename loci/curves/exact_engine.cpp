@@ -11,6 +11,7 @@
 #include "loci/curves/edge_labels.hpp"
 #include "loci/curves/isolated_points.hpp"
 #include "loci/curves/open_regions.hpp"
+#include "loci/curves/out_of_reach.hpp"
 #include "loci/curves/plane_curve.hpp"
 #include "loci/curves/vertex_placement.hpp"
 #include "loci/sheet/sheet.hpp"
@@ -27,7 +28,7 @@ using core::Point2;
 using core::Polyline;
 using core::WorkingMode;
 
-/// The distinct irreducible curves of a problem, and which of them each factor owns.
+/// The distinct irreducible curves of a problem of which a pose may lie on one, and which of them each factor owns.
 struct CurveList {
   std::vector<core::Polynomial> curves;
   std::vector<std::vector<int>> of_factor;
@@ -35,9 +36,18 @@ struct CurveList {
 
 CurveList distinct_curves(const LocusProblem& problem) {
   CurveList list;
+  std::vector<core::Polynomial> left_out;
+  const auto is_one_of = [](const std::vector<core::Polynomial>& curves, const core::Polynomial& p) {
+    return std::find(curves.begin(), curves.end(), p) != curves.end();
+  };
   for (const core::LocusFactor& factor : problem.factors) {
     auto& indices = list.of_factor.emplace_back();
     for (const core::Polynomial& p : factor.implicit) {
+      if (is_one_of(left_out, p)) continue;
+      if (!is_one_of(list.curves, p) && is_out_of_reach(problem, p)) {
+        left_out.push_back(p);
+        continue;
+      }
       const auto found = std::find(list.curves.begin(), list.curves.end(), p);
       indices.push_back(static_cast<int>(found - list.curves.begin()));
       if (found == list.curves.end()) list.curves.push_back(p);

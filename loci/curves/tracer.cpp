@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/dense_terms.hpp"
+#include "loci/curves/out_of_reach.hpp"
 #include "loci/curves/vertices.hpp"
 
 namespace clearloci::loci::sheet {
@@ -104,7 +105,7 @@ SheetTrace Tracer::trace(double tolerance) const {
   if (!undecided.empty() && !own_.dropped.empty()) {
     const SheetProgram whole(tower_, std::vector<core::Polynomial>{});
     SheetCell look(whole, mode_);
-    std::erase_if(undecided, [&](const PlaneCell& cell) { return is_out_of_reach(look, cell, most_halvings_of_open); });
+    std::erase_if(undecided, [&](const PlaneCell& cell) { return is_free(look, cell, most_halvings_of_open); });
   }
   for (const PlaneCell& cell : open_places(undecided, size_))
     trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
@@ -169,17 +170,6 @@ void Tracer::add_box_cuts(std::vector<Cut>& cuts) const {
     const core::Polynomial sign = core::constant_polynomial(n, i % 2 == 0 ? 1 : -1);
     cuts.push_back({{sign * line}, core::ArcEnd::box, true, i});
   }
-}
-
-bool Tracer::is_out_of_reach(SheetCell& look, const PlaneCell& cell, int halvings) {
-  if (!look.enter(cell.x, cell.y)) return true;
-  if (halvings == 0) return false;
-  const bool wide = cell.x.width() > cell.y.width();
-  const Interval& range = wide ? cell.x : cell.y;
-  const Interval parts[] = {{range.lower(), range.middle()}, {range.middle(), range.upper()}};
-  return std::all_of(std::begin(parts), std::end(parts), [&](const Interval& part) {
-    return is_out_of_reach(look, wide ? PlaneCell{part, cell.y} : PlaneCell{cell.x, part}, halvings - 1);
-  });
 }
 
 int Tracer::along_side(int colour) const {

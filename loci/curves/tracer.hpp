@@ -63,9 +63,6 @@ class Tracer {
 
   void add_box_cuts(std::vector<Cut>& cuts) const;
 
-  /// By halves: roots on which the curve does not depend, as that of a limit, leave no pose in the cell.
-  static bool is_out_of_reach(SheetCell& look, const PlaneCell& cell, int halvings);
-
   bool meets_box(const PlaneCell& cell) const {
     return !disjoint(cell.x, {box_[0], box_[1]}) && !disjoint(cell.y, {box_[2], box_[3]});
   }

@@ -17,8 +17,13 @@ constexpr int share_after_giving_up = 8;
 // Of the box: a zero this near to a cone counts as the cone.
 constexpr double at_rounding = 1e-12;
 
-/// The direction from end to end is, so that roots vanish; at nodes of a function alone none do.
-bool is_undefined_at(const Star& star) { return star.shape == Star::Shape::cone && !star.roots.empty(); }
+/// The direction from end to end is, so that roots vanish; at nodes of a function alone none do. Of a cone that a
+/// boundary runs through they vanish with the second power at least.
+bool is_undefined_at(const Star& star) {
+  if (star.shape == Star::Shape::corner)
+    return std::any_of(star.roots.begin(), star.roots.end(), [&](int root) { return star.power_of_root(root) > 1; });
+  return star.shape == Star::Shape::cone && !star.roots.empty();
+}
 
 /// The zero in plane coordinates. `enclosure`: of the chart's coordinates and roots.
 SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, const std::vector<Star>& stars) {

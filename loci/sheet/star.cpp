@@ -82,6 +82,34 @@ std::optional<std::array<Rational, 2>> double_point(const Polynomial& d) {
   return std::array<Rational, 2>{a, b};
 }
 
+namespace {
+
+enum class Roots { absent, smooth, halved };
+
+/// Finds the roots that vanish at a star, by the orders of their squares. Halved: of an odd order one vanishes as the
+/// root of the distance does, for a workspace boundary passes through.
+Roots find_roots(Star& star, const core::RootTower& tower) {
+  star.roots.clear();
+  bool is_halved = false;
+  // Nothing is asked of the roots above one that is not there: their squares may have thousands of terms.
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    if (tower.roots[j].is_angle()) continue;  // in every direction it has a value
+    const Polynomial square = around(star, tower.roots[j].square);
+    if (square.is_zero()) continue;
+    const int order = order_at(star, square);
+    is_halved = is_halved || order % 2 != 0;
+    star.roots.insert(star.roots.end(), static_cast<std::size_t>(order / 2), static_cast<int>(j));
+    if (square.is_constant()) continue;
+    const std::vector<int> origin(square.variables, 0);
+    if (square.terms.back().exponents == origin && square.terms.back().coefficient < 0 &&
+        std::none_of(square.terms.begin(), square.terms.end(), has_roots))
+      return Roots::absent;
+  }
+  return is_halved ? Roots::halved : Roots::smooth;
+}
+
+}  // namespace
+
 std::vector<Star> cones(const core::RootTower& tower) {
   std::vector<Star> result;
   for (const Polynomial& denominator : tower.denominators) {
@@ -90,20 +118,12 @@ std::vector<Star> cones(const core::RootTower& tower) {
     Star star;
     star.x = (*place)[0];
     star.y = (*place)[1];
-    bool reachable = true;
-    // Nothing is asked of the roots above one that is not there: their squares may have thousands of terms.
-    for (std::size_t j = 0; reachable && j < tower.roots.size(); ++j) {
-      if (tower.roots[j].is_angle()) continue;  // in every direction it has a value
-      const Polynomial square = around(star, tower.roots[j].square);
-      if (!square.is_zero())
-        star.roots.insert(star.roots.end(), static_cast<std::size_t>(order_at(star, square) / 2), static_cast<int>(j));
-      if (!square.is_zero() && square.is_constant()) continue;
-      const std::vector<int> origin(square.variables, 0);
-      if (!square.terms.empty() && square.terms.back().exponents == origin && square.terms.back().coefficient < 0 &&
-          std::none_of(square.terms.begin(), square.terms.end(), has_roots))
-        reachable = false;
+    Roots found = find_roots(star, tower);
+    if (found == Roots::halved && !star.roots.empty()) {
+      star.shape = Star::Shape::corner;
+      found = find_roots(star, tower);
     }
-    if (reachable && !star.roots.empty()) add(result, std::move(star));
+    if (found != Roots::absent && !star.roots.empty()) add(result, std::move(star));
   }
   return result;
 }

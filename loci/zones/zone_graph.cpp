@@ -15,6 +15,7 @@
 #include "loci/search/search.hpp"
 #include "loci/sheet/sheet.hpp"
 #include "loci/zones/circle_crossings.hpp"
+#include "loci/zones/margin_crossings.hpp"
 #include "loci/zones/near_passes.hpp"
 #include "loci/zones/segment_crossings.hpp"
 
@@ -319,9 +320,11 @@ class Builder {
     if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
     for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));
     if (first != second && !share_a_curve(*first, *second)) {
+      // Where only polynomials are asked for, the second factor's own is.
+      sheet::SheetFunction other = {second->sheet, difference_of_margins(*first, *second)};
+      if (other.line.empty()) other.line = second->line;
       const auto search = [&] {
-        return sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, {second->sheet, second->line},
-                                     lower, upper, effort);
+        return sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, other, lower, upper, effort);
       };
       sheet::ZeroSet found = search();
       // Trials for touches are dear where there is none.

@@ -143,6 +143,18 @@ void keep_design(const std::string& folder, const LawDesign& design, const Judge
   file << design.text;
 }
 
+/// Its first fault, otherwise the first doubt of each step.
+std::string summary_of(const Judgement& judgement) {
+  if (!judgement.faults.empty()) return judgement.faults.front().substr(0, 300);
+  std::string summary, last;
+  for (const std::string& doubt : judgement.doubts) {
+    const std::string step = doubt.substr(0, doubt.find(':'));
+    if (step != last) summary += (summary.empty() ? "" : ", ") + doubt.substr(0, 60);
+    last = step;
+  }
+  return summary;
+}
+
 /// A line of the state file: family, index, lattice, forms, outcome, s, what was held.
 std::string line_of(const Judgement& j) {
   std::string held;
@@ -223,7 +235,7 @@ std::vector<Judgement> run(const LawRun& run) {
     if (!run.keep.empty() && judgement.outcome > Outcome::held) keep_design(run.keep, design, judgement);
     if (judgement.outcome > Outcome::held)
       std::cout << to_string(family) << " " << index << ": " << to_string(judgement.outcome) << " "
-                << (judgement.faults.empty() ? "" : judgement.faults.front().substr(0, 300)) << std::endl;
+                << summary_of(judgement) << std::endl;
     all.push_back(judgement);
   }
   return all;

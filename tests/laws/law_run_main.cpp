@@ -13,7 +13,7 @@
 int main(int argc, char** argv) {
   using namespace clearloci::test;
   LawRun law_run;
-  law_run.designs = static_cast<int>(all_families.size());
+  law_run.designs = static_cast<int>(law_run.families.size());
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string key = argv[i], value = argv[i + 1];
     if (key == "--designs") law_run.designs = std::stoi(value);
@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     if (key == "--first") law_run.first = std::stoi(value);
     if (key == "--seed") law_run.seed = std::stoi(value);
     if (key == "--patience") law_run.patience = std::stoi(value);
+    if (key == "--family") law_run.families = {all_families.at(std::stoul(value))};
     if (key == "--state") law_run.state = value;
     if (key == "--keep") law_run.keep = value;
     if (key == "--show" && i + 2 < argc) {
