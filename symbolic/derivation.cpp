@@ -22,13 +22,13 @@ FactoredDeterminants determinants_of(const Geometry& geometry, const Family* fam
 }  // namespace
 
 Derivation::Derivation(const mechanism::Mechanism& m, const Selection& asked, const std::vector<ChartRange>& pieces,
-                       const Family* family, SheetGeometry sheet)
+                       const Family* family, SheetGeometry sheet, KnownEliminations* known)
     : mechanism(m),
       selection(asked),
       modes(std::move(sheet.modes)),
       geometry(std::move(sheet.geometry)),
       determinants(determinants_of(geometry, family)),
-      elimination(geometry),
+      elimination(geometry, known),
       causes(geometry, &determinants.equations),
       words(mechanism, geometry),
       lines(geometry) {

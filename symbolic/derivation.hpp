@@ -45,9 +45,9 @@ struct DeterminantPart {
 
 struct Derivation {
   /// `pieces`: of the ranges of the angles, in the order of the coordinates. `family`: of which the mechanism is a
-  /// member; may be null.
+  /// member; may be null. `known`: of other sheets of the mechanism; may be null.
   Derivation(const mechanism::Mechanism& m, const Selection& asked, const std::vector<ChartRange>& pieces,
-             const Family* family, SheetGeometry sheet);
+             const Family* family, SheetGeometry sheet, KnownEliminations* known = nullptr);
   Derivation(const Derivation&) = delete;
   Derivation& operator=(const Derivation&) = delete;
 

@@ -19,7 +19,7 @@ void insert_distinct(std::vector<Poly>& list, const Poly& p) {
 
 }  // namespace
 
-Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
+Elimination::Elimination(const Geometry& geometry, KnownEliminations* known) : geometry_(&geometry) {
   std::vector<Poly> found;
   // Of a plane what is beyond use divides no norm that is made.
   for (const Poly& denominator : geometry.denominators())
@@ -34,6 +34,34 @@ Elimination::Elimination(const Geometry& geometry) : geometry_(&geometry) {
   for (const TowerRoot& root : geometry.roots())
     if (!root.is_angle() && (!root.value || root.square.constant() != 1)) independent_roots_.push_back(root);
   know_stretched();
+  if (known != nullptr && known->is_for(geometry.ring(), common_sources())) known_ = known;
+}
+
+KnownEliminations::Sources Elimination::common_sources() const {
+  KnownEliminations::Sources sources;
+  for (const TowerRoot& root : geometry_->roots()) {
+    sources.push_back(Poly::variable(geometry_->ring(), root.variable));
+    sources.push_back(root.square);
+    sources.insert(sources.end(), root.cosine_and_sine.begin(), root.cosine_and_sine.end());
+  }
+  for (const TowerRoot& root : independent_roots_) sources.push_back(Poly::variable(geometry_->ring(), root.variable));
+  sources.insert(sources.end(), denominator_factors_.begin(), denominator_factors_.end());
+  sources.insert(sources.end(), known_denominators_.begin(), known_denominators_.end());
+  // Which side of a fold the sheet is on is the place of the point that folds.
+  for (const Fold& fold : geometry_->folds()) sources.push_back(fold.where.primitive());
+  return sources;
+}
+
+KnownEliminations::Sources Elimination::sources_over_tower(const Poly& natural) const {
+  KnownEliminations::Sources sources = {natural};
+  for (const Substitution& pair : geometry_->substitutions()) {
+    const bool is_put_in =
+        std::any_of(sources.begin(), sources.end(), [&](const Poly& p) { return Geometry::degree_in(p, pair) > 0; });
+    if (is_put_in)
+      sources.insert(sources.end(),
+                     {Poly::variable(natural.ring(), pair.x), pair.place.x, pair.place.y, pair.place.z, pair.place.w});
+  }
+  return sources;
 }
 
 namespace {
@@ -97,12 +125,17 @@ const Poly& Elimination::over_tower(const Poly& natural) const {
     if (asked == natural) return result;
   if (const Stretched* const scaled = stretched(natural))
     return over_tower_.emplace_back(natural, scaled->root.scaled(sign_of_content(natural))).second;
+  const KnownEliminations::Sources sources = known_ ? sources_over_tower(natural) : KnownEliminations::Sources{};
+  if (known_)
+    if (const auto found = known_->find(KnownEliminations::Kind::over_tower, sources, natural.ring()))
+      return over_tower_.emplace_back(natural, found->front().poly).second;
   Poly result = natural;
   for (const Substitution& pair : geometry_->substitutions()) {
     const int degree = Geometry::degree_in(result, pair);
     // Clearing puts the denominators of every point to all terms: those that are not needed go before the next point.
     if (degree > 0) result = strip_denominators(geometry_->substituted(result, pair, degree));
   }
+  if (known_) known_->keep(KnownEliminations::Kind::over_tower, sources, {{result, 1}});
   return over_tower_.emplace_back(natural, std::move(result)).second;
 }
 
@@ -170,7 +203,15 @@ Poly Elimination::strip_denominators(Poly p) const {
   return p;
 }
 
-std::vector<PolyFactor> Elimination::factors_over_tower(Poly sheet) const {
+std::vector<PolyFactor> Elimination::factors_over_tower(const Poly& sheet) const {
+  if (!known_) return found_factors(sheet);
+  if (auto found = known_->find(KnownEliminations::Kind::factors, {sheet}, sheet.ring())) return std::move(*found);
+  std::vector<PolyFactor> factors = found_factors(sheet);
+  known_->keep(KnownEliminations::Kind::factors, {sheet}, factors);
+  return factors;
+}
+
+std::vector<PolyFactor> Elimination::found_factors(Poly sheet) const {
   Rational constant;
   std::vector<PolyFactor> elements;
   const auto split_off = [&](const Poly& element) {

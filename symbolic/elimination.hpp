@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "symbolic/geometry.hpp"
+#include "symbolic/known_eliminations.hpp"
 #include "symbolic/line_image.hpp"
 
 namespace clearloci::symbolic {
@@ -24,7 +25,8 @@ struct SheetFactor {
 
 class Elimination {
  public:
-  explicit Elimination(const Geometry& geometry);
+  /// `known`: of other sheets of the mechanism; may be null.
+  explicit Elimination(const Geometry& geometry, KnownEliminations* known = nullptr);
 
   /// Constructed points replaced by their tower form, cleared of denominators, reduced. Zero where the natural
   /// polynomial vanishes in every pose.
@@ -84,7 +86,8 @@ class Elimination {
   /// The factors of a sheet polynomial. Over a tower elements have no unique factors, but where a root depends on
   /// earlier ones numerators and |A| share the element in whose sign it differs, and where a dyad is stretched the root
   /// that is zero there: those are divided out as often as it goes.
-  std::vector<PolyFactor> factors_over_tower(Poly sheet) const;
+  std::vector<PolyFactor> factors_over_tower(const Poly& sheet) const;
+  std::vector<PolyFactor> found_factors(Poly sheet) const;
   /// A sheet polynomial a + b s divided by s, where it holds s at all and s^2 divides a.
   static std::optional<Poly> without_root(const Poly& sheet, const TowerRoot& root);
   bool is_denominator(const Poly& irreducible) const;
@@ -96,11 +99,16 @@ class Elimination {
     Poly natural, root;
   };
   void know_stretched();
+  /// On what all results depend but the places of points.
+  KnownEliminations::Sources common_sources() const;
+  /// A natural polynomial and the places that are put in.
+  KnownEliminations::Sources sources_over_tower(const Poly& natural) const;
   const Stretched* stretched(const Poly& natural) const;
   /// Of every ring variable: what it counts in a degree over the tower, a root half of its square's.
   const std::vector<double>& degree_weights() const;
 
   const Geometry* geometry_;
+  KnownEliminations* known_ = nullptr;                   ///< null where there are none for this geometry
   mutable std::unique_ptr<LineImage> line_image_;        ///< made where it is asked for
   mutable std::vector<double> degree_weights_;           ///< likewise
   mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors

@@ -112,8 +112,10 @@ Piece problems_of(const Mechanism& mechanism, const Selection& selection, const 
   if (sheets.empty())
     piece.without_modes = without_modes(Derivation(mechanism, selection, charts, family,
                                                    {Geometry(mechanism, false, half_angles, {modes.front()}), {}}));
+  KnownEliminations known;
+  KnownEliminations* const shared = sheets.size() > 1 ? &known : nullptr;
   for (SheetGeometry& sheet : sheets) {
-    Derivation derivation(mechanism, selection, charts, family, std::move(sheet));
+    Derivation derivation(mechanism, selection, charts, family, std::move(sheet), shared);
     if (const std::optional<std::string> why = singular(derivation)) {
       if (!derivation.geometry.has_dependent_roots())
         throw core::InputError({mechanism.file}, "the equations are singular in every pose: |A| = 0 on the closure",

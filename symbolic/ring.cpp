@@ -183,6 +183,12 @@ Poly Poly::pow(unsigned exponent) const {
 
 bool Poly::operator==(const Poly& other) const { return fmpq_mpoly_equal(value_, other.value_, ring_->context()) != 0; }
 
+Poly Poly::in(const Ring& ring) const {
+  Poly result(ring);
+  fmpq_mpoly_set(result.value_, value_, ring.context());
+  return result;
+}
+
 bool Poly::is_zero() const { return fmpq_mpoly_is_zero(value_, ring_->context()) != 0; }
 
 bool Poly::is_constant() const { return fmpq_mpoly_is_fmpq(value_, ring_->context()) != 0; }

@@ -58,7 +58,10 @@ class Poly {
   Poly operator-() const;
   Poly scaled(const core::Rational& factor) const;
   Poly pow(unsigned exponent) const;
+  /// Also of rings of the same variables.
   bool operator==(const Poly& other) const;
+  /// The same in another ring of the same variables.
+  Poly in(const Ring& ring) const;
 
   bool is_zero() const;
   bool is_constant() const;

@@ -85,13 +85,19 @@ P with_place(const P& natural, const Pair& pair, int degree, const Roots& roots)
 }
 
 /// p / divisor in the field of the tower; nothing where it is no polynomial over the tower.
+///     (a + b s)(q + r s) = c + d s:  r = (a d - b c) / (a^2 - b^2 s^2),  q = (d - a r) / b
 template <class P, class Roots>
-std::optional<P> quotient_in(P p, P divisor, const Roots& roots) {
+std::optional<P> quotient_in(const P& p, const P& divisor, const Roots& roots) {
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
     if (!divisor.depends_on(root->variable)) continue;
     const auto [a, b] = split(divisor, root->variable);
-    p = reduced_in(p * (a - b * P::variable(p.ring(), root->variable)), roots);
-    divisor = reduced_in(a * a - b * b * root->square, roots);
+    const auto [c, d] = split(p, root->variable);
+    const P norm = reduced_in(a * a - b * b * root->square, roots);
+    const std::optional<P> r = quotient_in(reduced_in(a * d - b * c, roots), norm, roots);
+    if (!r) return std::nullopt;
+    const std::optional<P> q = quotient_in(reduced_in(d - a * *r, roots), b, roots);
+    if (!q) return std::nullopt;
+    return *q + *r * P::variable(p.ring(), root->variable);
   }
   P result(p.ring());
   if (divisor.is_zero() || !p.divides(divisor, result)) return std::nullopt;

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "mechanism/read.hpp"
+#include "symbolic/determinants.hpp"
+#include "symbolic/elimination.hpp"
 #include "symbolic/geometry.hpp"
 #include "symbolic/locus_problem.hpp"
 #include "symbolic/singular_modes.hpp"
@@ -119,6 +121,34 @@ TEST(Parallelogram, OnALegIsCutWhereThatLegLiesOnTheBase) {
     if ((c[0] - b[0]).expand() == GiNaC::numeric(-3, 10) && (c[1] - b[1]).expand().is_zero()) ++beside;
   }
   EXPECT_EQ(beside, 1);
+}
+
+// Most polynomials do not hold the point that folds: what one side has found is found on the other one, and it is what
+// that side finds alone.
+TEST(KnownEliminations, AreWhatEachSideFindsAlone) {
+  const mechanism::Mechanism m = corpus("five_bar_parallelogram");
+  KnownEliminations known;
+  int common = 0, of_one_side = 0;
+  for (const int half : {1, -1}) {
+    const Geometry side(m, false, {}, {{}, {half}});
+    const Elimination alone(side), shared(side, &known);
+    for (const FactoredPoly& numerator : factored_determinants(side).numerators)
+      for (const PolyFactor& factor : numerator.factors) {
+        const Poly sheet = alone.over_tower(factor.poly);
+        const bool is_known = known.find(KnownEliminations::Kind::factors, {sheet}, side.ring()).has_value();
+        if (half < 0) ++(is_known ? common : of_one_side);
+        EXPECT_EQ(shared.over_tower(factor.poly), sheet);
+        const std::vector<SheetFactor> parts = shared.sheet_factors(sheet, false),
+                                       own = alone.sheet_factors(sheet, false);
+        ASSERT_EQ(parts.size(), own.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+          EXPECT_EQ(parts[i].sheet, own[i].sheet);
+          EXPECT_EQ(parts[i].multiplicity, own[i].multiplicity);
+        }
+      }
+  }
+  EXPECT_GT(common, 0);
+  EXPECT_GT(of_one_side, 0);
 }
 
 }  // namespace
