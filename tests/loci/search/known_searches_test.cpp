@@ -104,7 +104,10 @@ TEST(KnownSearches, TellStarsApart) {
   const auto key = [](const std::vector<Star>& stars) {
     return KnownSearches::key(Key::Kind::curve, testing::plane(), {}, {0, 0}, {1, 1}, stars);
   };
-  Star star{.x = 1, .y = 2, .roots = {0}};
+  Star star;
+  star.x = 1;
+  star.y = 2;
+  star.roots = {0};
   const Key one = key({star});
   EXPECT_EQ(key({star}), one);
   EXPECT_FALSE(key({}) == one);
