@@ -37,9 +37,12 @@ std::shared_ptr<const Tracer> found(const core::RootTower& tower, const core::Wo
     return tracer;
   };
   if (options.searches == nullptr) return find();
-  KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::curve, tower, mode, lower, upper);
-  key.numbers.push_back(options.most_cells);
-  key.numbers.push_back(options.whole_or_nothing ? 1 : 0);
+  KnownSearches::Key key =
+      KnownSearches::key(KnownSearches::Key::Kind::curve, tower, mode, lower, upper, options.special);
+  for (const int number : {options.most_cells, options.whole_or_nothing ? 1 : 0, options.colour ? 1 : 0})
+    key.numbers.push_back(number);
+  key.numbers.insert(key.numbers.end(), options.closed_form.begin(), options.closed_form.end());
+  key.numbers.insert(key.numbers.end(), options.along_side.begin(), options.along_side.end());
   key.polynomials.push_back(function.polynomial);
   for (const Cutter& cutter : cutters) {
     key.numbers.push_back(static_cast<int>(cutter.label));

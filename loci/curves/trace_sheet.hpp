@@ -40,8 +40,8 @@ struct SheetTraceOptions {
   bool sketch = false;         ///< the budget is not extended, and what is left open not tried again with other cuts
   std::function<bool()> stop;  ///< true: finish with what is known, stopped = true
   bool certificate = false;    ///< fill in SheetTrace::claims
-  /// Where what does not depend on the tolerance is looked up and kept; may be null. Required: of one `colour`,
-  /// `closed_form`, `along_side` and `special` all that is traced of one function.
+  /// Where what does not depend on the tolerance is looked up and kept; may be null. Required: of one `colour` all that
+  /// is traced of one function.
   KnownSearches* searches = nullptr;
 };
 

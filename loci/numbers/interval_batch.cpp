@@ -18,7 +18,8 @@ namespace {
 using Operation = SheetCode::Operation;
 using RunIntervals = void (*)(const Instruction*, const Instruction*, const IntervalBatch*, IntervalBatch*,
                               std::size_t);
-using RunJets = void (*)(const Instruction*, const Instruction*, const JetBatch*, JetBatch*, std::size_t);
+template <std::size_t N>
+using RunJets = void (*)(const Instruction*, const Instruction*, const JetBatchOver<N>*, JetBatchOver<N>*, std::size_t);
 
 template <class Apply>
 void lane_by_lane(IntervalBatch& result, std::size_t count, const Apply& apply) {
@@ -59,14 +60,17 @@ void run_by_lanes(const Instruction* begin, const Instruction* end, const Interv
 
 namespace {
 
-void run_alone(Operation operation, const JetBatch& a, const JetBatch& b, JetBatch& result, std::size_t count) {
+template <std::size_t N>
+void run_alone(Operation operation, const JetBatchOver<N>& a, const JetBatchOver<N>& b, JetBatchOver<N>& result,
+               std::size_t count) {
   for (std::size_t l = 0; l < count; ++l) result.set_lane(l, result_of(operation, a.lane(l), b.lane(l)));
 }
 
 }  // namespace
 
-void run_by_lanes(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
-                  std::size_t count) {
+template <std::size_t N>
+void run_by_lanes(const Instruction* begin, const Instruction* end, const JetBatchOver<N>* values,
+                  JetBatchOver<N>* results, std::size_t count) {
   for (const Instruction* instruction = begin; instruction != end; ++instruction, ++results)
     run_alone(instruction->operation, values[instruction->first], values[instruction->second], *results, count);
 }
@@ -147,8 +151,9 @@ void run_by_avx2(const Instruction* begin, const Instruction* end, const Interva
   by_avx2::run_wide(begin, end, values, results, count);
 }
 
-void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
-                 std::size_t count) {
+template <std::size_t N>
+void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatchOver<N>* values,
+                 JetBatchOver<N>* results, std::size_t count) {
   by_avx2::run_wide(begin, end, values, results, count);
 }
 
@@ -157,8 +162,9 @@ void run_by_avx512(const Instruction* begin, const Instruction* end, const Inter
   by_avx512::run_wide(begin, end, values, results, count);
 }
 
-void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
-                   std::size_t count) {
+template <std::size_t N>
+void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBatchOver<N>* values,
+                   JetBatchOver<N>* results, std::size_t count) {
   by_avx512::run_wide(begin, end, values, results, count);
 }
 
@@ -181,8 +187,9 @@ void run_by_avx2(const Instruction* begin, const Instruction* end, const Interva
   run_wide(begin, end, values, results, count);
 }
 
-void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
-                 std::size_t count) {
+template <std::size_t N>
+void run_by_avx2(const Instruction* begin, const Instruction* end, const JetBatchOver<N>* values,
+                 JetBatchOver<N>* results, std::size_t count) {
   run_wide(begin, end, values, results, count);
 }
 
@@ -191,8 +198,9 @@ void run_by_avx512(const Instruction* begin, const Instruction* end, const Inter
   run_wide(begin, end, values, results, count);
 }
 
-void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
-                   std::size_t count) {
+template <std::size_t N>
+void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBatchOver<N>* values,
+                   JetBatchOver<N>* results, std::size_t count) {
   run_wide(begin, end, values, results, count);
 }
 
@@ -209,12 +217,28 @@ void run(const Instruction* begin, const Instruction* end, const IntervalBatch* 
   way(begin, end, values, results, count);
 }
 
-void run(const Instruction* begin, const Instruction* end, const JetBatch* values, JetBatch* results,
+template <std::size_t N>
+void run(const Instruction* begin, const Instruction* end, const JetBatchOver<N>* values, JetBatchOver<N>* results,
          std::size_t count) {
-  static const auto way = has_avx512() ? RunJets{run_by_avx512}
-                          : has_avx2() ? RunJets{run_by_avx2}
-                                       : RunJets{run_by_lanes};
+  static const auto way = has_avx512() ? RunJets<N>{run_by_avx512<N>}
+                          : has_avx2() ? RunJets<N>{run_by_avx2<N>}
+                                       : RunJets<N>{run_by_lanes<N>};
   way(begin, end, values, results, count);
 }
+
+template void run(const Instruction*, const Instruction*, const JetBatchOver<2>*, JetBatchOver<2>*, std::size_t);
+template void run_by_lanes(const Instruction*, const Instruction*, const JetBatchOver<2>*, JetBatchOver<2>*,
+                           std::size_t);
+template void run_by_avx2(const Instruction*, const Instruction*, const JetBatchOver<2>*, JetBatchOver<2>*,
+                          std::size_t);
+template void run_by_avx512(const Instruction*, const Instruction*, const JetBatchOver<2>*, JetBatchOver<2>*,
+                            std::size_t);
+template void run(const Instruction*, const Instruction*, const JetBatchOver<3>*, JetBatchOver<3>*, std::size_t);
+template void run_by_lanes(const Instruction*, const Instruction*, const JetBatchOver<3>*, JetBatchOver<3>*,
+                           std::size_t);
+template void run_by_avx2(const Instruction*, const Instruction*, const JetBatchOver<3>*, JetBatchOver<3>*,
+                          std::size_t);
+template void run_by_avx512(const Instruction*, const Instruction*, const JetBatchOver<3>*, JetBatchOver<3>*,
+                            std::size_t);
 
 }  // namespace clearloci::loci::sheet::interval_batch

@@ -168,7 +168,7 @@ void SheetProgram::Registers<T>::run(int stage) {
   const int end = code.stage_end[stage];
   const int offset = program_->variables() + static_cast<int>(code.constants.size());
   T* const values = values_.data();
-  if constexpr (std::is_same_v<T, IntervalBatch> || std::is_same_v<T, JetBatch>) {
+  if constexpr (std::is_same_v<T, IntervalBatch> || std::is_same_v<T, JetBatch> || std::is_same_v<T, JetBatchOver<3>>) {
     interval_batch::run(code.instructions.data() + begin, code.instructions.data() + end, values,
                         values + offset + begin, lanes_);
   } else if constexpr (std::is_same_v<T, Batch>) {

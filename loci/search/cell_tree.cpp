@@ -119,7 +119,7 @@ class Judge {
       : program_(program), side_by_side_(program, mode), patch_size_(patch_size) {
     if (!is_smooth_worthwhile(program)) return;
     smooth_.emplace(program, mode);
-    rim_.emplace(program);
+    rims_.emplace(program);
   }
 
   std::vector<Judgement> operator()(const std::vector<PlaneCell>& cells) {
@@ -199,20 +199,28 @@ class Judge {
   /// Of the cells that side_by_side_ has entered.
   void judge_by_slopes(const std::vector<std::size_t>& batch) {
     side_by_side_.differentiate();
+    std::array<const SheetCell*, RimCells::size> at_rims{};
+    std::array<Judgement*, RimCells::size> open{};
+    std::size_t count = 0;
     for (std::size_t lane = 0; lane < batch.size(); ++lane) {
       Judgement& judgement = judgements_[batch[lane]];
       judge_by_slopes(side_by_side_[lane], is_tiny((*cells_)[batch[lane]]), judgement);
-      if (judgement.kind == LeafKind::undecided && rim_) judge_at_rim(side_by_side_[lane], judgement);
+      if (judgement.kind != LeafKind::undecided || !rims_) continue;
+      at_rims[count] = &side_by_side_[lane];
+      open[count++] = &judgement;
     }
+    if (count == 0) return;
+    rims_->enter(at_rims, count);
+    for (std::size_t lane = 0; lane < count; ++lane) judge_at_rim(lane, *open[lane]);
   }
 
-  void judge_at_rim(const SheetCell& cell, Judgement& judgement) {
-    const RimCell::Standing place = rim_->enter(cell);
-    if (place == RimCell::Standing::unknown) return;
-    if (place == RimCell::Standing::outside || rim_->excludes())
+  void judge_at_rim(std::size_t lane, Judgement& judgement) {
+    const RimCells::Standing place = rims_->place(lane);
+    if (place == RimCells::Standing::unknown) return;
+    if (place == RimCells::Standing::outside || rims_->excludes(lane))
       judgement.kind = LeafKind::empty;
     else
-      take_steadiest([&](int c) { return rim_->tangent(c); }, {rim_->lifted()}, judgement);
+      take_steadiest([&](int c) { return rims_->tangent(lane, c); }, {rims_->lifted(lane)}, judgement);
   }
 
   /// The coordinate along which the curve runs most steadily, if it is proven to run along any.
@@ -249,7 +257,7 @@ class Judge {
   const SheetProgram& program_;
   SheetCells side_by_side_;
   std::optional<SmoothCells> smooth_;
-  std::optional<RimCell> rim_;
+  std::optional<RimCells> rims_;
   double patch_size_;
   const std::vector<PlaneCell>* cells_ = nullptr;
   std::vector<Judgement> judgements_;

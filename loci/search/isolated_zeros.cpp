@@ -106,7 +106,8 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
                        const SheetFunction& second, const std::vector<core::Rational>& lower,
                        const std::vector<core::Rational>& upper, const ZeroOptions& options) {
   if (options.searches == nullptr) return found_zeros(tower, mode, first, second, lower, upper, options);
-  KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper);
+  KnownSearches::Key key =
+      KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper, options.special);
   key.numbers.push_back(options.most_cells);
   key.numbers.push_back(options.touching ? 1 : 0);
   key.polynomials.push_back(first.polynomial);

@@ -1,6 +1,7 @@
 #include "loci/search/known_searches.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace clearloci::loci::sheet {
 
@@ -13,19 +14,51 @@ KnownSearches::Key KnownSearches::key(Key::Kind kind, const core::RootTower& tow
     key.polynomials.push_back(root.square);
     key.polynomials.insert(key.polynomials.end(), root.cosine_and_sine.begin(), root.cosine_and_sine.end());
   }
+  key.polynomials.insert(key.polynomials.end(), tower.denominators.begin(), tower.denominators.end());
   return key;
 }
 
-std::shared_ptr<const void> KnownSearches::known(const Key& key) const {
-  const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(all_.begin(), all_.end(), [&](const auto& candidate) { return candidate.first == key; });
-  return found == all_.end() ? nullptr : found->second;
+KnownSearches::Key KnownSearches::key(Key::Kind kind, const core::RootTower& tower, const core::WorkingMode& mode,
+                                      const std::vector<core::Rational>& lower,
+                                      const std::vector<core::Rational>& upper, const std::vector<Star>& stars) {
+  Key result = key(kind, tower, mode, lower, upper);
+  for (const Star& star : stars) {
+    result.box.insert(result.box.end(), {star.x, star.y, star.slope});
+    if (std::isfinite(star.room)) result.box.emplace_back(star.room);
+    result.numbers.insert(result.numbers.end(),
+                          {static_cast<int>(star.shape), star.along_y ? 1 : 0, star.singular ? 1 : 0,
+                           std::isfinite(star.room) ? 1 : 0, star.apex ? 1 : 0, static_cast<int>(star.roots.size())});
+    result.numbers.insert(result.numbers.end(), star.roots.begin(), star.roots.end());
+    if (!star.apex) continue;
+    result.box.push_back(star.apex->radius);
+    for (const Apex::Value& root : star.apex->roots) {
+      result.box.insert(result.box.end(), {root.middle, root.radius});
+      result.numbers.push_back(root.known ? 1 : 0);
+    }
+  }
+  return result;
 }
 
-void KnownSearches::keep(const Key& key, std::shared_ptr<const void> result) {
-  const std::lock_guard lock(mutex_);
-  all_.emplace_back(key, std::move(result));
+KnownSearches::Found KnownSearches::known(const Key& key, const std::function<Found()>& find) {
+  std::promise<Found> promise;
+  {
+    std::unique_lock lock(mutex_);
+    const auto known = std::find_if(all_.begin(), all_.end(), [&](const auto& other) { return other.first == key; });
+    if (known != all_.end()) {
+      const std::shared_future<Found> found = known->second;
+      lock.unlock();
+      return found.get();
+    }
+    all_.emplace_back(key, promise.get_future().share());
+  }
+  try {
+    Found found = find();
+    promise.set_value(found);
+    return found;
+  } catch (...) {
+    promise.set_exception(std::current_exception());
+    throw;
+  }
 }
 
 }  // namespace clearloci::loci::sheet

@@ -42,13 +42,15 @@ Interval drawn(std::mt19937_64& random) {
 
 using RunIntervals = void (*)(const Instruction*, const Instruction*, const IntervalBatch*, IntervalBatch*,
                               std::size_t);
-using RunJets = void (*)(const Instruction*, const Instruction*, const JetBatch*, JetBatch*, std::size_t);
+template <std::size_t N>
+using RunJets = void (*)(const Instruction*, const Instruction*, const JetBatchOver<N>*, JetBatchOver<N>*, std::size_t);
 
 struct Way {
   const char* name;
   bool (*is_had)();
   RunIntervals run_intervals;
-  RunJets run_jets;
+  RunJets<2> run_jets;
+  RunJets<3> run_jets_of_three;
 };
 
 class Lanes : public ::testing::TestWithParam<Way> {
@@ -107,7 +109,8 @@ TEST_P(Lanes, WhatOverflowsExcludesNothing) {
 }
 
 /// A function's value, its value at the middle and its slopes, as jets carry them, or not bounded.
-TEST_P(Lanes, AreWhatJetsAreAlone) {
+template <std::size_t N>
+void expect_jets_as_alone(RunJets<N> run) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> number(-2, 2), width(0, 0.3);
   const std::vector<Instruction> code = {{Operation::add, 0, 1},      {Operation::subtract, 0, 1},
@@ -116,38 +119,45 @@ TEST_P(Lanes, AreWhatJetsAreAlone) {
                                          {Operation::angle, 0, 1},    {Operation::subtract, 7, 4}};
   int unbounded = 0;
   for (int i = 0; i < 5000; ++i) {
-    std::array<JetBatch, 10> values;
-    for (std::size_t l = 0; l < JetBatch::size; ++l)
+    std::array<JetBatchOver<N>, 10> values;
+    for (std::size_t l = 0; l < IntervalBatch::size; ++l)
       for (const int v : {0, 1}) {
         const double at = number(random);
-        values[static_cast<std::size_t>(v)].set_lane(l, Jet(Interval(at, at + width(random)), v));
+        values[static_cast<std::size_t>(v)].set_lane(
+            l, JetOver<N>(Interval(at, at + width(random)), v + static_cast<int>(N) - 2));
       }
-    GetParam().run_jets(code.data(), code.data() + code.size(), values.data(), values.data() + 2, JetBatch::size);
-    for (std::size_t l = 0; l < JetBatch::size; ++l) {
-      const Jet a = values[0].lane(l), b = values[1].lane(l), product = a * b, reciprocal = inverse(a);
-      const std::array<Jet, 8> alone = {a + b,          a - b,
-                                        product,        squared(a),
-                                        reciprocal,     product * reciprocal,
-                                        angle_of(a, b), product * reciprocal - product};
+    run(code.data(), code.data() + code.size(), values.data(), values.data() + 2, IntervalBatch::size);
+    for (std::size_t l = 0; l < IntervalBatch::size; ++l) {
+      const JetOver<N> a = values[0].lane(l), b = values[1].lane(l), product = a * b, reciprocal = inverse(a);
+      const std::array<JetOver<N>, 8> alone = {a + b,          a - b,
+                                               product,        squared(a),
+                                               reciprocal,     product * reciprocal,
+                                               angle_of(a, b), product * reciprocal - product};
       for (std::size_t k = 0; k < alone.size(); ++k) {
-        const Jet lane = values[2 + k].lane(l);
+        const JetOver<N> lane = values[2 + k].lane(l);
         ASSERT_EQ(lane.bounded, alone[k].bounded) << k;
         unbounded += lane.bounded ? 0 : 1;
         ASSERT_TRUE(same(lane.value, alone[k].value) && same(lane.middle, alone[k].middle)) << k;
-        for (const std::size_t c : {0, 1}) ASSERT_TRUE(same(lane.slope[c], alone[k].slope[c])) << k;
+        for (std::size_t c = 0; c < N; ++c) ASSERT_TRUE(same(lane.slope[c], alone[k].slope[c])) << k;
       }
     }
   }
   EXPECT_GT(unbounded, 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , Lanes,
-    ::testing::Values(Way{"OneByOne", [] { return true; }, interval_batch::run_by_lanes, interval_batch::run_by_lanes},
-                      Way{"ByAvx2", interval_batch::has_avx2, interval_batch::run_by_avx2, interval_batch::run_by_avx2},
-                      Way{"ByAvx512", interval_batch::has_avx512, interval_batch::run_by_avx512,
-                          interval_batch::run_by_avx512}),
-    [](const auto& candidate) { return std::string(candidate.param.name); });
+TEST_P(Lanes, AreWhatJetsAreAlone) {
+  expect_jets_as_alone<2>(GetParam().run_jets);
+  expect_jets_as_alone<3>(GetParam().run_jets_of_three);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Lanes,
+                         ::testing::Values(Way{"OneByOne", [] { return true; }, interval_batch::run_by_lanes,
+                                               interval_batch::run_by_lanes, interval_batch::run_by_lanes},
+                                           Way{"ByAvx2", interval_batch::has_avx2, interval_batch::run_by_avx2,
+                                               interval_batch::run_by_avx2, interval_batch::run_by_avx2},
+                                           Way{"ByAvx512", interval_batch::has_avx512, interval_batch::run_by_avx512,
+                                               interval_batch::run_by_avx512, interval_batch::run_by_avx512}),
+                         [](const auto& candidate) { return std::string(candidate.param.name); });
 
 /// Cells all over the workspace and its boundary, in batches of every size.
 TEST(SheetCells, AreWhatCellsAreAlone) {

@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
 #include "loci/curves/trace_sheet.hpp"
 #include "loci/search/isolated_zeros.hpp"
 #include "tests/loci/sheet_cases.hpp"
@@ -64,6 +70,52 @@ TEST(KnownSearches, TellZeroSetsApart) {
     EXPECT_EQ(zeros(circle(0), circle(core::Rational(5, 2))).size(), 0u);
   }
   EXPECT_NEAR(zeros(circle(0), circle(1))[0].x, 0.5, 1e-12);
+}
+
+// Of threads that ask for the same the first one searches; what fails does so for all.
+TEST(KnownSearches, FindOnceForAllThreads) {
+  using Key = KnownSearches::Key;
+  KnownSearches searches;
+  std::atomic<int> found = 0, failed = 0;
+  const Key key = KnownSearches::key(Key::Kind::curve, testing::plane(), {}, {0, 0}, {1, 1});
+  const Key other = KnownSearches::key(Key::Kind::zeros, testing::plane(), {}, {0, 0}, {1, 1});
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i)
+    threads.emplace_back([&] {
+      const std::shared_ptr<const int> result = searches.get<int>(key, [&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return std::make_shared<const int>(++found);
+      });
+      EXPECT_EQ(*result, 1);
+      try {
+        searches.get<int>(other, []() -> std::shared_ptr<const int> { throw std::runtime_error("none"); });
+      } catch (const std::runtime_error&) {
+        ++failed;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(found, 1);
+  EXPECT_EQ(failed, 8);
+}
+
+// A star that is known beforehand changes what is found.
+TEST(KnownSearches, TellStarsApart) {
+  using Key = KnownSearches::Key;
+  const auto key = [](const std::vector<Star>& stars) {
+    return KnownSearches::key(Key::Kind::curve, testing::plane(), {}, {0, 0}, {1, 1}, stars);
+  };
+  Star star;
+  star.x = 1;
+  star.y = 2;
+  star.roots = {0};
+  const Key one = key({star});
+  EXPECT_EQ(key({star}), one);
+  EXPECT_FALSE(key({}) == one);
+  star.singular = true;
+  EXPECT_FALSE(key({star}) == one);
+  star.singular = false;
+  star.apex = Apex{core::Rational(1, 100), {{core::Rational(1), core::Rational(0), true}}};
+  EXPECT_FALSE(key({star}) == one);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "tests/loci/sheet_cases.hpp"
 
@@ -53,58 +54,86 @@ std::array<double, 3> tangent(double x, double y, double s) {
   return result;
 }
 
-TEST(RimCell, WhatIsSaidHoldsInSamples) {
+/// What the samples of one cell next to a rim say of what was told of it.
+struct Told {
+  int by_rim_alone = 0, excluded = 0, graphs = 0;
+};
+
+void check_samples(const RimCells& rims, std::size_t lane, SheetCell& plain, double x, double y, double half,
+                   std::mt19937& random, Told& all) {
+  std::uniform_real_distribution<double> share(0, 1);
+  bool told = !plain.centred(0).contains_zero() || plain.is_beyond_a_rim();
+  for (int c = 0; c < plain.dimension(); ++c) told = told || plain.tangent(0, c).sign() != 0;
+  const RimCells::Standing place = rims.place(lane);
+  if (place == RimCells::Standing::unknown) return;
+  std::array<int, 3> signs{};
+  for (int c = 0; c < 3; ++c)
+    signs[static_cast<std::size_t>(c)] = place == RimCells::Standing::inside ? rims.tangent(lane, c).sign() : 0;
+  const bool none = place == RimCells::Standing::outside || rims.excludes(lane);
+  const bool graph = signs[0] != 0 || signs[1] != 0 || signs[2] != 0;
+  all.by_rim_alone += !told && (none || graph) ? 1 : 0;
+  all.excluded += none ? 1 : 0;
+  all.graphs += !none && graph ? 1 : 0;
+  if (place == RimCells::Standing::inside) {
+    EXPECT_EQ(rims.lifted(lane), 0);
+  }
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (int k = 0; k < 40; ++k) {
+    const double px = x + half * (2 * share(random) - 1), py = y + half * (2 * share(random) - 1);
+    const double square = 1 - px * px - py * py;
+    if (square < 0) continue;
+    EXPECT_NE(place, RimCells::Standing::outside);
+    const double s = std::sqrt(square), f = value(px, py, s);
+    least = std::min(least, f);
+    most = std::max(most, f);
+    const std::array<double, 3> along = tangent(px, py, s);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (signs[c] == 0 || std::abs(along[c]) < 1e-6) continue;
+      EXPECT_EQ(along[c] > 0 ? 1 : -1, signs[c]);
+    }
+  }
+  EXPECT_TRUE(!none || least > most || least > 0 || most < 0) << least << ' ' << most;
+}
+
+TEST(RimCells, WhatIsSaidHoldsInSamples) {
   const SheetProgram program = nested();
   const core::WorkingMode mode = {1, 1};
-  SheetCell plain(program, mode);
-  RimCell rim(program);
+  std::vector<SheetCell> plain(RimCells::size, SheetCell(program, mode));
+  RimCells rims(program), alone(program);
   std::mt19937 random(93);
   std::uniform_real_distribution<double> share(0, 1);
-  int by_rim_alone = 0, excluded = 0, graphs = 0;
-  for (int i = 0; i < 5000; ++i) {
-    // Next to where the curve reaches the rim, at y = -1/3.
-    const double half = std::exp2(-3 - 10 * share(random)), side = share(random) < 0.5 ? -1 : 1;
-    const double x = side * std::sqrt(8.0) / 3 + 6 * half * (share(random) - 0.5);
-    const double y = -1.0 / 3 + 6 * half * (share(random) - 0.5);
-    const Interval xs(x - half, x + half), ys(y - half, y + half);
-    if (!plain.enter(xs, ys)) continue;
-    plain.differentiate();
-    bool told = !plain.centred(0).contains_zero() || plain.is_beyond_a_rim();
-    for (int c = 0; c < plain.dimension(); ++c) told = told || plain.tangent(0, c).sign() != 0;
-    const RimCell::Standing place = rim.enter(plain);
-    if (place == RimCell::Standing::unknown) continue;
-    std::array<int, 3> signs{};
-    for (int c = 0; c < 3; ++c)
-      signs[static_cast<std::size_t>(c)] = place == RimCell::Standing::inside ? rim.tangent(c).sign() : 0;
-    const bool none = place == RimCell::Standing::outside || rim.excludes();
-    const bool graph = signs[0] != 0 || signs[1] != 0 || signs[2] != 0;
-    by_rim_alone += !told && (none || graph) ? 1 : 0;
-    excluded += none ? 1 : 0;
-    graphs += !none && graph ? 1 : 0;
-    if (place == RimCell::Standing::inside) {
-      EXPECT_EQ(rim.lifted(), 0);
+  Told all;
+  for (int i = 0; i < 1250; ++i) {
+    std::array<const SheetCell*, RimCells::size> cells{};
+    std::array<std::array<double, 3>, RimCells::size> places{};
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < RimCells::size; ++k) {
+      // Next to where the curve reaches the rim, at y = -1/3.
+      const double half = std::exp2(-3 - 10 * share(random)), side = share(random) < 0.5 ? -1 : 1;
+      const double x = side * std::sqrt(8.0) / 3 + 6 * half * (share(random) - 0.5);
+      const double y = -1.0 / 3 + 6 * half * (share(random) - 0.5);
+      if (!plain[count].enter(Interval(x - half, x + half), Interval(y - half, y + half))) continue;
+      plain[count].differentiate();
+      places[count] = {x, y, half};
+      cells[count] = &plain[count];
+      ++count;
     }
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (int k = 0; k < 40; ++k) {
-      const double px = x + half * (2 * share(random) - 1), py = y + half * (2 * share(random) - 1);
-      const double square = 1 - px * px - py * py;
-      if (square < 0) continue;
-      EXPECT_NE(place, RimCell::Standing::outside);
-      const double s = std::sqrt(square), f = value(px, py, s);
-      least = std::min(least, f);
-      most = std::max(most, f);
-      const std::array<double, 3> along = tangent(px, py, s);
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (signs[c] == 0 || std::abs(along[c]) < 1e-6) continue;
-        EXPECT_EQ(along[c] > 0 ? 1 : -1, signs[c]);
+    rims.enter(cells, count);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      alone.enter({cells[lane]}, 1);
+      ASSERT_EQ(alone.place(0), rims.place(lane));
+      for (int c = 0; c < 3 && rims.place(lane) == RimCells::Standing::inside; ++c) {
+        EXPECT_EQ(alone.tangent(0, c).lower(), rims.tangent(lane, c).lower());
+        EXPECT_EQ(alone.tangent(0, c).upper(), rims.tangent(lane, c).upper());
       }
+      const auto [x, y, half] = places[lane];
+      check_samples(rims, lane, plain[lane], x, y, half, random, all);
     }
-    EXPECT_TRUE(!none || least > most || least > 0 || most < 0) << least << ' ' << most;
   }
-  EXPECT_GT(excluded, 100);
-  EXPECT_GT(graphs, 300);
+  EXPECT_GT(all.excluded, 100);
+  EXPECT_GT(all.graphs, 300);
   // Of cells that enclosures to first order leave open.
-  EXPECT_GT(by_rim_alone, 50);
+  EXPECT_GT(all.by_rim_alone, 50);
 }
 
 }  // namespace
