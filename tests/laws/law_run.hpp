@@ -32,7 +32,6 @@ Judgement judge(const LawDesign& design, int patience);
 
 struct LawRun {
   int seed = 20261123;
-  std::vector<Family> families = {all_families.begin(), all_families.end()};
   int first = 0, designs = 0;  ///< a family's first index; over all families
   std::vector<Family> families = {all_families.begin(), all_families.end()};  ///< those that are drawn
   int patience = 20;
