@@ -67,15 +67,12 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
     ZeroSearch search(program, mode, {});
     const std::vector<PlaneCell> seeds = plane ? outside_holes(parts) : std::vector<PlaneCell>{{{0, 1}, {-1, 1}}};
     const double chart_size = plane ? size : 1.0;
-    TouchSearch touches(sheet.tower, sheet.functions, mode, chart_size);
     const FoundZeros found = search.run(
         seeds,
         {options.smallest * chart_size,
          static_cast<std::size_t>(result.gave_up ? options.most_cells / share_after_giving_up : options.most_cells),
-         2e-15 * size, options.stop, options.touching ? &touches : nullptr});
+         2e-15 * size, options.stop});
     result.gave_up = result.gave_up || found.gave_up;
-    for (const std::vector<Interval>& place : found.touches)
-      result.touches.push_back(chart.to_plane(PlaneCell{place[0], place[1]}));
     for (const PlaneCell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
     for (const std::vector<Interval>& enclosure : found.enclosures) {
       const PlaneCell place = chart.to_plane(PlaneCell{enclosure[0], enclosure[1]});
@@ -109,7 +106,6 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   KnownSearches::Key key =
       KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper, options.special);
   key.numbers.push_back(options.most_cells);
-  key.numbers.push_back(options.touching ? 1 : 0);
   key.polynomials.push_back(first.polynomial);
   key.polynomials.push_back(second.polynomial);
   return *options.searches->get<ZeroSet>(key, [&] {

@@ -23,7 +23,6 @@ struct SheetZero {
 struct ZeroOptions {
   double smallest = 1e-9;  ///< width, relative to the box, below which a cell is left undecided
   int most_cells = 4096;   ///< live cells of one size: more of them mean that N1 and N2 share a curve
-  bool touching = false;   ///< places where the curves touch are looked for, too; else they stay undecided
   /// Stars besides the cones at rational points and the touches of the tower.
   std::vector<Star> special = {};
   std::function<bool()> stop = {};    ///< asked now and then; true: leave the rest undecided
@@ -34,9 +33,7 @@ struct ZeroOptions {
 inline constexpr int cells_of_a_sketch = 256;
 
 struct ZeroSet {
-  std::vector<SheetZero> zeros;  ///< sorted by x, then y
-  /// Where the two curves touch, or come so near to touching that they cross twice in what counts as one point.
-  std::vector<PlaneCell> touches;
+  std::vector<SheetZero> zeros;      ///< sorted by x, then y
   std::vector<PlaneCell> undecided;  ///< hulls of clusters of cells that may hold further zeros
   /// One zero each, which cannot be told from a cone to rounding: there the construction is undefined, and all
   /// functions may vanish in one direction.

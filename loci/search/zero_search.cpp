@@ -25,9 +25,9 @@ constexpr double lifted_inflation = 0.6, root_inflation = 0.2;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
 // Cells this much wider than the smallest that cannot be told anything about may be next to a touch. Where it is none,
-// trials say nothing for long; but they start anew where few cells of one size are left, which large ones would use up.
+// trials say nothing for long.
 constexpr double worth_a_touch = 1e10;
-constexpr std::size_t most_touch_trials = 256, few_to_try = 32;
+constexpr std::size_t most_touch_trials = 256;
 // Enough that what is left of them after a first look fills batches again.
 constexpr std::size_t cells_at_a_time = 64;
 // Of searches side by side; more would only fill memory.
@@ -97,8 +97,6 @@ void ZeroSearch::give_up(std::vector<Box>& live) {
     state.live = 0;
   }
   for (const Box& box : live) ++states_[box.search].live;
-  for (State& state : states_)
-    if (state.live <= few_to_try) state.touch_trials = 0;
   // Along a curve each halving leaves at least four in three; where fewer are left the end is near.
   const auto has_too_many = [&](const Box& box) {
     const State& state = states_[box.search];

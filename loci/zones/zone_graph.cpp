@@ -323,13 +323,8 @@ class Builder {
       // Where only polynomials are asked for, the second factor's own is.
       sheet::SheetFunction other = {second->sheet, difference_of_margins(*first, *second)};
       if (other.line.empty()) other.line = second->line;
-      const auto search = [&] {
-        return sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, other, lower, upper, effort);
-      };
-      sheet::ZeroSet found = search();
-      // Trials for touches are dear where there is none.
-      effort.touching = !found.undecided.empty();
-      return add_zeros(effort.touching ? search() : found);
+      return add_zeros(
+          sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, other, lower, upper, effort));
     }
     // Curves of one factor, and of two that vanish on one curve besides, are told apart in the plane; the tower knows
     // where it is undefined.
@@ -404,8 +399,7 @@ class Builder {
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
     for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
-    for (const auto* const places : {&found.touches, &found.at_cones})
-      for (const sheet::PlaneCell& cell : *places) node_at({cell.x.middle(), cell.y.middle()});
+    for (const sheet::PlaneCell& cell : found.at_cones) node_at({cell.x.middle(), cell.y.middle()});
     return !found.gave_up &&
            std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::PlaneCell& cell) {
              const Point2 at = {cell.x.middle(), cell.y.middle()};

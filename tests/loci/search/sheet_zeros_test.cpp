@@ -73,27 +73,6 @@ TEST(IsolatedZeros, TangencyIsUndecided) {
   EXPECT_LT(set.undecided[0].x.width(), 1e-6);
 }
 
-/// Where two curves touch: one place, not a cell in doubt.
-void expect_one_touch(const core::Polynomial& first, const core::Polynomial& second, const core::Point2& at) {
-  ZeroOptions options;
-  EXPECT_FALSE(isolated_zeros(testing::plane(), {}, first, second, lower, upper, options).undecided.empty());
-  options.touching = true;
-  const ZeroSet set = isolated_zeros(testing::plane(), {}, first, second, lower, upper, options);
-  EXPECT_TRUE(set.zeros.empty());
-  EXPECT_TRUE(set.undecided.empty());
-  ASSERT_EQ(set.touches.size(), 1u);
-  EXPECT_TRUE(set.touches.front().x.contains(at[0]) && set.touches.front().y.contains(at[1]));
-  EXPECT_LT(std::max(set.touches.front().x.width(), set.touches.front().y.width()), 1e-9);
-}
-
-TEST(IsolatedZeros, ProvesWhereCurvesTouch) {
-  const Ring r{2};
-  expect_one_touch(r.x() * r.x() + r.y() * r.y() - r(1), r(3) * r.x() + r(4) * r.y() - r(5), {0.6, 0.8});
-  // Close to each other far from the touch, too: trials in large cells leave some for the small ones.
-  const core::Polynomial off = r.x() - r(Rational(1, 3));
-  expect_one_touch(r.y() - r(Rational(1, 1000)) * off * off, r.y(), {1.0 / 3, 0});
-}
-
 TEST(IsolatedZeros, SharedCurveGivesUpEarly) {
   const Ring r{2};
   const auto circle = r.x() * r.x() + r.y() * r.y() - r(1);
