@@ -155,6 +155,10 @@ std::optional<EffortGap> own_gap(const Mechanism& mechanism, const std::string& 
   return std::nullopt;
 }
 
+bool is_within_own_gap(const EffortGap& gap, double from, double to) {
+  return gap.to > 0 ? from < gap.to && to > -gap.to : from <= 0 && to >= 0;
+}
+
 PoseEfforts pose_efforts(const Mechanism& mechanism, const std::vector<numeric::Bounded>& at, const DyadSides& sides,
                          const PoseRequest& request) {
   PoseEfforts all{mechanism, {}, {}};

@@ -31,6 +31,9 @@ void set_ranges(const std::vector<numeric::EffortGap>& gaps, FeasibleEfforts& ef
 std::optional<numeric::EffortGap> own_gap(const mechanism::Mechanism& mechanism, const std::string& joint,
                                           const LociRequest& request);
 
+/// Whether an effort from one to the other is within that gap: larger than -to and smaller than to, or 0.
+bool is_within_own_gap(const numeric::EffortGap& gap, double from, double to);
+
 /// Of a mechanism some of whose efforts are free.
 struct PoseEfforts {
   mechanism::Mechanism mechanism;        ///< with an effort where none was given

@@ -82,8 +82,7 @@ class PreloadSearch {
       const double from = core::to_double(range.first), to = core::to_double(range.second), least = own_gap_->to;
       if (-least <= from && to <= least && (least > 0 || (from == 0 && to == 0)))
         return {core::Verdict::refuted, "backlash in " + wanted_.joint};
-      if (from < least && to > -least) return {};
-      if (least == 0 && from <= 0 && to >= 0) return {};
+      if (is_within_own_gap(*own_gap_, from, to)) return {};
     }
     return judge_->judge({range}, is_finest(range) || in_earnest(range));
   }

@@ -67,14 +67,9 @@ class LawSearch {
 
   Model with(const std::string& law) const { return model_.with({{wanted_.parameter, law}}); }
 
-  /// Somewhere it does not take up the play of its own motor.
-  bool is_within_own_gap(const std::array<double, 2>& within) const {
-    return own_gap_ && (own_gap_->to > 0 ? within[0] < own_gap_->to && within[1] > -own_gap_->to
-                                         : within[0] <= 0 && within[1] >= 0);
-  }
-
   void try_law(const std::string& law, const std::array<double, 2>& within) {
-    if (out_of_time() || is_within_own_gap(within) || within[0] < core::to_double(wanted_.lower) ||
+    const bool leaves_play = own_gap_ && is_within_own_gap(*own_gap_, within[0], within[1]);
+    if (out_of_time() || leaves_play || within[0] < core::to_double(wanted_.lower) ||
         within[1] > core::to_double(wanted_.upper))
       return;
     ++laws_;
