@@ -144,7 +144,7 @@ EffortSystem::EffortSystem(const Mechanism& mechanism, std::vector<WantedEffort>
   for (core::TaskDemand& demand : plain) demand.bound.reset();
   std::vector<const Mechanism*> list;
   for (const Mechanism& column : columns) list.push_back(&column);
-  statics_.statics = symbolic::pose_statics(list, sides_, plain);
+  statics_.statics = symbolic::pose_statics(list, sides_, plain, symbolic::ForceParts::cartesian);
   statics_.demands = std::move(statics_.statics.demands);
   statics_.statics.demands.clear();
   statics_.bases = widened_.loads().size();

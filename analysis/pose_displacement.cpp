@@ -36,7 +36,7 @@ Displaced displaced_by(const WidenedTask& widened, const DyadSides& sides) {
   std::vector<core::TaskDemand> demands;
   for (core::TaskDemand& demand : take_up_demands(widened.loads().front()))
     if (widened.clearance({demand.joint, demand.quantity, 1}).upper() > 0) demands.push_back(std::move(demand));
-  Displaced result{symbolic::pose_statics(list, sides, demands), {}};
+  Displaced result{symbolic::pose_statics(list, sides, demands, symbolic::ForceParts::cartesian), {}};
   for (core::PoseDemand& demand : std::exchange(result.statics.demands, {})) {
     const core::Interval clearance = widened.clearance({demand.demand.joint, demand.demand.quantity, 1});
     result.take_ups.push_back({std::move(demand.components), {clearance.lower(), clearance.upper()}});

@@ -15,7 +15,6 @@
 #include "core/errors.hpp"
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/actions.hpp"
-#include "mechanism/known_lines.hpp"
 #include "mechanism/notes.hpp"
 #include "numeric/task_witness.hpp"
 #include "symbolic/pose_statics.hpp"
@@ -175,11 +174,6 @@ class StaticsVerifier {
         result.verdict = core::Verdict::refuted;
         return result;
       }
-    for (const PoseSuspect& turned : turned_along_pins())
-      if (refuted(turned)) {
-        result.verdict = core::Verdict::refuted;
-        return result;
-      }
     budget.deadline = request_.deadline;
     const loci::CoverProof proof = loci::pose::prove_poses(statics_, region_, margin_, refuted, budget);
     result.verdict = proof.verdict;
@@ -241,31 +235,6 @@ class StaticsVerifier {
     if (!(region_.distance(at) <= margin_ + region_.hair())) return std::nullopt;
     const auto failure = witness_->failure_of(at, demand);
     return failure ? std::optional(told(at, *failure)) : std::nullopt;
-  }
-
-  /// Forces along the pins of two-force links that point the other way in some pose of the task than in its first: the
-  /// proof takes forces that turn with their link for such as pass zero by.
-  std::vector<PoseSuspect> turned_along_pins() {
-    std::vector<PoseSuspect> turned;
-    const std::vector<PoseAt> poses = region_.samples();
-    const auto reference = cell_->at(poses.front());
-    for (std::size_t d = 0; reference && d < statics_.demands.size(); ++d) {
-      const TaskDemand& demand = statics_.demands[d].demand;
-      if (demand.quantity != core::Quantity::f || demand.bound || !is_along_pins(demand.joint)) continue;
-      for (const PoseAt& pose : poses) {
-        const PoseSuspect suspect{Doubt::demand, static_cast<int>(d), pose, poses.front()};
-        if (is_alike(*reference, pose, suspect)) continue;
-        turned.push_back(suspect);
-        break;
-      }
-    }
-    return turned;
-  }
-
-  bool is_along_pins(const std::string& joint) const {
-    return std::any_of(mechanism_.joints.begin(), mechanism_.joints.end(), [&](const mechanism::Joint& candidate) {
-      return candidate.name == joint && mechanism::pins_along_force(mechanism_, candidate);
-    });
   }
 
   /// Whether a suspect fails for certain; with another pose, between the two.

@@ -16,6 +16,7 @@
 #include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "loci/zones/zones.hpp"
+#include "mechanism/joint_traits.hpp"
 #include "mechanism/known_lines.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/posture_sample.hpp"
@@ -39,6 +40,14 @@ core::ZoneBorder border_of(const core::PoseStatics& statics, Doubt doubt, int de
 }
 
 /// Of |A| and of what has one component, at the zone's sample: they are those of all of it.
+bool is_of_pin(const mechanism::Mechanism& mechanism, const core::TaskDemand& demand) {
+  return demand.quantity == core::Quantity::f &&
+         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
+           return joint.name == demand.joint && mechanism::traits(joint).pinned &&
+                  !mechanism::is_slot(mechanism, joint);
+         });
+}
+
 void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& model, const DyadSides& sides,
                PoseCell& cell, Zone& zone) {
   const auto at = cell.at(zone.sample);
@@ -49,7 +58,8 @@ void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& mo
   for (std::size_t d = 0; d < statics.demands.size(); ++d) {
     const std::vector<double>& component = at->components[d].front();
     const core::TaskDemand& demand = statics.demands[d].demand;
-    if (component.size() == 1 && !demand.bound)
+    // The part of a pin's force along its line has the sign of whichever way the line was read.
+    if (component.size() == 1 && !demand.bound && !is_of_pin(model.mechanism, demand))
       zone.signs.emplace_back(core::Vanishing{demand.joint, demand.quantity, 1}, component[0] > 0   ? 1
                                                                                  : component[0] < 0 ? -1
                                                                                                     : 0);

@@ -25,6 +25,23 @@ std::vector<const Joint*> joints_of(const Mechanism& mechanism, LinkIndex link) 
   return joints;
 }
 
+using Line = std::array<PointIndex, 2>;
+
+/// `behind`: the link that the force was handed on by. `most`: links.
+std::optional<Line> line_of(const Mechanism& mechanism, const Joint& joint, LinkIndex behind, std::size_t most) {
+  if (!traits(joint).pinned || most == 0) return std::nullopt;
+  for (const LinkIndex link : {joint.from, joint.to})
+    if (const auto pins = pins_of_two_force_link(mechanism, link)) return pins;
+  for (const LinkIndex link : {joint.from, joint.to}) {
+    if (link == ground || link == behind || is_loaded(mechanism, link)) continue;
+    const std::vector<const Joint*> joints = joints_of(mechanism, link);
+    if (joints.size() != 2) continue;
+    // Both joints of such a link bear the same force.
+    if (const auto line = line_of(mechanism, *joints[joints[0] == &joint ? 1 : 0], link, most - 1)) return line;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism& mechanism, LinkIndex link) {
@@ -39,10 +56,7 @@ std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism&
 }
 
 std::optional<std::array<PointIndex, 2>> pins_along_force(const Mechanism& mechanism, const Joint& joint) {
-  if (!traits(joint).pinned) return std::nullopt;
-  for (const LinkIndex link : {joint.from, joint.to})
-    if (const auto pins = pins_of_two_force_link(mechanism, link)) return pins;
-  return std::nullopt;
+  return line_of(mechanism, joint, ground, mechanism.links.size());
 }
 
 bool keeps_to_known_line(const Mechanism& mechanism, const Joint& joint) {

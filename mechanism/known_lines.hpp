@@ -13,7 +13,8 @@ namespace clearloci::mechanism {
 /// along the line between them. Nothing of other links.
 std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism& mechanism, LinkIndex link);
 
-/// The pins whose line the force of a joint keeps to: those of a two-force link that it is a pin of.
+/// The pins whose line the force of a joint keeps to: those of a two-force link that it is a pin of, or that a chain of
+/// links with two joints and without forces of their own hands the force on to.
 std::optional<std::array<PointIndex, 2>> pins_along_force(const Mechanism& mechanism, const Joint& joint);
 
 /// Whether the force of a joint keeps to a line that the posture tells: in a slot, of a two-force link, or where the

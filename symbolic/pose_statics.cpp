@@ -9,6 +9,7 @@
 #include "mechanism/idle.hpp"
 #include "mechanism/idle_limits.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/known_lines.hpp"
 #include "mechanism/pose_steps.hpp"
 #include "symbolic/linear_elimination.hpp"
 
@@ -30,8 +31,12 @@ constexpr std::size_t most_fill = 40;
 
 class StaticsBuilder {
  public:
-  StaticsBuilder(const std::vector<const Mechanism*>& loads, const std::vector<int>& sides)
-      : loads_(loads), m_(*loads.front()), points_(m_, sides, PoseSteps(m_)), b_(points_.algebra().builder()) {
+  StaticsBuilder(const std::vector<const Mechanism*>& loads, const std::vector<int>& sides, ForceParts parts)
+      : loads_(loads),
+        m_(*loads.front()),
+        parts_(parts),
+        points_(m_, sides, PoseSteps(m_)),
+        b_(points_.algebra().builder()) {
     if (m_.space == mechanism::Space::planar)
       components_ = {0, 1, 5};
     else
@@ -325,6 +330,11 @@ class StaticsBuilder {
           rows.push_back(std::move(row));
       return rows;
     }
+    if (parts_ == ForceParts::along_known_lines)
+      if (const auto line = mechanism::pins_along_force(m_, *found)) {
+        const Vector way = points_.minus(points_.point((*line)[1]), points_.point((*line)[0]));
+        return {along(points_.unit(way), unknowns.force)};
+      }
     for (const int unknown : unknowns.force) rows.push_back(scalar(unknown));
     return rows;
   }
@@ -361,6 +371,7 @@ class StaticsBuilder {
 
   const std::vector<const Mechanism*>& loads_;
   const Mechanism& m_;
+  ForceParts parts_;
   PosePoints points_;
   core::PoseProgramBuilder& b_;
   std::vector<std::size_t> components_;
@@ -372,8 +383,8 @@ class StaticsBuilder {
 }  // namespace
 
 core::PoseStatics pose_statics(const std::vector<const Mechanism*>& loads, const std::vector<int>& sides,
-                               const std::vector<core::TaskDemand>& demands) {
-  return StaticsBuilder(loads, sides).build(demands);
+                               const std::vector<core::TaskDemand>& demands, ForceParts parts) {
+  return StaticsBuilder(loads, sides, parts).build(demands);
 }
 
 }  // namespace clearloci::symbolic

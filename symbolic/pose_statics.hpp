@@ -12,9 +12,14 @@
 
 namespace clearloci::symbolic {
 
+/// The components of a pin's force: as Cartesian ones, or its part along the line that the posture tells, where it
+/// keeps to one (mechanism::pins_along_force). That part has a sign, which cannot change on a way without a zero.
+enum class ForceParts { cartesian, along_known_lines };
+
 /// `loads`: the mechanism under its loads, or under the first and the last of a range, which differ in nothing else.
 /// `sides`: one a dyad or slider. Throws core::InputError for torsion springs, whose couple is of an angle.
 core::PoseStatics pose_statics(const std::vector<const mechanism::Mechanism*>& loads, const std::vector<int>& sides,
-                               const std::vector<core::TaskDemand>& demands);
+                               const std::vector<core::TaskDemand>& demands,
+                               ForceParts parts = ForceParts::along_known_lines);
 
 }  // namespace clearloci::symbolic

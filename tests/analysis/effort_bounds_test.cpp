@@ -126,6 +126,23 @@ TEST(RedundantRods, AreFreeEffortsOfTasks) {
   EXPECT_EQ(answer.verdict, Verdict::verified);
   ASSERT_TRUE(answer.preload && answer.preload->value);
   EXPECT_EQ(answer.preload->joints.front(), "A3B3");
+  // Rod 2 bears nothing where 20 + 0.8 s p - 0.1 c p vanishes: for p between both ends in one pose of the task.
+  const auto end = [](double degrees) {
+    const double theta = degrees * std::numbers::pi / 180;
+    return -20 / (0.8 * std::sin(theta) - 0.1 * std::cos(theta));
+  };
+  std::vector<std::array<double, 4>> ranges;
+  for (const ProvenRange& range : answer.preload->ranges)
+    ranges.push_back({range.from[0], range.from[1], range.to[0], range.to[1]});
+  constexpr double cut = 400.0 / (1 << 17);
+  ASSERT_EQ(ranges.size(), 3U);
+  EXPECT_NEAR(ranges[0][2], end(50), cut);
+  EXPECT_NEAR(ranges[0][3], end(50), cut);
+  EXPECT_NEAR(ranges[1][0], end(80), cut);
+  EXPECT_NEAR(ranges[1][1], end(80), cut);
+  EXPECT_EQ(ranges[0][0], -200);
+  EXPECT_EQ(ranges[2][3], 200);
+  for (const std::string& note : answer.notes) EXPECT_EQ(note.find("not decided"), std::string::npos) << note;
 }
 
 std::string problem_of(const std::string& text) {
