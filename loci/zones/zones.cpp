@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "core/errors.hpp"
@@ -50,24 +51,29 @@ class ModeZones {
   void find(core::Zones& map, const ZoneLabel& label) {
     PlaneGraph& graph = cut_.graph;
     if (label) join_alike(label);
-    for (const GraphEdge& edge : graph.edges) beside_.push_back(area_beside_chords(edge.points, form_of(edge)));
-    std::vector<Face> faces;
-    for (GraphFace& walks : faces_of(graph)) {
-      if (walks.outer.empty()) continue;
-      if (Face face = measured(std::move(walks)); face.area > 0) faces.push_back(std::move(face));
+    for (const GraphEdge& edge : graph.edges) {
+      beside_.push_back(area_beside_chords(edge.points, form_of(edge)));
+      slack_.push_back(area_slack_of(edge));
     }
+    std::vector<Face> faces;
+    for (GraphFace& walks : faces_of(graph))
+      if (!walks.outer.empty()) faces.push_back(measured(std::move(walks)));
     for (Face& face : faces)
       if (!sketch_) refine(face);
+    std::erase_if(faces, [&](const Face& face) { return face.area <= 0 && !lies_along_locus(face); });
     for (const GraphEdge& edge : graph.edges)
       obstacles_.push_back({&edge.points, curve_of(edge) == nullptr ? nullptr : &projections_.of(edge.owners.front())});
 
     for (std::size_t f = 0; f < faces.size(); ++f) note_sides(faces[f].walks, name_of(f));
     std::vector<Zone> found;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (auto zone = describe(measured(faces[f].walks))) {
-        zone->id = name_of(f);
-        found.push_back(std::move(*zone));
+      Face face = measured(faces[f].walks);
+      if (!is_in_workspace(face)) {
+        if (lies_along_locus(face)) lose(face);
+        continue;
       }
+      found.push_back(describe(std::move(face)));
+      found.back().id = name_of(f);
     }
     std::stable_sort(found.begin(), found.end(), [](const Zone& a, const Zone& b) { return a.size > b.size; });
     account_for(found, map);
@@ -89,6 +95,7 @@ class ModeZones {
     Polyline outer;
     std::vector<Polyline> holes;
     double area = 0, error = 0;  // m^2
+    double slack = 0;            // m^2, between the curves and chords within the tolerance of them at most
   };
 
   /// Takes the edges out that preload loci alone lie along and that have the same label on both sides.
@@ -159,12 +166,11 @@ class ModeZones {
       for (Zone& zone : found) zone.certified = false;
     }
     for (const Zone& zone : found) account.in_doubt += zone.certified ? 0 : zone.size;
+    account.in_doubt += lost_;
     account.in_doubt = std::min(account.in_doubt, std::max(account.workspace, covered));
     account.outside = std::max(0.0, box - account.workspace);
-    for (Zone& zone : found) {
-      zone.at_least = zone.certified ? zone.size : 0;
-      zone.at_most = zone.certified ? zone.size : box;
-    }
+    for (Zone& zone : found)
+      if (!zone.certified) zone.at_least = 0, zone.at_most = box;
     map.modes.push_back(std::move(account));
   }
 
@@ -199,6 +205,7 @@ class ModeZones {
         const EdgeArea& beside = beside_[static_cast<std::size_t>(half.edge)];
         face.area += half.reversed ? -beside.area : beside.area;
         face.error += beside.error;
+        face.slack += slack_[static_cast<std::size_t>(half.edge)];
       }
       return ring;
     };
@@ -208,8 +215,47 @@ class ModeZones {
     return face;
   }
 
-  /// More vertices where the area of a small face wants them.
+  /// The curve keeps to the tube of the tolerance around its chords.
+  double area_slack_of(const GraphEdge& edge) const {
+    if (curve_of(edge) == nullptr) return 0;
+    const core::ClosedForm& form = form_of(edge);
+    if (std::holds_alternative<core::LineForm>(form) || core::circle_through(form, edge.points)) return 0;
+    return (2 * length_of(edge.points) + std::numbers::pi * map_.tolerance) * map_.tolerance;
+  }
+
+  /// Both sides of a locus are in the workspace.
+  bool lies_along_locus(const Face& face) const {
+    const auto is_locus = [&](const HalfEdge& half) {
+      const std::vector<int>& owners = cut_.graph.edges[static_cast<std::size_t>(half.edge)].owners;
+      return std::none_of(owners.begin(), owners.end(), [&](int owner) {
+        return owner == box_owner ||
+               map_.curves[static_cast<std::size_t>(owner)].kind == core::LocusKind::workspace_boundary;
+      });
+    };
+    const auto any = [&](const std::vector<HalfEdge>& walk) { return std::any_of(walk.begin(), walk.end(), is_locus); };
+    return any(face.walks.outer) || std::any_of(face.walks.inner.begin(), face.walks.inner.end(), any);
+  }
+
+  bool is_in_workspace(const Face& face) {
+    std::vector<Polyline> rings = face.holes;
+    rings.push_back(face.outer);
+    return face.area > 0 && workspace_.holds_one_of(points_in_face(rings));
+  }
+
+  /// A zone of which no pose was found, since its chords are as coarse as it is wide.
+  void lose(const Face& face) {
+    const Point2& at = face.outer.front();
+    lost_ += std::max(0.0, face.area) + face.slack;
+    cut_.notes.push_back("a zone at (" + std::to_string(at[0]) + ", " + std::to_string(at[1]) +
+                         ") is thinner than the tolerance: it is in doubt");
+  }
+
+  /// More vertices where the area of a small face wants them, or where its chords are too coarse to tell its inside.
   void refine(Face& face) {
+    for (int round = 0; round < most_refinements && lies_along_locus(face) && !is_in_workspace(face); ++round) {
+      if (!halve_all(face)) break;
+      face = measured(std::move(face.walks));
+    }
     const auto walks = [&](const auto& visit) {
       for (const HalfEdge half : face.walks.outer) visit(static_cast<std::size_t>(half.edge));
       for (const auto& walk : face.walks.inner)
@@ -231,6 +277,21 @@ class ModeZones {
     }
   }
 
+  bool halve_all(const Face& face) {
+    bool finer = false;
+    const auto halve = [&](const std::vector<HalfEdge>& walk) {
+      for (const HalfEdge half : walk) {
+        GraphEdge& edge = cut_.graph.edges[static_cast<std::size_t>(half.edge)];
+        if (!halve_chords(edge)) continue;
+        beside_[static_cast<std::size_t>(half.edge)] = area_beside_chords(edge.points, form_of(edge));
+        finer = true;
+      }
+    };
+    halve(face.walks.outer);
+    for (const auto& walk : face.walks.inner) halve(walk);
+    return finer;
+  }
+
   /// A vertex of the curve amid every chord. False: the curve is not found there.
   bool halve_chords(GraphEdge& edge) {
     if (curve_of(edge) == nullptr) return false;
@@ -247,10 +308,12 @@ class ModeZones {
     return true;
   }
 
-  std::optional<Zone> describe(Face face) {
+  Zone describe(Face face) {
     Zone zone;
     zone.mode = mode_;
     zone.size = face.area;
+    zone.at_least = std::max(0.0, face.area - face.slack);
+    zone.at_most = std::min(box_size(), face.area + face.slack);
     zone.outer = std::move(face.outer);
     zone.holes = std::move(face.holes);
     const auto inside = [&](const Point2& at) {
@@ -260,7 +323,6 @@ class ModeZones {
     std::vector<Polyline> rings = zone.holes;
     rings.push_back(zone.outer);
     const Polyline inner = points_in_face(rings);
-    if (!workspace_.holds_one_of(inner)) return std::nullopt;
     const std::optional<Circle> circle = largest_circle(face.walks, zone, inside);
     const Circle inscribed = circle ? *circle : Circle{inner.front(), 0};
     zone.ball = {{inscribed.centre[0], inscribed.centre[1]}, inscribed.radius};
@@ -456,6 +518,8 @@ class ModeZones {
   ZoneGraph cut_;
   std::vector<int> points_;
   std::vector<EdgeArea> beside_;
+  std::vector<double> slack_;       ///< of every edge (Face::slack)
+  double lost_ = 0;                 ///< m^2 of zones of which no pose was found
   std::vector<std::string> sides_;  ///< of every half-edge the name of the face on its left, if it is one
   std::vector<Obstacle> obstacles_;
 };

@@ -54,7 +54,7 @@ def test_zones_by_cells_bound_those_between_curves(five_bar):
     faces, cells = five_bar.zones(), five_bar.zones(cells=20000, by_cells=True)
     assert not faces.by_cells and cells.by_cells
     assert cells[0].at_least <= faces[0].size <= cells[0].at_most
-    assert faces[0].at_least == faces[0].at_most == faces[0].area
+    assert faces[0].at_least <= faces[0].area <= faces[0].at_most
 
 
 def test_tasks_of_poses(upu):

@@ -380,5 +380,17 @@ TEST(ZonesByCells, OverOneCoordinateAreTwoWhereTheForceOfAPinVanishesBetweenThem
   EXPECT_GE(lost, 2) << "from either side";
 }
 
+TEST(ZonesOverTwoLengths, AreTheSameAtACoarseTolerance) {
+  const Model model = Model::read(source_dir() + "/tests/corpus/witness/sliver_zone.yaml");
+  for (const double tolerance : {1e-5, 1e-3, 0.03}) {
+    ZoneRequest request;
+    request.loci.tolerance = tolerance;
+    const Zones map = find_zones(model, request);
+    ASSERT_EQ(map.zones.size(), 10U) << tolerance;
+    for (const Zone& zone : map.zones) EXPECT_TRUE(zone.certified) << zone.id << " " << tolerance;
+    EXPECT_NEAR(map.zones[7].size, 4.018e-7, 2e-9) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace clearloci

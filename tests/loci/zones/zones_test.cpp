@@ -182,6 +182,42 @@ TEST(ZonesBetween, CurvesNearerThanSuchChordsAreLeftToFinerOnes) {
   for (const core::Zone& zone : finer.map.zones) EXPECT_TRUE(zone.certified);
 }
 
+TEST(AreaBounds, HoldTheAreaAtEveryTolerance) {
+  // y^2 = x^3 - x has an oval, whose area is 2 times the integral of sqrt(x^3 - x) from -1 to 0: B(3/4, 3/2).
+  LocusProblem problem = problem_of({y * y - x * x * x + x});
+  const double oval = std::tgamma(0.75) * std::tgamma(1.5) / std::tgamma(2.25);
+  double last = 1;
+  for (const double tolerance : {0.03, 1e-3, 1e-5}) {
+    problem.tolerance = tolerance;
+    const core::Zones map = zones(problem, trace(problem)).map;
+    const auto found = std::min_element(map.zones.begin(), map.zones.end(),
+                                        [](const auto& a, const auto& b) { return a.size < b.size; });
+    ASSERT_TRUE(found->certified);
+    EXPECT_LT(found->at_least, oval - 1e-9);
+    EXPECT_GT(found->at_most, oval + 1e-9);
+    EXPECT_LT(found->at_most - found->at_least, last);
+    last = found->at_most - found->at_least;
+  }
+  EXPECT_LT(last, 1e-3 * oval);
+}
+
+TEST(Slivers, ThatCoarseChordsCloseAreFoundOrInDoubt) {
+  // Between y = 0 and y = x^2 / 50 - h where it is below: 4/3 h sqrt(50 h).
+  for (const Rational& depth : {Rational(1, 100), Rational(1, 1000), Rational(1, 10000)})
+    for (const double tolerance : {0.03, 1e-3, 1e-5}) {
+      LocusProblem problem = problem_of({y, y - number(Rational(1, 50)) * x * x + number(depth)});
+      problem.tolerance = tolerance;
+      const core::Zones map = zones(problem, trace(problem)).map;
+      const double h = core::to_double(depth), area = 4. / 3 * h * std::sqrt(50 * h);
+      const bool told = std::any_of(map.zones.begin(), map.zones.end(), [&](const core::Zone& zone) {
+        return zone.certified && zone.at_least < area && area < zone.at_most &&
+               zone.at_most < 10 * area + 4 * tolerance;
+      });
+      EXPECT_TRUE(told || map.modes.front().in_doubt >= area) << h << " " << tolerance;
+      if (told) EXPECT_EQ(map.zones.size(), 5U) << h << " " << tolerance;
+    }
+}
+
 TEST(EdgeArea, OfAnArcOfACircleIsItsSegment) {
   core::Polyline arc;
   constexpr int chords = 6;
