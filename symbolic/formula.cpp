@@ -52,11 +52,52 @@ std::string sum_in_parentheses(const std::string& sum, Language language) {
   return language == Language::latex ? "\\left(" + sum + "\\right)" : "(" + sum + ")";
 }
 
+bool is_program(Language language) {
+  return language == Language::c || language == Language::python || language == Language::matlab;
+}
+
+/// Of the largest coefficient, before the point.
+std::size_t digits_of(const core::Polynomial& p) {
+  Rational largest = 0;
+  for (const core::Term& term : p.terms) largest = std::max(largest, Rational(abs(term.coefficient)));
+  const std::size_t above = digits_of(largest.get_num()), below = digits_of(largest.get_den());
+  return above > below ? above - below : 0;
+}
+
+Rational power_of_ten(std::size_t exponent) {
+  Integer power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, exponent);
+  return power;
+}
+
+/// The same product, whose numbers and what a program multiplies of them are doubles: large coefficients of factors
+/// stand in the constant, where those of other factors divide them.
+struct Balanced {
+  Rational constant;
+  std::vector<core::Polynomial> factors;
+};
+
+Balanced balanced(const FactoredPoly& p, Language language) {
+  Balanced result{p.constant, {}};
+  std::size_t digits = std::max(digits_of(p.constant.get_num()), digits_of(p.constant.get_den()));
+  for (const PolyFactor& factor : p.factors) {
+    result.factors.push_back(factor.poly.plain());
+    digits += digits_of(result.factors.back()) * static_cast<std::size_t>(factor.multiplicity);
+  }
+  constexpr std::size_t most = 100;
+  if (!is_program(language) || digits <= most) return result;
+  for (std::size_t i = 0; i < result.factors.size(); ++i) {
+    const Rational scale = power_of_ten(digits_of(result.factors[i]));
+    for (core::Term& term : result.factors[i].terms) term.coefficient /= scale;
+    for (int k = 0; k < p.factors[i].multiplicity; ++k) result.constant *= scale;
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string number_text(const Rational& value, Language language) {
-  const bool program = language == Language::c || language == Language::python || language == Language::matlab;
-  if (program && std::max(digits_of(value.get_num()), digits_of(value.get_den())) > most_digits)
+  if (is_program(language) && std::max(digits_of(value.get_num()), digits_of(value.get_den())) > most_digits)
     return decimal_text(value);
   if (value.get_den() == 1) return integer_text(value.get_num(), language);
   if (language == Language::latex) {
@@ -95,17 +136,20 @@ std::string formula(const core::Polynomial& p, const std::vector<std::string>& n
 
 std::string product_formula(const FactoredPoly& p, const std::vector<std::string>& names, Language language) {
   std::string result;
-  for (const PolyFactor& factor : p.factors) {
-    const std::string base = formula(factor.poly.plain(), names, language);
-    const bool alone = p.factors.size() == 1 && factor.multiplicity == 1 && abs(p.constant) == 1 && p.constant > 0;
+  const Balanced numbers = balanced(p, language);
+  for (std::size_t i = 0; i < p.factors.size(); ++i) {
+    const PolyFactor& factor = p.factors[i];
+    const std::string base = formula(numbers.factors[i], names, language);
+    const bool alone = p.factors.size() == 1 && factor.multiplicity == 1 && numbers.constant == 1;
     const bool single = factor.poly.length() == 1;
     if (!result.empty()) result += times(language);
     result += power_text(alone || single ? base : sum_in_parentheses(base, language), factor.multiplicity, language);
   }
-  if (result.empty()) return number_text(p.constant, language);
-  if (p.constant == 1) return result;
-  if (p.constant == -1) return "-" + result;
-  return number_text(p.constant, language) + times(language) + result;
+  const Rational& constant = numbers.constant;
+  if (result.empty()) return number_text(constant, language);
+  if (constant == 1) return result;
+  if (constant == -1) return "-" + result;
+  return number_text(constant, language) + times(language) + result;
 }
 
 }  // namespace clearloci::symbolic

@@ -128,6 +128,14 @@ TEST_P(GeneratedCode, CCompilesWithoutAWarningAndItsDeterminantIsThatOfItsMatrix
   EXPECT_EQ(std::system(program.c_str()), 0);
 }
 
+/// Factors have integer coefficients of hundreds of digits there, and constants as small.
+TEST(GeneratedNumbers, AreDoublesWhereCoefficientsAreNone) {
+  const std::filesystem::path file = scratch("hexapod") / "equations.py";
+  std::ofstream(file) << program("hexapod", Language::python, false) << "\nPOSES = [(0.02, 0.03), (-0.03, 0.01)]\n"
+                      << python_check << "\nassert all(1e-7 < abs(determinant_A(*at)) < 1 for at in POSES)\n";
+  EXPECT_EQ(std::system(("python3 " + file.string()).c_str()), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Examples, GeneratedCode,
                          testing::Combine(testing::Values("five_bar", "five_bar_generic", "five_bar_weights"),
                                           testing::Bool()),
