@@ -90,6 +90,7 @@ class OpenRegion:
     working_mode: dict[str, str]
     lower: list[float]  #: one value a coordinate: rad of an angle, else m
     upper: list[float]
+    point: bool  #: an isolated point may be in it; its box is tiny
 
 
 @dataclass(frozen=True)
@@ -332,7 +333,7 @@ class Zone:
     assembly_mode: int  #: sign of ``|A|``
     signs: dict[str, int]  #: of couples, axial and normal forces: {"M_A1": 1}
     size: float  #: over two lengths the area; by cells `at_least`
-    at_least: float  #: a proven bound from below; 0 of a zone over two lengths that is not certified
+    at_least: float  #: proven; 0 of a zone over two lengths that is not certified
     at_most: float
     certified: bool  #: its borders are proven; by cells: it is proven to be separate from all other zones
     perhaps_one_with: list[str]  #: by cells: zones of the same signs that only doubt parts from it

@@ -160,3 +160,10 @@ def test_carried_loci_lie_on_those_of_the_new_design(five_bar):
             assert np.median(values / np.maximum(slopes, 1e-12)) <= 1e-9
     again = pickle.loads(pickle.dumps(carried))
     assert [len(curve.arcs) for curve in again.curves] == [len(curve.arcs) for curve in carried.curves]
+
+
+def test_places_that_are_open_are_told():
+    answer = cl.read(EXAMPLES / "three_rpr_legs.yaml").loci(mesh_size=0.25)
+    assert not answer.complete and answer.open
+    for region in answer.open:
+        assert len(region.lower) == len(region.upper) == 3 and region.point in (True, False)
