@@ -84,7 +84,7 @@ class ConstantSearch {
       pattern.signs.assign(signs.begin(), signs.end());
       pattern.verdict = Verdict::refuted;
       pattern.size = {unbounded, unbounded};
-      pattern.refutation = told_rows(system_, exclusion);
+      tell_rows(system_, exclusion, pattern);
       answer.values.emplace_back();
       answer.words.push_back(exclusion_words(system_, exclusion));
     }
@@ -157,14 +157,14 @@ class ConstantSearch {
     if (const auto none = excluded(system_, trial.rows)) {
       trial.told.verdict = Verdict::refuted;
       trial.told.size = {unbounded, unbounded};
-      trial.told.refutation = told_rows(system_, *none);
+      tell_rows(system_, *none, trial.told);
       trial.words = exclusion_words(system_, *none);
       return false;
     }
     const auto smallest = smallest_efforts(system_, trial.rows);
     if (smallest && smallest->size > trial.told.size[0]) {
       trial.told.size[0] = smallest->size;
-      trial.told.refutation = told_rows(system_, smallest->below);
+      tell_rows(system_, smallest->below, trial.told);
     }
     return smallest.has_value();
   }
@@ -174,7 +174,7 @@ class ConstantSearch {
     trial.told.size = {unbounded, unbounded};
     if (const auto none = excluded(system_, trial.rows)) {
       trial.told.verdict = Verdict::refuted;
-      trial.told.refutation = told_rows(system_, *none);
+      tell_rows(system_, *none, trial.told);
       trial.words = exclusion_words(system_, *none);
       return;
     }
@@ -199,8 +199,7 @@ class ConstantSearch {
     }
     if (trial.told.verdict == Verdict::undecided && trial.told.size[0] == unbounded)
       trial.told.verdict = Verdict::refuted;
-    if (const auto smallest = smallest_efforts(system_, trial.rows))
-      trial.told.refutation = told_rows(system_, smallest->below);
+    if (const auto smallest = smallest_efforts(system_, trial.rows)) tell_rows(system_, smallest->below, trial.told);
     if (trial.told.verdict == Verdict::undecided) trial.told.size[1] = unbounded;
   }
 

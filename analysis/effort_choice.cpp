@@ -70,8 +70,10 @@ class ChoiceSearch {
     if (asked_.progress) asked_.progress(0, "proof");
     if (const auto failure = systems_.unreachable(region_.samples().front())) return failed(result, *failure);
     const bool decided = find_patterns(result);
-    for (PatternProof& proof : patterns_)
+    for (PatternProof& proof : patterns_) {
       if (proof.verdict != Verdict::refuted) look_for_refutation(proof);
+      if (proof.chooser->unreachable) return failed(result, *proof.chooser->unreachable);
+    }
     std::stable_sort(patterns_.begin(), patterns_.end(), [](const PatternProof& a, const PatternProof& b) {
       return std::pair(a.verdict == Verdict::refuted, a.chooser->needed) <
              std::pair(b.verdict == Verdict::refuted, b.chooser->needed);
@@ -131,7 +133,7 @@ class ChoiceSearch {
     const std::size_t stride = (samples.size() + most - 1) / most;
     for (std::size_t i = 0; i < samples.size(); i += i < (std::size_t{1} << 4) ? 1 : stride)
       if (proof.chooser->refutes(samples[i])) {
-        proof.verdict = Verdict::refuted;
+        if (proof.chooser->exclusion) proof.verdict = Verdict::refuted;  // else the pose is out of reach
         return;
       }
   }
@@ -249,9 +251,9 @@ class ChoiceSearch {
     pattern.verdict = proof.verdict;
     pattern.size = {proof.verdict == Verdict::refuted ? unbounded : proof.chooser->needed, proof.verified_within};
     if (proof.chooser->exclusion)
-      pattern.refutation = told_rows(*proof.chooser->excluding, *proof.chooser->exclusion);
+      tell_rows(*proof.chooser->excluding, *proof.chooser->exclusion, pattern);
     else if (proof.chooser->needing != nullptr)
-      pattern.refutation = told_rows(*proof.chooser->needing, proof.chooser->below_needed);
+      tell_rows(*proof.chooser->needing, proof.chooser->below_needed, pattern);
     return pattern;
   }
 
@@ -280,7 +282,7 @@ class ChoiceSearch {
       const EffortExclusion& exclusion = *proof.chooser->exclusion;
       constexpr std::size_t most_notes = 12;
       if (result.notes.size() < most_notes)
-        result.notes.push_back(exclusion_words(*proof.chooser->excluding, exclusion) + ": these exclude each other");
+        result.notes.push_back(exclusion_words(*proof.chooser->excluding, exclusion));
       if (result.witness) continue;
       result.witness = witness_of(*proof.chooser->excluding, exclusion);
       result.witness->distance = region_.distance(result.witness->at);

@@ -95,12 +95,14 @@ std::optional<std::vector<EffortInequality>> all_rows(const EffortSystem& system
   return all;
 }
 
-std::vector<core::PreloadRow> told_rows(const EffortSystem& system, const EffortExclusion& exclusion) {
-  std::vector<core::PreloadRow> rows;
+void tell_rows(const EffortSystem& system, const EffortExclusion& exclusion, core::PreloadPattern& pattern) {
+  pattern.joints.clear();
+  for (const WantedEffort& wanted : system.wanted()) pattern.joints.push_back(wanted.joint);
+  pattern.refutation.clear();
   const std::size_t poses = system.mechanism().coordinates.size();
   for (std::size_t i = 0; i < exclusion.rows.size(); ++i) {
     const EffortInequality& inequality = exclusion.rows[i];
-    core::PreloadRow& row = rows.emplace_back();
+    core::PreloadRow& row = pattern.refutation.emplace_back();
     row.reaction = inequality.reaction;
     row.sign = inequality.sign;
     row.bound = inequality.bound;
@@ -111,7 +113,6 @@ std::vector<core::PreloadRow> told_rows(const EffortSystem& system, const Effort
     row.offset = inequality.offset.value;
     row.multiplier = exclusion.multipliers[i];
   }
-  return rows;
 }
 
 std::string exclusion_words(const EffortSystem& system, const EffortExclusion& exclusion) {
@@ -135,7 +136,7 @@ std::string exclusion_words(const EffortSystem& system, const EffortExclusion& e
     words += (row.slope[0].value > 0 ? " for efforts above " : " for efforts below ") +
              core::told(effort, system.wanted().front().force ? "N" : "N m", mechanism.units, 4);
   }
-  return words;
+  return words + (exclusion.rows.size() > 1 ? ": these exclude each other" : ": no effort that is looked at meets it");
 }
 
 }  // namespace clearloci

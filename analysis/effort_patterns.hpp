@@ -28,9 +28,10 @@ std::optional<std::vector<EffortInequality>> all_rows(const EffortSystem& system
                                                       const SignPattern& signs,
                                                       const std::optional<EffortSystem::OneLoad>& load = {});
 
-std::vector<core::PreloadRow> told_rows(const EffortSystem& system, const EffortExclusion& exclusion);
+/// Why a pattern fails, or sizes below its own.
+void tell_rows(const EffortSystem& system, const EffortExclusion& exclusion, core::PreloadPattern& pattern);
 
-/// "at (0.1 m, 0.5 m) M_A1 > 0 asks for more than 12 N m, M_A2 < 0 for less than 7 N m".
+/// "at (0.1 m, 0.5 m) M_A1 > 0 for efforts above 12 N m, M_A2 < 0 for efforts below 7 N m: these exclude each other".
 std::string exclusion_words(const EffortSystem& system, const EffortExclusion& exclusion);
 
 }  // namespace clearloci

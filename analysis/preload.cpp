@@ -206,7 +206,7 @@ ConstantAnswer constant_answer(const Model& model, const std::vector<WantedEffor
       answer.answer.value = pattern.value;
       answer.smallest = patterns.values[i];
     }
-    if (!patterns.words[i].empty()) answer.words.push_back(patterns.words[i] + ": these exclude each other");
+    if (!patterns.words[i].empty()) answer.words.push_back(patterns.words[i]);
   }
   answer.answer.size[0] = std::min(std::max(answer.answer.size[0], least), answer.answer.size[1]);
   answer.answer.cells += patterns.cells;

@@ -264,26 +264,9 @@ class PoseTaskCheck {
     load.couple = couple.front();
   }
 
-  /// Tensions of as many cables as the model leaves free are chosen; of which, each cell of a law says.
-  void choose_cables(const std::vector<std::string>& joints) {
-    std::vector<mechanism::JointIndex> free;
-    std::size_t before = 0, chosen = 0;
-    for (const mechanism::JointIndex j : mechanism::cables_of(m_)) {
-      const mechanism::Joint& cable = m_.joints[static_cast<std::size_t>(j)];
-      const bool is_fixed = cable.effort && (!cable.free_effort || cable.free_effort->given);
-      const bool is_chosen = std::find(joints.begin(), joints.end(), cable.name) != joints.end();
-      if (is_fixed && is_chosen) throw FalseClaim("law: '" + cable.name + "' has no free effort");
-      before += cable.effort && !is_fixed ? 1U : 0U;
-      chosen += is_chosen ? 1U : 0U;
-      if (is_fixed || is_chosen) free.push_back(j);
-    }
-    if (before != chosen) throw FalseClaim(fmt::format("law: {} cables have a free tension, not {}", before, chosen));
-    mechanism::set_free_cables(m_, free);
-  }
-
   /// The first of them, and shares of what the others differ by from it.
   void give_efforts(const std::vector<Efforts>& efforts) {
-    choose_cables(efforts.front().joints);
+    choose_cables(m_, efforts.front().joints);
     first_share_ = names_.size();
     for (std::size_t k = 1; k < efforts.size(); ++k) add_variable(fmt::format("share {} of efforts", k), 0, 1);
     for (std::size_t j = 0; j < efforts.front().joints.size(); ++j) {
@@ -466,6 +449,22 @@ std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Dead
 }
 
 }  // namespace
+
+void choose_cables(Mechanism& m, const std::vector<std::string>& joints) {
+  std::vector<mechanism::JointIndex> free;
+  std::size_t before = 0, chosen = 0;
+  for (const mechanism::JointIndex j : mechanism::cables_of(m)) {
+    const mechanism::Joint& cable = m.joints[static_cast<std::size_t>(j)];
+    const bool is_fixed = cable.effort && (!cable.free_effort || cable.free_effort->given);
+    const bool is_chosen = std::find(joints.begin(), joints.end(), cable.name) != joints.end();
+    if (is_fixed && is_chosen) throw FalseClaim("'" + cable.name + "' has no free effort");
+    before += cable.effort && !is_fixed ? 1U : 0U;
+    chosen += is_chosen ? 1U : 0U;
+    if (is_fixed || is_chosen) free.push_back(j);
+  }
+  if (before != chosen) throw FalseClaim(fmt::format("{} cables have a free tension, not {}", before, chosen));
+  mechanism::set_free_cables(m, free);
+}
 
 void check_pose_task(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
                      Examination& examination) {

@@ -96,6 +96,10 @@ std::vector<std::vector<std::array<double, 2>>> reactions_at(const mechanism::Me
 /// Whether a pose is one of the task or of its margin, or within rounding of them.
 bool may_be_pose_of(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const std::vector<core::Rational>& pose);
 
+/// Tensions of as many cables as the model leaves free are chosen, and those of the others follow. Throws FalseClaim
+/// where there are other numbers of them.
+void choose_cables(mechanism::Mechanism& m, const std::vector<std::string>& joints);
+
 /// Throws as check_pose_task.
 void check_refutation(const mechanism::Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline,
                       Examination& examination);

@@ -5,7 +5,7 @@ namespace {
 
 using core::Rational;
 
-constexpr std::size_t most_points = 10'000, most_law_cells = 20'000;
+constexpr std::size_t most_points = 10'000, most_law_cells = 200'000;
 
 class PoseTaskReader : ClaimReader {
  public:
@@ -55,6 +55,7 @@ class PoseTaskReader : ClaimReader {
       Refutation::Pattern& pattern = refutation.patterns.emplace_back();
       for (const Json& pair : list(at(each, "signs"), most_demands))
         pattern.signs[text(item(pair, 0))] = sign(item(pair, 1));
+      pattern.joints = joints(at(each, "joints"));
       for (const Json& row : list(at(each, "rows"), most_variables))
         pattern.rows.push_back({text(at(row, "reaction")), sign(at(row, "sign")), flag(at(row, "bound")),
                                 rationals(at(row, "at")), rationals(at(row, "load")), rational(at(row, "multiplier"))});

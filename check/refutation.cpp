@@ -9,6 +9,7 @@
 
 #include "check/certificate.hpp"
 #include "check/pose_task.hpp"
+#include "mechanism/joint_traits.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -42,14 +43,17 @@ class RefutationCheck {
  private:
   /// Every effort that may be chosen, in all of its range.
   void check_efforts() {
-    std::set<std::string> free;
-    for (const Joint& joint : m_.joints)
-      if (joint.free_effort && !joint.free_effort->given) free.insert(joint.name);
-    if (free.empty() || free != std::set<std::string>(own_.joints.begin(), own_.joints.end()) ||
-        free.size() != own_.joints.size() || own_.ranges.size() != own_.joints.size())
+    const std::set<std::string> motors = free_motors(), named(own_.joints.begin(), own_.joints.end());
+    const bool all = std::includes(named.begin(), named.end(), motors.begin(), motors.end());
+    const bool no_others = std::all_of(named.begin(), named.end(), [&](const std::string& name) {
+      return motors.count(name) > 0 || mechanism::is_cable(joint_named(name));
+    });
+    if (named.empty() || !all || !no_others || named.size() != own_.joints.size() ||
+        own_.ranges.size() != own_.joints.size())
       throw FalseClaim("refutation: its efforts are not the free ones of the model");
     for (std::size_t k = 0; k < own_.joints.size(); ++k) {
-      const auto& within = joint_named(own_.joints[k]).free_effort->within;
+      const Joint& joint = joint_named(own_.joints[k]);
+      const auto& within = mechanism::is_cable(joint) ? joint.within : joint.free_effort->within;
       const auto& [lower, upper] = own_.ranges[k];
       if (within && (lower > within->first || upper < within->second))
         throw FalseClaim("refutation: the effort of " + own_.joints[k] + " may be beyond its range");
@@ -57,6 +61,27 @@ class RefutationCheck {
         examination_.unchecked.push_back(
             fmt::format("task: efforts of {} beyond {:.6g} to {:.6g}", own_.joints[k], lower.get_d(), upper.get_d()));
     }
+  }
+
+  std::set<std::string> free_motors() const {
+    std::set<std::string> free;
+    for (const Joint& joint : m_.joints)
+      if (joint.free_effort && !joint.free_effort->given && !mechanism::is_cable(joint)) free.insert(joint.name);
+    return free;
+  }
+
+  /// The mechanism with the efforts of a pattern as those that are chosen. Of cables they are as many as are free.
+  Mechanism mechanism_of(const Refutation::Pattern& pattern) const {
+    const std::set<std::string> named(pattern.joints.begin(), pattern.joints.end()), motors = free_motors();
+    const bool known = std::all_of(named.begin(), named.end(), [&](const std::string& name) {
+      return std::find(own_.joints.begin(), own_.joints.end(), name) != own_.joints.end();
+    });
+    if (!known || named.size() != pattern.joints.size() ||
+        !std::includes(named.begin(), named.end(), motors.begin(), motors.end()))
+      throw FalseClaim("refutation: the efforts of a pattern are not those that may be chosen");
+    Mechanism m = m_;
+    choose_cables(m, pattern.joints);
+    return m;
   }
 
   const Joint& joint_named(const std::string& name) const {
@@ -108,8 +133,9 @@ class RefutationCheck {
   }
 
   void check(const Refutation::Pattern& pattern) {
+    const Mechanism m = mechanism_of(pattern);
     Interval offset(cell_bits);
-    std::vector<Interval> slopes(own_.joints.size(), Interval(cell_bits));
+    std::vector<Interval> slopes(pattern.joints.size(), Interval(cell_bits));
     const Refutation::Row* first = nullptr;
     for (const Refutation::Row& row : pattern.rows) {
       if (row.multiplier <= 0) throw FalseClaim("refutation: a multiplier is not positive");
@@ -121,10 +147,11 @@ class RefutationCheck {
         if (own_.controlled && !same) throw FalseClaim("refutation: efforts that vary are refuted at one pose");
         first = &row;
       }
-      add(row, offset, slopes);
+      add(m, pattern.joints, row, offset, slopes);
     }
     for (std::size_t k = 0; k < slopes.size(); ++k) {
-      const auto& [lower, upper] = own_.ranges[k];
+      const auto place = std::find(own_.joints.begin(), own_.joints.end(), pattern.joints[k]);
+      const auto& [lower, upper] = own_.ranges[static_cast<std::size_t>(place - own_.joints.begin())];
       const Interval at_lower = slopes[k] * Interval(lower, cell_bits),
                      at_upper = slopes[k] * Interval(upper, cell_bits);
       offset = offset + (at_lower.upper() > at_upper.upper() ? at_lower : at_upper);
@@ -160,17 +187,18 @@ class RefutationCheck {
     if (part != row.load.size()) throw FalseClaim("refutation: a load has too many parts");
   }
 
-  void add(const Refutation::Row& row, Interval& offset, std::vector<Interval>& slopes) {
+  void add(const Mechanism& m, const std::vector<std::string>& joints, const Refutation::Row& row, Interval& offset,
+           std::vector<Interval>& slopes) {
     const Interval y(row.multiplier, cell_bits), factor(Rational(row.sign * row.multiplier), cell_bits);
     const core::TaskDemand* const demand = demand_named(row.reaction);
     const Rational least = demand == nullptr ? Rational(0) : demand->least;
     if (row.at.empty()) {
-      const auto k = std::find_if(own_.joints.begin(), own_.joints.end(), [&](const std::string& joint) {
+      const auto k = std::find_if(joints.begin(), joints.end(), [&](const std::string& joint) {
         return row.reaction == "M_" + joint || row.reaction == "F_" + joint;
       });
-      if (k == own_.joints.end() || !is_own_backlash(row.reaction))
+      if (k == joints.end() || !is_own_backlash(row.reaction))
         throw FalseClaim("refutation: a row of no effort with play");
-      Interval& slope = slopes[static_cast<std::size_t>(k - own_.joints.begin())];
+      Interval& slope = slopes[static_cast<std::size_t>(k - joints.begin())];
       slope = slope + factor;
       offset = offset - y * Interval(least, cell_bits);
       return;
@@ -178,15 +206,18 @@ class RefutationCheck {
     core::TaskDemand wanted;
     if (demand != nullptr) wanted = *demand;
     Rational from = row.sign * least;
-    if (row.bound) std::tie(wanted, from) = bounded(row);
-    const Interval start = reaction(row, wanted, std::nullopt);
+    if (row.bound) std::tie(wanted, from) = bounded(m, row);
+    const auto under = [&](const std::string& effort) {
+      return reaction(with_efforts(m, joints, effort), row, wanted);
+    };
+    const Interval start = under("");
     offset = offset + factor * (start - Interval(from, cell_bits));
-    for (std::size_t k = 0; k < slopes.size(); ++k) slopes[k] = slopes[k] + factor * (reaction(row, wanted, k) - start);
+    for (std::size_t k = 0; k < slopes.size(); ++k) slopes[k] = slopes[k] + factor * (under(joints[k]) - start);
   }
 
   /// What keeps to a bound of the model's, and the bound.
-  std::pair<core::TaskDemand, Rational> bounded(const Refutation::Row& row) const {
-    for (const Joint& joint : m_.joints)
+  static std::pair<core::TaskDemand, Rational> bounded(const Mechanism& m, const Refutation::Row& row) {
+    for (const Joint& joint : m.joints)
       for (const core::Quantity quantity : {core::Quantity::M, core::Quantity::F}) {
         core::TaskDemand demand;
         demand.joint = joint.name;
@@ -198,9 +229,15 @@ class RefutationCheck {
     throw FalseClaim("refutation: " + quoted(row.reaction) + " has no bounds");
   }
 
-  /// With all free efforts 0, or one of them 1.
-  Interval reaction(const Refutation::Row& row, const core::TaskDemand& demand, std::optional<std::size_t> effort) {
-    Mechanism m = m_;
+  /// With all free efforts 0 but for the one that is named, which is 1.
+  static Mechanism with_efforts(Mechanism m, const std::vector<std::string>& joints, const std::string& one) {
+    for (const std::string& name : joints)
+      for (Joint& joint : m.joints)
+        if (joint.name == name) joint.effort = Expression::number(name == one ? 1 : 0);
+    return m;
+  }
+
+  Interval reaction(Mechanism m, const Refutation::Row& row, const core::TaskDemand& demand) {
     std::size_t part = 0;
     const auto add_to = [&](Expression& expression) {
       expression = Expression::apply(Expression::Kind::add, {expression, Expression::number(row.load.at(part++))});
@@ -210,9 +247,6 @@ class RefutationCheck {
         for (Expression& component : m.loads[load_range.load].force) add_to(component);
       if (load_range.couple > 0) add_to(m.loads[load_range.load].couple);
     }
-    for (std::size_t k = 0; k < own_.joints.size(); ++k)
-      for (Joint& joint : m.joints)
-        if (joint.name == own_.joints[k]) joint.effort = Expression::number(effort == k ? 1 : 0);
     PoseTaskClaim place = claim_;
     place.shape = {};
     place.shape.name = "box";

@@ -26,9 +26,10 @@ struct Refutation {
   };
   struct Pattern {
     std::map<std::string, int> signs;  ///< of some reactions; those of others may be either
+    std::vector<std::string> joints;   ///< whose efforts are lambda: motors, and cables that the others follow
     std::vector<Row> rows;
   };
-  std::vector<std::string> joints;                    ///< of free efforts
+  std::vector<std::string> joints;                    ///< of free efforts, and cables
   std::vector<std::array<core::Rational, 2>> ranges;  ///< of each, N or N m
   /// Efforts may vary with the pose, and with the load: then rows are of one pose, and of one load.
   bool controlled = false, knows_load = false;

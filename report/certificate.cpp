@@ -373,7 +373,7 @@ std::string certificate_text(const CertificateSource& source, const core::TaskCe
   for (const core::PreloadPattern& pattern : refuted.patterns) {
     Json signs = Json::array();
     for (const auto& [name, sign] : pattern.signs) signs.push_back({name, sign});
-    patterns.push_back({{"signs", std::move(signs)}, {"rows", rows_of(pattern)}});
+    patterns.push_back({{"signs", std::move(signs)}, {"joints", pattern.joints}, {"rows", rows_of(pattern)}});
   }
   root["pose_task"]["refutation"] = {{"joints", refuted.joints},
                                      {"ranges", std::move(ranges)},

@@ -160,6 +160,7 @@ nlohmann::ordered_json pattern_object(const core::PreloadAnswer& preload, const 
           {"verdict", core::to_string(pattern.verdict)},
           {"size", {number_json(pattern.size[0]), number_json(pattern.size[1])}},
           {"value", pattern.value ? std::move(value) : Json(nullptr)},
+          {"joints", pattern.joints},
           {"refutation", std::move(refutation)}};
 }
 

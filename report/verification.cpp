@@ -191,8 +191,8 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
     }
     case Kind::beyond_bound: {
       if (!witness.size) {
-        words = "no tensions are within their bounds: those of " + reaction_names(witness.beyond_bound) +
-                " exclude each other";
+        words = "no efforts meet all conditions here: those of " + reaction_names(witness.beyond_bound) +
+                (witness.beyond_bound.size() > 1 ? " exclude each other" : " cannot be met");
         break;
       }
       const core::Vanishing& effort = witness.beyond_bound.front();

@@ -194,6 +194,7 @@ struct PreloadPattern {
   std::array<double, 2> size{};                    ///< of the smallest that verifies, at least and at most: proven
   std::optional<std::vector<double>> value = {};   ///< a constant one that verifies, of the second size
   std::vector<PreloadRow> refutation = {};         ///< rows that exclude each other: of all, or of smaller sizes
+  std::vector<std::string> joints = {};            ///< whose efforts their slopes are of; other cables follow
 };
 
 /// A cell of a law: efforts that are proven in all of it.

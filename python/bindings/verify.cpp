@@ -90,7 +90,7 @@ py::dict pattern_of(const PreloadPattern& pattern) {
   return py::dict(py::arg("signs") = signs, py::arg("verdict") = to_string(pattern.verdict),
                   py::arg("size") = py::make_tuple(pattern.size[0], pattern.size[1]),
                   py::arg("value") = pattern.value ? py::cast(*pattern.value) : py::object(py::none()),
-                  py::arg("refutation") = refutation);
+                  py::arg("joints") = pattern.joints, py::arg("refutation") = refutation);
 }
 
 py::object preload_of(const Verification& answer) {

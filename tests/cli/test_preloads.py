@@ -8,6 +8,7 @@ import json
 import math
 import os
 import random
+import shutil
 import unittest
 
 import numpy
@@ -458,6 +459,7 @@ class Certificates(InOwnFolder):
         yield "another reaction", lambda own: own["patterns"][0]["rows"][0].update(reaction="M_P")
         yield "a smaller range", lambda own: own["ranges"][0].__setitem__(0, "0")
         yield "no effort of the model", lambda own: own["joints"].__setitem__(0, "A1")
+        yield "other efforts are chosen", lambda own: own["patterns"][0].update(joints=[])
 
     def test_refutations_are_certified_and_mutations_are_not(self):
         """Multipliers that another program accepts, with statics and intervals of its own."""
@@ -474,6 +476,42 @@ class Certificates(InOwnFolder):
                         self.expect(wrong, 1)
                         seen += 1
         self.assertGreater(seen, 15)
+
+    def test_refutations_with_cables_are_certified_and_mutations_are_not(self):
+        """Tensions of which each pattern says which are chosen."""
+        shutil.copy(SOURCE / "examples/cables/three_cables.yaml", self.folder / "m.yaml")
+        (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [0, 0.8], y: [0, 0.8]}\npreload: controlled\n", encoding="utf-8")
+        self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out", status=1)
+        certificate = json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+        self.assertIn("no efforts keep the task clear", self.expect(certificate, 0))
+        own = certificate["pose_task"]["refutation"]
+        chosen = own["patterns"][0]["joints"]
+        other = next(name for name in own["joints"] if name not in chosen)
+        changes = {
+            "another cable is chosen": lambda own: own["patterns"][0].update(joints=[other]),
+            "two are chosen": lambda own: own["patterns"][0]["joints"].append(other),
+            "none is chosen": lambda own: own["patterns"][0].update(joints=[]),
+            "a smaller range": lambda own: own["ranges"][own["joints"].index(chosen[0])].__setitem__(1, "1"),
+            "no cable": lambda own: own["joints"].__setitem__(own["joints"].index(other), "P"),
+            "a multiplier": lambda own: own["patterns"][0]["rows"][0].update(multiplier="1000"),
+            "not of the task": lambda own: own["patterns"][0]["rows"][0].update(at=["9/10", "1/10"]),
+        }
+        for what, change in changes.items():
+            wrong = json.loads(json.dumps(certificate))
+            change(wrong["pose_task"]["refutation"])
+            with self.subTest(wrong=what):
+                self.expect(wrong, 1)
+
+    def test_a_task_that_leaves_the_reach_fails_there(self):
+        """Not by efforts that exclude each other: there are none."""
+        text = (SOURCE / "examples/studies/antagonistic.yaml").read_text(encoding="utf-8")
+        (self.folder / "m.yaml").write_text(text, encoding="utf-8")
+        (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [-0.3, 0.4], y: [0.3, 0.7]}\npreload: controlled\n", encoding="utf-8")
+        answer = json.loads(self.run_program("verify", "m.yaml", "t.yaml", "--json", "--quiet", "-o", "out", status=1).stdout)
+        self.assertEqual(answer["verdict"], "refuted")
+        self.assertEqual(answer["witness"]["kind"], "unreachable")
+        x, y = answer["witness"]["at"]
+        self.assertGreater(math.hypot(x - 0.5, y), 1)  # two links of 0.5 from A2
 
 
 if __name__ == "__main__":
