@@ -31,8 +31,16 @@ FindLoci finder_of(Engine engine) {
 }
 
 void add_workspace(const LocusProblem& problem, LocusMap& map) {
-  for (const core::WorkingMode& mode : problem.modes)
-    map.workspace.push_back({mode, workspace_faces(problem, mode, map).rings});
+  bool by_cells = false;
+  for (const core::WorkingMode& mode : problem.modes) {
+    WorkspaceFaces faces = workspace_faces(problem, mode, map);
+    by_cells = by_cells || faces.by_cells;
+    map.workspace.push_back({mode, std::move(faces.rings)});
+  }
+  if (by_cells)
+    map.notes.emplace_back(
+        "the workspace boundary has gaps where places are open: beside them the rings of the workspace are those of "
+        "cells, 1/256 of the coordinates' ranges wide");
 }
 
 /// Where reactions vanish and boundaries touch in points alone. `withheld`: as Found's.

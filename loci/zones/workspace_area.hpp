@@ -27,6 +27,12 @@ class ModeWorkspace {
 
 struct AreaBounds {
   double least = 0, most = 0;  ///< of the coordinates' units, m^2 where both are lengths
+
+  /// Whether an area of faces is between them, but for what curved sides may hide of it.
+  bool allow(double area) const { return area >= (1 - slack) * least && area <= (1 + slack) * most; }
+
+ private:
+  static constexpr double slack = 1e-5;
 };
 
 /// Bounds on the area of the poses in the box that the mode reaches, proven by enclosures of the roots' squares over

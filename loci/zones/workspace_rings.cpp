@@ -7,6 +7,36 @@
 #include "loci/zones/zone_graph.hpp"
 
 namespace clearloci::loci {
+namespace {
+
+bool may_have_gaps(const core::LocusMap& map, const core::WorkingMode& mode) {
+  const auto is_open = [&](const core::OpenRegion& region) { return region.mode == mode && !region.point; };
+  const auto is_doubtful = [&](const core::LocusCurve& curve) {
+    return curve.mode == mode && curve.kind == core::LocusKind::workspace_boundary && !curve.certified;
+  };
+  return std::any_of(map.open.begin(), map.open.end(), is_open) ||
+         std::any_of(map.curves.begin(), map.curves.end(), is_doubtful);
+}
+
+/// Rows of cells of the box, of which the mode reaches the middles.
+std::vector<core::Polyline> rings_of_cells(const core::LocusProblem& problem, ModeWorkspace& workspace) {
+  constexpr int cells = 256;
+  const core::Point2 low = {core::to_double(problem.lower[0]), core::to_double(problem.lower[1])};
+  const core::Point2 high = {core::to_double(problem.upper[0]), core::to_double(problem.upper[1])};
+  const auto at = [&](std::size_t c, double i) { return low[c] + i / cells * (high[c] - low[c]); };
+  std::vector<core::Polyline> rings;
+  for (int row = 0; row < cells; ++row)
+    for (int from = 0, to = 0; from < cells; from = to + 1) {
+      for (to = from; to < cells; ++to)
+        if (!workspace.holds({at(0, to + 0.5), at(1, row + 0.5)}).value_or(false)) break;
+      if (to == from) continue;
+      const double left = at(0, from), right = at(0, to), bottom = at(1, row), top = at(1, row + 1);
+      rings.push_back({{left, bottom}, {right, bottom}, {right, top}, {left, top}, {left, bottom}});
+    }
+  return rings;
+}
+
+}  // namespace
 
 WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                const core::LocusMap& map) {
@@ -44,6 +74,11 @@ WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::Wo
     for (core::Polyline& ring : rings)
       if (ring.size() > 3) result.rings.push_back(std::move(ring));
   }
+  if (!may_have_gaps(map, mode)) return result;
+  const AreaBounds bounds = workspace_area(problem, mode);
+  if (bounds.allow(result.area)) return result;
+  result.by_cells = true;
+  result.rings = rings_of_cells(problem, workspace);
   return result;
 }
 

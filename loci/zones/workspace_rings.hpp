@@ -9,9 +9,12 @@ namespace clearloci::loci {
 struct WorkspaceFaces {
   std::vector<core::Polyline> rings;  ///< to be filled by the even-odd rule
   double area = 0;                    ///< curved sides counted in
+  /// The boundary has gaps, so that its faces contradict proven bounds of the area: the rings are those of cells, each
+  /// with a middle that the mode reaches.
+  bool by_cells = false;
 };
 
-/// From the boundary curves that the map has of the mode.
+/// From the boundary curves that the map has of the mode, and the places at which it is open.
 WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                const core::LocusMap& map);
 

@@ -152,7 +152,7 @@ class ModeZones {
     account.workspace = workspace_faces(problem_, mode_, map_).area;
     if (!sketch_) {
       const AreaBounds bounds = workspace_area(problem_, mode_);
-      if (account.workspace < (1 - area_slack) * bounds.least || account.workspace > (1 + area_slack) * bounds.most)
+      if (!bounds.allow(account.workspace))
         account.workspace = bounds.most;  // the boundary has gaps: what is certain is only what enclosures tell
     }
     double covered = 0;

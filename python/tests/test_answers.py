@@ -1,8 +1,10 @@
 import json
 import pickle
 
+import clearloci as cl
 import numpy as np
 import pytest
+from conftest import EXAMPLES
 
 
 def test_loci_are_curves_with_arrays(five_bar):

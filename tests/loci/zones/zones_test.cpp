@@ -214,7 +214,9 @@ TEST(Slivers, ThatCoarseChordsCloseAreFoundOrInDoubt) {
                zone.at_most < 10 * area + 4 * tolerance;
       });
       EXPECT_TRUE(told || map.modes.front().in_doubt >= area) << h << " " << tolerance;
-      if (told) EXPECT_EQ(map.zones.size(), 5U) << h << " " << tolerance;
+      if (told) {
+        EXPECT_EQ(map.zones.size(), 5U) << h << " " << tolerance;
+      }
     }
 }
 
