@@ -493,7 +493,8 @@ class Certificates(InOwnFolder):
             "none is chosen": lambda own: own["patterns"][0].update(joints=[]),
             "a smaller range": lambda own: own["ranges"][own["joints"].index(chosen[0])].__setitem__(1, "1"),
             "no cable": lambda own: own["joints"].__setitem__(own["joints"].index(other), "P"),
-            "a multiplier": lambda own: own["patterns"][0]["rows"][0].update(multiplier="1000"),
+            "a negative multiplier": lambda own: own["patterns"][0]["rows"][0].update(multiplier="-1"),
+            "the other bound": lambda own: own["patterns"][0]["rows"][0].update(sign=-1),
             "not of the task": lambda own: own["patterns"][0]["rows"][0].update(at=["9/10", "1/10"]),
         }
         for what, change in changes.items():
@@ -509,7 +510,7 @@ class Certificates(InOwnFolder):
         (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [-0.3, 0.4], y: [0.3, 0.7]}\npreload: controlled\n", encoding="utf-8")
         answer = json.loads(self.run_program("verify", "m.yaml", "t.yaml", "--json", "--quiet", "-o", "out", status=1).stdout)
         self.assertEqual(answer["verdict"], "refuted")
-        self.assertEqual(answer["witness"]["kind"], "unreachable")
+        self.assertEqual(answer["witness"]["reason"], "the mechanism does not reach it")
         x, y = answer["witness"]["at"]
         self.assertGreater(math.hypot(x - 0.5, y), 1)  # two links of 0.5 from A2
 
