@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -24,6 +25,7 @@
 #include "clearloci/zones.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
+#include "tests/laws/lattice_designs.hpp"
 #include "tests/laws/task_designs.hpp"
 
 namespace {
@@ -39,12 +41,23 @@ struct Drawn {
   std::string model, task;
 };
 
+/// Of the longest equations: those of the law of random designs, behind those that tasks are drawn for.
+constexpr std::array long_families = {test::Family::stacked, test::Family::three_rrr};
+constexpr int kinds = test::task_design_kinds + static_cast<int>(long_families.size());
+
+std::string model_of(std::mt19937& random, int kind, bool lattice) {
+  if (kind < test::task_design_kinds) return test::random_design(random, kind, lattice);
+  const test::Family family = long_families.at(static_cast<std::size_t>(kind - test::task_design_kinds));
+  const bool weights = random() % 2 == 0;
+  return lattice ? test::lattice_design(random, family, weights) : test::generic_design(random, family, weights);
+}
+
 /// Nothing where no pose was found within reach, or the texts are refused: a polygon that crosses itself, a mechanism
 /// that is singular in every pose.
 std::optional<Drawn> draw(int number, unsigned seed) {
   std::mt19937 random(seed + static_cast<unsigned>(number));
-  Drawn drawn{number, number % test::task_design_kinds, number / test::task_design_kinds % 2 == 0, {}, {}};
-  drawn.model = test::random_design(random, drawn.kind, drawn.lattice);
+  Drawn drawn{number, number % kinds, number / kinds % 2 == 0, {}, {}};
+  drawn.model = model_of(random, drawn.kind, drawn.lattice);
   try {
     const mechanism::Mechanism parse_mechanism = mechanism::parse_mechanism(drawn.model, "random.yaml");
     const auto shape = test::random_shape(random, parse_mechanism, drawn.lattice);
