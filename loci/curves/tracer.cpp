@@ -85,7 +85,7 @@ CurveGraph Tracer::graph_on(const Partition& parts) const {
   key.numbers.insert(key.numbers.end(), {options_.most_cells, options_.sketch ? 1 : 0,
                                          options_.whole_or_nothing ? 1 : 0, skewed_ ? 1 : 0});
   key.polynomials.push_back(curve_.polynomial);
-  key.mode.push_back(0);  // of no other key
+  key.mode.push_back(0);  // a sign that no mode has: no key of another search is this one
   add_line(curve_.line, key);
   for (const core::Root& root : own_.tower.roots) add_line(root.line, key);
   return *options_.searches->get<CurveGraph>(
