@@ -85,10 +85,11 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
 core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociRequest& request,
                             std::vector<symbolic::DerivedProblem>& derived, const std::vector<DyadSides>& sides,
                             std::vector<TracedSheet>& parts, const TraceMeans& means, TraceEffort effort) {
-  // Sheets of one mechanism have the curves in common that do not depend on the points placed otherwise.
+  // Sheets and modes of one mechanism have the curves in common that do not depend on the points placed otherwise.
   loci::sheet::KnownSearches of_all_sheets;
+  const bool has_several = derived.size() > 1 || sides.size() > 1;
   loci::sheet::KnownSearches* const searches =
-      means.searches == nullptr && derived.size() > 1 ? &of_all_sheets : means.searches;
+      means.searches == nullptr && has_several ? &of_all_sheets : means.searches;
   const loci::TraceOptions options{.engine = request.engine,
                                    .progress = request.progress,
                                    .deadline = request.deadline,

@@ -82,11 +82,21 @@ struct Enclosing {
 
 }  // namespace
 
+namespace {
+
+/// Whether a finite double next to a fraction in lowest terms is the fraction itself: of other denominators than powers
+/// of two none is.
+bool is_exactly(double nearest, const Rational& value) {
+  return mpz_popcount(value.get_den_mpz_t()) == 1 && Rational(nearest) == value;
+}
+
+}  // namespace
+
 Interval enclosed(const Rational& value) {
   const double nearest = to_double(value);
   // Products with an infinite end are no numbers, of which comparisons prove nothing.
   if (!std::isfinite(nearest)) throw LimitReached("the equations hold numbers beyond the range of doubles");
-  if (Rational(nearest) == value) return nearest;
+  if (is_exactly(nearest, value)) return nearest;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {std::nextafter(nearest, -infinity), std::nextafter(nearest, infinity)};
 }

@@ -44,7 +44,9 @@ Integer power_of_ten(unsigned long exponent) {
 double rounded_once(const Rational& value) {
   const auto bits = [](const Integer& n) { return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2)); };
   const long shift = 55 - (bits(value.get_num()) - bits(value.get_den()));
-  Integer top = abs(value.get_num()), below = value.get_den(), rest;
+  thread_local Integer top, below, rest;  // keep their memory
+  mpz_abs(top.get_mpz_t(), value.get_num_mpz_t());
+  mpz_set(below.get_mpz_t(), value.get_den_mpz_t());
   Integer& shifted = shift >= 0 ? top : below;
   mpz_mul_2exp(shifted.get_mpz_t(), shifted.get_mpz_t(), static_cast<mp_bitcnt_t>(std::abs(shift)));
   mpz_tdiv_qr(top.get_mpz_t(), rest.get_mpz_t(), top.get_mpz_t(), below.get_mpz_t());
@@ -95,8 +97,19 @@ std::optional<Rational> square_root(const Rational& value) {
   return Rational(sqrt(value.get_num()), sqrt(value.get_den()));
 }
 
+namespace {
+
+/// Both ends of the fraction are doubles, so that their quotient is rounded once.
+bool is_quotient_of_doubles(const Rational& value) {
+  constexpr std::size_t digits = std::numeric_limits<double>::digits;
+  return mpz_sizeinbase(value.get_num_mpz_t(), 2) <= digits && mpz_sizeinbase(value.get_den_mpz_t(), 2) <= digits;
+}
+
+}  // namespace
+
 double to_double(const Rational& value) {
   if (sgn(value) == 0) return 0;
+  if (is_quotient_of_doubles(value)) return value.get_num().get_d() / value.get_den().get_d();
   constexpr double least = 0x1p-1000, most = 0x1p1000;
   if (const double near = std::abs(value.get_d()); near > least && near < most) return rounded_once(value);
   // GMP truncates towards zero; the nearest double is that one or its neighbour away from zero.

@@ -257,6 +257,7 @@ void check_distinct_bases(const Mechanism& mechanism) {
         way = distance_to_line(*q, *p, *u);
       }
       (way <= 1e-12 * size ? coincide : apart) = true;
+      if (apart) break;  // one pose is enough
     }
     if (!coincide || apart) continue;
     const std::string pair_name = point_at(mechanism, pair[0]).name + " and " + point_at(mechanism, pair[1]).name;

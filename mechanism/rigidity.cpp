@@ -213,21 +213,31 @@ void measure(Sampled& sampled, const Samples& samples) {
   sampled.held.length = sampled.usual ? sampled.usual->get_d() : 0;
 }
 
-std::vector<Sampled> sampled_distances(const Mechanism& mechanism, const Samples& samples, bool by_sides_alone) {
-  const Construction construction(mechanism);
-  std::vector<Sampled> all;
+/// Distances that rigid links hold and the construction does not: what samples have to tell of.
+std::vector<HeldDistance> open_distances(const Mechanism& mechanism, const Construction& construction,
+                                         bool by_sides_alone) {
+  std::vector<HeldDistance> all;
   for (std::size_t l = 0; l < mechanism.links.size(); ++l) {
     const std::vector<PointIndex> points = points_held(mechanism.links[l]);
-    const double size = size_of(points, samples.postures);
     for (std::size_t i = 0; i < points.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const PointIndex a = points[j], b = points[i];
         const bool by_sides = construction.is_built_by_roots(a) || construction.is_built_by_roots(b);
         if (construction.holds(a, b) || (by_sides_alone && !by_sides)) continue;
-        Sampled sampled{{static_cast<LinkIndex>(l), a, b, 0, by_sides}, {}, size, 0, {}};
-        measure(sampled, samples);
-        all.push_back(std::move(sampled));
+        all.push_back({static_cast<LinkIndex>(l), a, b, 0, by_sides});
       }
+  }
+  return all;
+}
+
+std::vector<Sampled> sampled_distances(const Mechanism& mechanism, const Samples& samples,
+                                       const std::vector<HeldDistance>& open) {
+  std::vector<Sampled> all;
+  for (const HeldDistance& held : open) {
+    const std::vector<PointIndex> points = points_held(mechanism.links[static_cast<std::size_t>(held.link)]);
+    Sampled sampled{held, {}, size_of(points, samples.postures), 0, {}};
+    measure(sampled, samples);
+    all.push_back(std::move(sampled));
   }
   return all;
 }
@@ -300,6 +310,8 @@ bool keeps(const std::vector<Sampled>& distances, std::size_t posture) {
   });
 }
 
+std::size_t corners_of_turn(const Mechanism& mechanism) { return mechanism.space == Space::spatial ? 4 : 3; }
+
 /// Points of a link of which one may come to stand on the other side of the others: none that stands in the frame of
 /// two of them.
 void add_turns(const Mechanism& mechanism, LinkIndex index, const std::vector<SampledPosture>& postures,
@@ -307,7 +319,7 @@ void add_turns(const Mechanism& mechanism, LinkIndex index, const std::vector<Sa
   constexpr double flat = 1e-6;  // of the link's size: of a triangle flatter than that no side is told
   const Construction construction(mechanism);
   const std::vector<PointIndex>& points = mechanism.links[static_cast<std::size_t>(index)].points;
-  const std::size_t corners = mechanism.space == Space::spatial ? 4 : 3;
+  const std::size_t corners = corners_of_turn(mechanism);
   if (points.size() < corners || postures.empty()) return;
   const double size = size_of(points, postures);
   const double powers = static_cast<double>(corners) - 1;  // of a length in a turn
@@ -341,10 +353,15 @@ HeldByLinks held_by_links(const Mechanism& mechanism) {
     return points.size() == 2 && may_bend(link) && !construction.holds(points[0], points[1]);
   });
   if (!any) return result;
+  const std::vector<HeldDistance> open = open_distances(mechanism, construction, true);
+  const bool may_turn = std::any_of(mechanism.links.begin(), mechanism.links.end(), [&](const Link& link) {
+    return link.points.size() >= corners_of_turn(mechanism) && may_bend(link);
+  });
+  if (open.empty() && !may_turn) return result;
   const Samples samples = samples_of(mechanism);
   const std::vector<SampledPosture>& postures = samples.postures;
   if (postures.size() < 2) return result;
-  const std::vector<Sampled> distances = sampled_distances(mechanism, samples, true);
+  const std::vector<Sampled> distances = sampled_distances(mechanism, samples, open);
   for (const Sampled& sampled : distances)  // of points in one place there is no ratio, nor a side to be on
     if (sampled.usual && sampled.held.length > least_part * sampled.size) result.distances.push_back(sampled.held);
   std::vector<bool> kept;
@@ -355,9 +372,11 @@ HeldByLinks held_by_links(const Mechanism& mechanism) {
 }
 
 void check_rigidity(const Mechanism& mechanism) {
+  const std::vector<HeldDistance> open = open_distances(mechanism, Construction(mechanism), false);
+  if (open.empty()) return;
   const Samples samples = samples_of(mechanism);
   if (samples.postures.size() < 2) return;
-  for (const Sampled& sampled : sampled_distances(mechanism, samples, false)) {
+  for (const Sampled& sampled : sampled_distances(mechanism, samples, open)) {
     const auto [least, greatest] = std::minmax_element(sampled.lengths.begin(), sampled.lengths.end());
     if (!sampled.usual || (!sampled.held.by_sides && *greatest - *least > sampled.tolerance))
       refuse(mechanism, sampled, samples.postures);

@@ -19,7 +19,8 @@ void insert_distinct(std::vector<Poly>& list, const Poly& p) {
 
 }  // namespace
 
-Elimination::Elimination(const Geometry& geometry, KnownEliminations* known) : geometry_(&geometry) {
+Elimination::Elimination(const Geometry& geometry, KnownEliminations* known)
+    : geometry_(&geometry), substitutions_(geometry.substitutions()) {
   std::vector<Poly> found;
   // Of a plane what is beyond use divides no norm that is made.
   for (const Poly& denominator : geometry.denominators())
@@ -54,7 +55,7 @@ KnownEliminations::Sources Elimination::common_sources() const {
 
 KnownEliminations::Sources Elimination::sources_over_tower(const Poly& natural) const {
   KnownEliminations::Sources sources = {natural};
-  for (const Substitution& pair : geometry_->substitutions()) {
+  for (const Substitution& pair : substitutions_) {
     const bool is_put_in =
         std::any_of(sources.begin(), sources.end(), [&](const Poly& p) { return Geometry::degree_in(p, pair) > 0; });
     if (is_put_in)
@@ -130,7 +131,7 @@ const Poly& Elimination::over_tower(const Poly& natural) const {
     if (const auto found = known_->find(KnownEliminations::Kind::over_tower, sources, natural.ring()))
       return over_tower_.emplace_back(natural, found->front().poly).second;
   Poly result = natural;
-  for (const Substitution& pair : geometry_->substitutions()) {
+  for (const Substitution& pair : substitutions_) {
     const int degree = Geometry::degree_in(result, pair);
     // Clearing puts the denominators of every point to all terms: those that are not needed go before the next point.
     if (degree > 0) result = strip_denominators(geometry_->substituted(result, pair, degree));
@@ -146,12 +147,15 @@ Poly Elimination::at_one_pose(Poly p) const {
 
 Poly Elimination::over_tower_at_one_pose(const Poly& natural) const {
   Poly result = at_one_pose(natural);
-  for (Substitution pair : geometry_->substitutions()) {
+  if (at_one_pose_.empty()) {
+    at_one_pose_ = substitutions_;
+    for (Substitution& pair : at_one_pose_)
+      pair.place = {at_one_pose(pair.place.x), at_one_pose(pair.place.y), at_one_pose(pair.place.z),
+                    at_one_pose(pair.place.w)};
+  }
+  for (const Substitution& pair : at_one_pose_) {
     const int degree = Geometry::degree_in(result, pair);
-    if (degree == 0) continue;
-    pair.place = {at_one_pose(pair.place.x), at_one_pose(pair.place.y), at_one_pose(pair.place.z),
-                  at_one_pose(pair.place.w)};
-    result = at_one_pose(geometry_->substituted(result, pair, degree));
+    if (degree > 0) result = at_one_pose(geometry_->substituted(result, pair, degree));
   }
   return result;
 }

@@ -108,6 +108,8 @@ class Elimination {
   const std::vector<double>& degree_weights() const;
 
   const Geometry* geometry_;
+  std::vector<Substitution> substitutions_;
+  mutable std::vector<Substitution> at_one_pose_;        // the same at one pose, once it is asked for
   KnownEliminations* known_ = nullptr;                   ///< null where there are none for this geometry
   mutable std::unique_ptr<LineImage> line_image_;        ///< made where it is asked for
   mutable std::vector<double> degree_weights_;           ///< likewise

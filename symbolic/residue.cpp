@@ -116,7 +116,7 @@ Element Extension::add(const Element& a, const Element& b) {
 
 Element Extension::multiply(const Element& a, const Element& b) const {
   if (a.size() < b.size()) return multiply(b, a);
-  Element product(a.size()), scratch(3 * a.size());
+  Element product(a.size()), scratch(b.size() > 1 ? 3 * a.size() : 0);
   multiply(a, b, product, scratch);
   return product;
 }

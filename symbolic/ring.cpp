@@ -46,6 +46,9 @@ std::vector<ulong> exponents_of(const Poly& p, slong term) {
 /// to nothing beside its own factorisation.
 constexpr std::size_t worth_an_image = 100000;
 
+/// Terms of a polynomial whose discriminant is no longer than what its factorisation makes.
+constexpr std::size_t short_enough = 200;
+
 /// Whether the image modulo a prime keeps every degree and is irreducible. Then so is the polynomial over Q: each of
 /// two factors keeps its degrees too, so that neither image is a constant. Irreducible polynomials with long
 /// coefficients are the slow ones to factor, since lifted factors recombine to nothing.
@@ -290,10 +293,30 @@ void sort_factors(std::vector<PolyFactor>& factors) {
   });
 }
 
-int Poly::linear_variable() const {
+int Poly::variable_of_degree(int wanted) const {
   for (int variable = ring_->size() - 1; variable >= 0; --variable)
-    if (degree(variable) == 1) return variable;
+    if (degree(variable) == wanted) return variable;
   return -1;
+}
+
+std::optional<PolyFactor> Poly::take_low_factor() {
+  // Linear in some variable, as most of ours are: irreducible but for what its two coefficients share.
+  if (const int variable = variable_of_degree(1); variable >= 0) {
+    const std::vector<Poly> parts = coefficients(variable);
+    Poly shared = gcd(parts[0], parts[1]);
+    PolyFactor factor{exact_quotient(shared).primitive(), 1};
+    *this = std::move(shared);
+    return factor;
+  }
+  // Quadratic, as circles are: a product only where the discriminant is a square.
+  const int variable = length() <= short_enough ? variable_of_degree(2) : -1;
+  if (variable < 0) return std::nullopt;
+  const std::vector<Poly> parts = coefficients(variable);
+  Poly shared = gcd(gcd(parts[2], parts[1]), parts[0]), root(*ring_);
+  if ((parts[1] * parts[1] - (parts[0] * parts[2]).scaled(4)).square_root(root)) return std::nullopt;
+  PolyFactor factor{exact_quotient(shared).primitive(), 1};
+  *this = std::move(shared);
+  return factor;
 }
 
 std::vector<PolyFactor> Poly::factors(Rational& constant) const {
@@ -306,13 +329,9 @@ std::vector<PolyFactor> Poly::factors(Rational& constant) const {
   }
   Poly rest = *this;
   while (!rest.is_constant()) {
-    // Linear in some variable, as most of ours are: irreducible but for what its two coefficients share.
-    const int variable = rest.linear_variable();
-    if (variable < 0) break;
-    const std::vector<Poly> parts = rest.coefficients(variable);
-    const Poly shared = gcd(parts[0], parts[1]);
-    result.push_back({rest.exact_quotient(shared).primitive(), 1});
-    rest = shared;
+    std::optional<PolyFactor> factor = rest.take_low_factor();
+    if (!factor) break;
+    result.push_back(std::move(*factor));
   }
   if (!rest.is_constant() && is_seen_irreducible(rest.value_->zpoly, *ring_)) {
     result.push_back({rest.primitive(), 1});

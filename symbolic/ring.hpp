@@ -5,6 +5,7 @@
 #include <flint/fmpq_mpoly.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -109,8 +110,11 @@ class Poly {
   const fmpq_mpoly_struct* raw() const { return value_; }
 
  private:
-  /// One in which the polynomial is linear; -1 where there is none.
-  int linear_variable() const;
+  /// The last one of which the polynomial has this degree; -1 where there is none.
+  int variable_of_degree(int wanted) const;
+  /// An irreducible factor that is linear or quadratic in some variable, of multiplicity 1, is divided out; nothing
+  /// where there is none to be had quickly. Required: no constant.
+  std::optional<PolyFactor> take_low_factor();
 
   const Ring* ring_;
   mutable fmpq_mpoly_t value_;

@@ -76,7 +76,7 @@ std::optional<Residue> root_of(const std::vector<unsigned long>& coefficients) {
 
 }  // namespace
 
-SharedCurves::SharedCurves(const Geometry& geometry) : geometry_(geometry) {}
+SharedCurves::SharedCurves(const Geometry& geometry) : geometry_(geometry), substitutions_(geometry.substitutions()) {}
 
 const SharedCurves::Reduced& SharedCurves::reduced(const Poly& p) {
   for (const auto& [other, result] : known_)
@@ -165,8 +165,7 @@ std::optional<SharedCurves::Fibre> SharedCurves::fibre(const Poly& curve, unsign
 }
 
 bool SharedCurves::place(Point& point) {
-  const std::vector<Substitution> places = geometry_.substitutions();
-  for (auto pair = places.rbegin(); pair != places.rend(); ++pair) {
+  for (auto pair = substitutions_.rbegin(); pair != substitutions_.rend(); ++pair) {
     const std::optional<Extension::Element> below = point.field.inverse(value(reduced(pair->place.w), point));
     if (!below) return false;
     const auto put = [&](int variable, const Poly& numerator) {

@@ -52,6 +52,7 @@ class SharedCurves {
   const std::optional<Fibre>& fibre_of(const Poly& curve);
 
   const Geometry& geometry_;
+  std::vector<Substitution> substitutions_;
   std::list<std::pair<Poly, Reduced>> known_;
   std::list<std::pair<Poly, std::optional<Fibre>>> fibres_;
 };

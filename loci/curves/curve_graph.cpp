@@ -47,7 +47,7 @@ std::vector<Patch> make_patches(const core::RootTower& tower, const SheetFunctio
     const auto& d = parts.domain;
     patch.domain = chart.side == Side::plane ? PlaneCell{{d[0], d[1]}, {d[2], d[3]}} : PlaneCell{{0, 1}, {-1, 1}};
     const ChartedSheet sheet = charting.in(chart);
-    patch.program = std::make_unique<SheetProgram>(sheet.tower, sheet.functions);
+    patch.program = std::make_shared<const SheetProgram>(sheet.tower, sheet.functions);
     patches.push_back(std::move(patch));
   }
   return patches;

@@ -12,12 +12,12 @@
 
 namespace clearloci::loci::sheet {
 
-/// A chart with the program of the curve in its coordinates (function 0), and its subdivision.
+/// A chart with the program of the curve in its coordinates (function 0), and its subdivision. Copies share both.
 struct Patch {
   Chart chart;
   PlaneCell domain;
-  std::unique_ptr<SheetProgram> program;
-  std::unique_ptr<CellTree> tree;
+  std::shared_ptr<const SheetProgram> program;
+  std::shared_ptr<const CellTree> tree;
 };
 
 struct Crossing {

@@ -23,7 +23,7 @@ std::optional<CurveGraph> GraphBuilder::run() {
     TreeOptions options = options_;
     if (graph_.stopped) options.most_cells /= share_of_spent_budget;
     if (patch.chart.side == Side::plane) options.holes = parts_.holes;
-    patch.tree = std::make_unique<CellTree>(*patch.program, mode_, patch.domain, std::move(options));
+    patch.tree = std::make_shared<const CellTree>(*patch.program, mode_, patch.domain, std::move(options));
     // Other cuts do not help where the budget is what runs out.
     graph_.stopped = graph_.stopped || patch.tree->cut_short();
     const std::vector<Leaf>& leaves = patch.tree->leaves();

@@ -61,12 +61,16 @@ bool Tracer::is_searched(int patch, int leaf, const Cut& cut) const {
 
 void Tracer::apply(const Cut& cut, const Partition& parts) {
   if (cut.sheet.polynomial.is_constant()) return;
+  if (cut.side >= 0) return cut_in_patches(narrowed(cut.sheet, own_), cut, parts);
   const Subtower both = subtower(tower_, mode_, {sheet_.polynomial, cut.sheet.polynomial});
-  if (!cut.keep) cut_at_stars(both, cut);
-  if (both.kept == own_.kept)
+  const bool is_own = both.kept == own_.kept;
+  if (cut.keep && is_own) return cut_in_patches(narrowed(cut.sheet, own_), cut, parts);
+  const Partition parts_of_both = parts_of(both);
+  if (!cut.keep) cut_at_stars(both, cut, parts_of_both);
+  if (is_own)
     cut_in_patches(narrowed(cut.sheet, own_), cut, parts);
   else
-    cut_on_both(both, cut);
+    cut_on_both(both, cut, parts_of_both);
 }
 
 void Tracer::cut_in_patches(const SheetFunction& cutter, const Cut& cut, const Partition& parts) {
@@ -125,8 +129,7 @@ bool Tracer::touch(int patch, const PlaneCell& place, const Cut& cut) {
   return cut_stretch(graph_, patch, enclosure, crossing_of(cut));
 }
 
-void Tracer::cut_at_stars(const Subtower& both, const Cut& cut) {
-  const Partition parts = parts_of(both);
+void Tracer::cut_at_stars(const Subtower& both, const Cut& cut, const Partition& parts) {
   for (std::size_t i = 0; i < parts.stars.size(); ++i) {
     const Star& star = parts.stars[i];
     const bool is_on_boundary =
@@ -179,8 +182,7 @@ void Tracer::move_onto_side(core::Point2& at, int side) const {
   if (beyond > 0 && beyond <= vertex_accuracy * size_) coordinate = level;
 }
 
-void Tracer::cut_on_both(const Subtower& both, const Cut& cut) {
-  const Partition parts = parts_of(both);
+void Tracer::cut_on_both(const Subtower& both, const Cut& cut, const Partition& parts) {
   std::vector<PlaneCell> open;
   Charting charting(both.tower, {narrowed(sheet_, both), narrowed(cut.sheet, both)}, parts.stars);
   for (const Chart& chart : parts.charts) {

@@ -28,6 +28,15 @@ core::StraightLine as_line(const SheetFunction& function) {
   return builder.line(builder.polynomial(function.polynomial, variables));
 }
 
+/// Of a line that need not be the one that comes with its polynomial.
+void add_line(const core::StraightLine& line, KnownSearches::Key& key) {
+  key.numbers.push_back(static_cast<int>(line.steps.size()));
+  for (const core::StraightLine::Step& step : line.steps) {
+    key.numbers.insert(key.numbers.end(), {static_cast<int>(step.operation), step.first, step.second});
+    if (step.number) key.box.insert(key.box.end(), {step.value(), step.radius()});
+  }
+}
+
 }  // namespace
 
 SheetFunction square_of(const core::RootTower& tower, int root, const std::vector<Star>& special) {
@@ -59,18 +68,37 @@ Tracer::Tracer(const core::RootTower& tower, const core::WorkingMode& mode, cons
   for (int i = 0; i < 4; ++i) wide_[i] += margin_shares[i] * box_margin * size_;
 }
 
+CurveGraph Tracer::graph_on(const Partition& parts) const {
+  const auto find = [&] {
+    TreeOptions tree;
+    tree.most_cells = options_.most_cells;
+    tree.extended = !options_.sketch;
+    tree.stop = options_.stop;
+    tree.whole_or_nothing = options_.whole_or_nothing;
+    return curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+  };
+  if (options_.searches == nullptr) return find();
+  // Modes that differ by other roots have it in common.
+  KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::curve, own_.tower, own_.mode,
+                                              {sides_[0], sides_[2]}, {sides_[1], sides_[3]}, parts.stars);
+  for (const core::Point2& base : bases_) key.box.insert(key.box.end(), {base[0], base[1]});
+  key.numbers.insert(key.numbers.end(), {options_.most_cells, options_.sketch ? 1 : 0,
+                                         options_.whole_or_nothing ? 1 : 0, skewed_ ? 1 : 0});
+  key.polynomials.push_back(curve_.polynomial);
+  key.mode.push_back(0);  // a sign that no mode has: no key of another search is this one
+  add_line(curve_.line, key);
+  for (const core::Root& root : own_.tower.roots) add_line(root.line, key);
+  return *options_.searches->get<CurveGraph>(
+      key, [&]() -> std::shared_ptr<const CurveGraph> { return std::make_shared<const CurveGraph>(find()); });
+}
+
 void Tracer::find(const std::vector<Cutter>& cutters) {
   Partition parts = parts_of(own_);
-  TreeOptions tree;
-  tree.most_cells = options_.most_cells;
-  tree.extended = !options_.sketch;
-  tree.stop = options_.stop;
-  tree.whole_or_nothing = options_.whole_or_nothing;
-  graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+  graph_ = graph_on(parts);
   if (graph_.open_at_corner && !options_.sketch) {
     skewed_ = true;
     parts = parts_of(own_);
-    graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);
+    graph_ = graph_on(parts);
   }
   own_stars_ = parts.stars;
   if (graph_.stopped && options_.whole_or_nothing) return;
@@ -87,10 +115,11 @@ void Tracer::find(const std::vector<Cutter>& cutters) {
     for (const Cut& cut : cuts) apply(cut, parts);
   settle_clusters();
   std::vector<Chain> pieces;
+  const std::vector<Edge> edges = edges_of(cuts);
   for (Chain& chain : chains(graph_)) {
     const core::Point2 inner = point_inside(graph_, chain.legs, size_);
     if (options_.colour) chain.colour = options_.colour(inner);
-    if (wanted(inner, along_side(chain.colour), cuts)) pieces.push_back(std::move(chain));
+    if (wanted(inner, along_side(chain.colour), edges)) pieces.push_back(std::move(chain));
   }
   pieces_ = join_at_junctions(graph_, std::move(pieces));
 }
@@ -194,17 +223,28 @@ void Tracer::settle_clusters() {
   }
 }
 
-bool Tracer::wanted(const core::Point2& inner, int along, const std::vector<Cut>& cuts) {
+std::vector<Tracer::Edge> Tracer::edges_of(const std::vector<Cut>& cuts) const {
+  std::vector<Edge> edges;
   for (const Cut& cut : cuts) {
-    if (!cut.keep || (cut.side >= 0 && cut.side == along)) continue;
-    if (cut.side >= 0) {
-      const core::Rational off = core::Rational(inner[static_cast<std::size_t>(cut.side / 2)]) - sides_[cut.side];
-      if (cut.side % 2 == 0 ? off < 0 : off > 0) return false;
+    if (!cut.keep) continue;
+    Edge& edge = edges.emplace_back();
+    edge.side = cut.side;
+    if (cut.side >= 0) continue;
+    edge.part = subtower(tower_, mode_, {cut.sheet.polynomial});
+    edge.program.emplace(edge.part->tower, std::vector{narrowed(cut.sheet.polynomial, *edge.part)});
+  }
+  return edges;
+}
+
+bool Tracer::wanted(const core::Point2& inner, int along, const std::vector<Edge>& edges) {
+  for (const Edge& edge : edges) {
+    if (edge.side >= 0) {
+      if (edge.side == along) continue;
+      const core::Rational off = core::Rational(inner[static_cast<std::size_t>(edge.side / 2)]) - sides_[edge.side];
+      if (edge.side % 2 == 0 ? off < 0 : off > 0) return false;
       continue;
     }
-    const Subtower sub = subtower(tower_, mode_, {cut.sheet.polynomial});
-    const SheetProgram program(sub.tower, {narrowed(cut.sheet.polynomial, sub)});
-    const std::optional<int> sign = PointSign(program, sub.mode)(inner[0], inner[1]);
+    const std::optional<int> sign = PointSign(*edge.program, edge.part->mode)(inner[0], inner[1]);
     if (!sign || *sign < 0) return false;
     if (*sign == 0) graph_.undecided.push_back({inner[0], inner[1]});
   }

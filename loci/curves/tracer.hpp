@@ -48,6 +48,9 @@ class Tracer {
   SheetTrace trace(double tolerance) const;
 
  private:
+  /// The curve's graph on its own part of the tower, known or not yet.
+  CurveGraph graph_on(const Partition& parts) const;
+
   SheetTrace left_open() const;
 
   std::size_t cut_cells() const { return options_.sketch ? most_cut_cells_of_a_sketch : most_cut_cells; }
@@ -97,7 +100,7 @@ class Tracer {
   }
 
   /// Branches that reach a star end there where the cutter reaches it too, in whatever direction.
-  void cut_at_stars(const Subtower& both, const Cut& cut);
+  void cut_at_stars(const Subtower& both, const Cut& cut, const Partition& parts);
 
   /// The curve passes through a point to rounding.
   bool passes_through(const core::Point2& at) const;
@@ -110,7 +113,7 @@ class Tracer {
   void move_onto_side(core::Point2& at, int side) const;
 
   /// The cutter has roots that the curve does not: search the curve's cells on the sheet of both.
-  void cut_on_both(const Subtower& both, const Cut& cut);
+  void cut_on_both(const Subtower& both, const Cut& cut, const Partition& parts);
 
   /// The curve's cells in a chart of another partition.
   std::vector<PlaneCell> seeds_in(const Chart& chart, const Partition& parts) const;
@@ -122,8 +125,16 @@ class Tracer {
   /// Nodes and isolated points are critical points of N with N = 0 to rounding.
   void settle_clusters();
 
+  /// A region's edge, as what tells on which side of it a point lies. Sides of the box tell without.
+  struct Edge {
+    int side = -1;
+    std::optional<Subtower> part;
+    std::optional<SheetProgram> program;
+  };
+  std::vector<Edge> edges_of(const std::vector<Cut>& cuts) const;
+
   /// The piece of an arc lies on the kept side of every region's edge. `along`: the side of the box that it is part of.
-  bool wanted(const core::Point2& inner, int along, const std::vector<Cut>& cuts);
+  bool wanted(const core::Point2& inner, int along, const std::vector<Edge>& edges);
 
   core::RootTower tower_;
   core::WorkingMode mode_;

@@ -1,6 +1,7 @@
 #include "loci/numbers/sheet_code.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <mutex>
 #include <tuple>
@@ -11,12 +12,18 @@
 namespace clearloci::loci::sheet {
 namespace {
 
+/// Of numbers that stand elsewhere: copies would be most of the cost.
 struct HashRational {
-  std::size_t operator()(const core::Rational& value) const {
-    const auto low = [](const mpz_class& n) { return static_cast<std::size_t>(mpz_get_ui(n.get_mpz_t())); };
+  std::size_t operator()(const core::Rational* value) const {
+    const auto low = [](mpz_srcptr n) { return static_cast<std::size_t>(mpz_get_ui(n)); };
     constexpr std::size_t odd = 0x9e3779b97f4a7c15;
-    return (low(value.get_num()) * odd) ^ low(value.get_den()) ^ static_cast<std::size_t>(sgn(value) + 1);
+    return (low(value->get_num_mpz_t()) * odd) ^ low(value->get_den_mpz_t()) ^
+           static_cast<std::size_t>(sgn(*value) + 1);
   }
+};
+
+struct EqualRationals {
+  bool operator()(const core::Rational* a, const core::Rational* b) const { return *a == *b; }
 };
 
 struct HashShape {
@@ -28,29 +35,38 @@ struct HashShape {
 };
 
 /// The numbers of what is compiled, each once: how an instruction is shared depends on which of them are equal, and on
-/// those that fold away. What is known within a radius equals nothing else.
+/// those that fold away. What is known within a radius equals nothing else. Those given must outlive this.
 class Numbers {
  public:
   static constexpr int zero = 0, one = 1, two = 2;
   Numbers() {
-    for (const int value : {zero, one, two}) index(value);
+    static const std::array<core::Rational, 3> always = {0, 1, 2};
+    list_.reserve(usual);
+    known_.reserve(usual);
+    for (const core::Rational& value : always) index(value);
   }
 
   int index(const core::Rational& value) {
-    const auto [it, added] = known_.try_emplace(value, static_cast<int>(list_.size()));
-    if (added) list_.push_back({value, 0});
+    const auto [it, added] = known_.try_emplace(&value, static_cast<int>(list_.size()));
+    if (added) list_.emplace_back(&value, nullptr);
     return it->second;
   }
   int index(const core::Rational& value, const core::Rational& radius) {
     if (radius == 0) return index(value);
-    list_.push_back({value, radius});
+    list_.emplace_back(&value, &radius);
     return static_cast<int>(list_.size()) - 1;
   }
-  std::vector<SheetNumber> take() { return std::move(list_); }
+  std::vector<SheetNumber> copies() const {
+    std::vector<SheetNumber> all;
+    all.reserve(list_.size());
+    for (const auto& [value, radius] : list_) all.push_back({*value, radius == nullptr ? core::Rational() : *radius});
+    return all;
+  }
 
  private:
-  std::vector<SheetNumber> list_;
-  std::unordered_map<core::Rational, int, HashRational> known_;
+  static constexpr std::size_t usual = 32;
+  std::vector<std::pair<const core::Rational*, const core::Rational*>> list_;  ///< radius: none where it is 0
+  std::unordered_map<const core::Rational*, int, HashRational, EqualRationals> known_;
 };
 
 /// First word of a function in a shape: what follows.
@@ -442,7 +458,7 @@ CompiledSheet compile_sheet(const core::RootTower& tower, const std::vector<core
   };
   for (const core::Root& root : tower.roots) write(root.square, root.line);
   for (std::size_t f = 0; f < functions.size(); ++f) write(functions[f], lines[f]);
-  return {compiled.of(std::move(shape)), numbers.take()};
+  return {compiled.of(std::move(shape)), numbers.copies()};
 }
 
 }  // namespace clearloci::loci::sheet

@@ -89,11 +89,15 @@ bool SheetProgram::is_nested() const {
 void SheetProgram::compile(bool tangency) {
   CompiledSheet compiled = compile_sheet(tower_, functions_, lines_, tangency);
   code_ = std::move(compiled.code);
-  for (const int number : code_->constants) {
-    const SheetNumber& constant = compiled.numbers[static_cast<std::size_t>(number)];
-    constants_.push_back(constant);
+  const std::size_t count = code_->constants.size();
+  constants_.reserve(count);
+  nearest_constants_.reserve(count);
+  enclosed_constants_.reserve(count);
+  for (const int number : code_->constants) {  // each once
+    SheetNumber& constant = compiled.numbers[static_cast<std::size_t>(number)];
     nearest_constants_.push_back(core::to_double(constant.value));
     enclosed_constants_.push_back(enclosed_as(constant.value, constant.radius, static_cast<Interval*>(nullptr)));
+    constants_.push_back(std::move(constant));
   }
 }
 

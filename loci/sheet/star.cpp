@@ -59,26 +59,27 @@ std::array<int, 2> Star::weights() const {
 int Star::power_of_root(int root) const { return static_cast<int>(std::count(roots.begin(), roots.end(), root)); }
 
 std::optional<std::array<Rational, 2>> double_point(const Polynomial& d) {
-  Rational xx, yy, x, y, constant;
+  static const Rational zero;
+  const Rational *xx = &zero, *yy = &zero, *x = &zero, *y = &zero, *constant = &zero;
   for (const core::Term& term : d.terms) {
     if (has_roots(term)) return std::nullopt;
     const int i = term.exponents[0], j = term.exponents[1];
     if (i == 2 && j == 0)
-      xx = term.coefficient;
+      xx = &term.coefficient;
     else if (i == 0 && j == 2)
-      yy = term.coefficient;
+      yy = &term.coefficient;
     else if (i == 1 && j == 0)
-      x = term.coefficient;
+      x = &term.coefficient;
     else if (i == 0 && j == 1)
-      y = term.coefficient;
+      y = &term.coefficient;
     else if (i == 0 && j == 0)
-      constant = term.coefficient;
+      constant = &term.coefficient;
     else
       return std::nullopt;
   }
-  if (xx == 0 || xx != yy) return std::nullopt;
-  const Rational a = -x / (2 * xx), b = -y / (2 * xx);
-  if (xx * (a * a + b * b) != constant) return std::nullopt;
+  if (*xx == 0 || *xx != *yy) return std::nullopt;
+  const Rational a = -*x / (2 * *xx), b = -*y / (2 * *xx);
+  if (*xx * (a * a + b * b) != *constant) return std::nullopt;
   return std::array<Rational, 2>{a, b};
 }
 

@@ -54,6 +54,21 @@ TEST(ToDouble, BreaksTiesToEven) {
   EXPECT_EQ(to_double(1 + 3 * ulp / 2), 1.0 + 2 * std::numeric_limits<double>::epsilon());
 }
 
+// Fractions of doubles are divided at once, longer ones are not.
+TEST(ToDouble, IsNearestAroundTheLongestWholeDoubles) {
+  const Integer longest = Integer(1) << 53;
+  for (const Integer& p : {Integer(longest - 1), longest, Integer(longest + 1), Integer(2 * longest - 1)})
+    for (const Integer& q : {Integer(3), Integer(longest - 3), Integer(longest + 1), Integer(2 * longest - 3)}) {
+      Rational value(p, q);
+      value.canonicalize();
+      const double near = to_double(value);
+      EXPECT_EQ(to_double(-value), -near);
+      const Rational error = abs(value - Rational(near));
+      for (const double way : {INFINITY, -INFINITY})
+        EXPECT_TRUE(error <= abs(value - Rational(std::nextafter(near, way)))) << value;
+    }
+}
+
 RC_GTEST_PROP(ToDouble, IsNearerThanBothNeighbours, (long p, int q)) {
   RC_PRE(q != 0);
   Rational value(p, q);

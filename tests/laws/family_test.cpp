@@ -99,6 +99,33 @@ TEST(Family, TakesNewValuesAsFromScratch) {
   }
 }
 
+// What modes have in common is searched once: each gets what it gets alone, to the last bit.
+TEST(Family, TracesEachModeAmongAllAsAlone) {
+  const Model family = Model::parse(design, "family.yaml");
+  const std::vector<std::vector<Model::Value>> designs = {{}, {{"w", "1"}}, {{"b", "1/2"}, {"c", "1/2"}}};
+  for (const std::vector<Model::Value>& values : designs) {
+    const Model member = family.with(values);
+    const core::LocusMap all = trace_loci(member, {.all_working_modes = true});
+    std::size_t curves = 0;
+    for (const int first : {-1, 1})
+      for (const int second : {-1, 1}) {
+        const core::LocusMap alone = trace_loci(member, {.working_modes = {{first, second}}});
+        core::LocusMap part = all;
+        std::erase_if(part.curves, [&](const core::LocusCurve& curve) {
+          return alone.curves.empty() || curve.mode != alone.curves.front().mode;
+        });
+        std::erase_if(part.isolated_points, [&](const core::IsolatedPoint& point) {
+          return alone.curves.empty() || point.mode != alone.curves.front().mode;
+        });
+        part.notes = alone.notes;
+        expect_same(part, alone);
+        curves += alone.curves.size();
+      }
+    EXPECT_EQ(curves, all.curves.size());
+    EXPECT_GT(curves, 4U);
+  }
+}
+
 // Values at which factors split, vanish or coincide.
 TEST(Family, SeesWhatSpecialValuesDo) {
   const Model family = Model::parse(design, "family.yaml");

@@ -27,6 +27,39 @@ TEST_F(RingTest, FactorsAreIrreduciblePrimitiveAndMultiplyBack) {
   EXPECT_EQ(constant, Rational(-3, 2));
 }
 
+TEST_F(RingTest, QuadraticsSplitWhereTheirDiscriminantIsASquare) {
+  // Circles and their like are told by the discriminant. What is a product in spite of a degree of two must not pass
+  // for irreducible: with a square for a discriminant, with none at all, with factors free of the variable, also twice.
+  const Poly circle = x * x + y * y - number(1), other = x * x + (y - number(2)).pow(2) - number(3);
+  struct Case {
+    Poly product;
+    std::vector<int> multiplicities;
+  };
+  const std::vector<Case> cases = {{circle, {1}},
+                                   {circle * other, {1, 1}},
+                                   {x * x * y * y - number(Rational(4, 9)), {1, 1}},
+                                   {x * x - y * y * s * s, {1, 1}},
+                                   {(x * x - (y * y * s * s).scaled(2)), {1}},
+                                   {(x * y - s).pow(2), {2}},
+                                   {circle * (y * y + number(1)), {1, 1}},
+                                   {circle * (s * s - number(2)).pow(2), {1, 2}},
+                                   {circle * circle * (s * s + number(1)), {2, 1}},
+                                   {(x * x + y * y) * s * s, {2, 1}}};
+  for (const Case& c : cases) {
+    Rational constant;
+    const std::vector<PolyFactor> factors = c.product.factors(constant);
+    std::vector<int> multiplicities;
+    Poly product = number(constant);
+    for (const PolyFactor& factor : factors) {
+      multiplicities.push_back(factor.multiplicity);
+      product *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity));
+      EXPECT_TRUE(factor.poly == factor.poly.primitive());
+    }
+    EXPECT_EQ(multiplicities, c.multiplicities);
+    EXPECT_TRUE(product == c.product);
+  }
+}
+
 TEST_F(RingTest, ConstantsAndZeroHaveNoFactors) {
   Rational constant;
   EXPECT_TRUE(number(0).factors(constant).empty());
