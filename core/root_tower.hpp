@@ -33,8 +33,8 @@ struct Root {
   /// What the signs + and - of a working mode are called.
   std::array<std::string, 2> sides = {"left", "right"};
   StraightLine line = {};  ///< the same element as it is computed; may be empty, but of an angle
-  /// Where it is zero, told apart: of a dyad where it is stretched, (a + b)^2 - D, and folded, D - (a - b)^2. Empty
-  /// where the square's own factors are used.
+  /// Where it is zero, told apart: of a dyad where it is stretched, (a + b)^2 - D, and folded, D - (a - b)^2; with
+  /// `bounds` sin(angle - end) of both ends, zero below a quarter turn too. Empty: the square's own factors are used.
   std::vector<Rim> rims = {};
   /// Of an angle: positive multiples of its cosine and sine, in the same variables; `square` is the sum of their
   /// squares.

@@ -83,7 +83,9 @@ std::vector<Action> actions(const Mechanism& mechanism) {
   return all;
 }
 
-core::Rational least_torsion_cosine() { return {-9999985, 10000000}; }
+core::Rational least_torsion_cosine() { return {-1313315, 1313317}; }
+
+core::Rational torsion_sine_at_end() { return {2292, 1313317}; }
 
 std::string words_of_reach(const Spring& spring) {
   return "torsion spring " + spring.name + " half a turn off its rest";

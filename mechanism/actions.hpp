@@ -41,8 +41,10 @@ void require_preload(const Mechanism& mechanism);
 std::vector<Action> actions(const Mechanism& mechanism);
 
 /// A torsion spring is known within half a turn of its rest less a tenth of a degree: where its couple jumps the
-/// workspace ends as at a limit. The cosine of the angle is at least this.
+/// workspace ends as at a limit. The cosine of the angle is at least this. Both ends of the range have this cosine and
+/// a rational sine: this one and its opposite.
 core::Rational least_torsion_cosine();
+core::Rational torsion_sine_at_end();
 /// "torsion spring T half a turn off its rest".
 std::string words_of_reach(const Spring& spring);
 

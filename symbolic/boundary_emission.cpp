@@ -83,6 +83,25 @@ void FactorEmission::add_limit(const LimitCondition& limit) {
   core::StraightLine line = d_.lines.of(limit.natural);
   if (!is_divided_in_vain(more_roots_.back().square, line)) more_roots_.back().line = std::move(line);
   more_roots_.back().bounds = limit.bounds;
+  if (!limit.bounds.empty()) more_roots_.back().rims = sides_of_cut(limit.bounds);
+}
+
+std::vector<core::Rim> FactorEmission::sides_of_cut(const std::string& spring) const {
+  if (d_.geometry.coordinates() != 2) return {};
+  const std::vector<TorsionAngle>& angles = d_.geometry.torsion_angles();
+  const auto angle = std::find_if(angles.begin(), angles.end(), [&](const TorsionAngle& torsion_angle) {
+    return !torsion_angle.tangent && torsion_angle.root >= 0 && d_.geometry.name_of(torsion_angle) == spring;
+  });
+  if (angle == angles.end()) return {};
+  const std::vector<Poly>& way = d_.geometry.roots()[static_cast<std::size_t>(angle->root)].cosine_and_sine;
+  const core::Rational cosine = mechanism::least_torsion_cosine(), sine = mechanism::torsion_sine_at_end();
+  std::vector<core::Rim> sides;
+  for (const core::Rational& end : {sine, core::Rational(-sine)}) {
+    const Poly off_end = way[1].scaled(cosine) - way[0].scaled(end);
+    if (off_end.is_constant()) return {};
+    sides.push_back({core::scaled_for_doubles(off_end.plain(d_.geometry.tower_variables())), {}});
+  }
+  return sides;
 }
 
 bool FactorEmission::add_rims(std::size_t index) {

@@ -64,6 +64,9 @@ class FactorEmission {
   /// Where a dyad on others is stretched and where it is folded, each by itself: the product of both, which the square
   /// of its root is, has many more terms, and a norm of twice the degree. False where the square will do.
   bool add_rims(std::size_t index);
+  /// Of what is left to the cut of a spring's angle: sin(angle - end) for both ends of its range, times a positive
+  /// factor. Empty where no root of the tower is the angle.
+  std::vector<core::Rim> sides_of_cut(const std::string& spring) const;
   /// False: the squared margin is not a single curve, or |w| is constant.
   bool add_senses(const TwoSenses& senses, const Poly& squared, core::LocusFactor common);
   /// How often `divisor` divides p.

@@ -46,6 +46,7 @@ std::shared_ptr<const Tracer> found(const core::RootTower& tower, const core::Wo
   key.polynomials.push_back(function.polynomial);
   for (const Cutter& cutter : cutters) {
     key.numbers.push_back(static_cast<int>(cutter.label));
+    key.numbers.push_back(cutter.keep ? 1 : 0);
     key.polynomials.push_back(cutter.sheet.polynomial);
   }
   return options.searches->get<Tracer>(key, find);
@@ -59,7 +60,7 @@ std::optional<SheetFunction> on_rim_of(const core::RootTower& tower, int root, c
   if (core::depends_on(sheet, 2 + root)) return std::nullopt;
   for (const core::Rim& rim : root_of_line.rims)
     if (rim.polynomial == sheet) return SheetFunction{rim.polynomial, rim.line};
-  if (!root_of_line.rims.empty()) return std::nullopt;
+  if (!root_of_line.rims.empty() && root_of_line.bounds.empty()) return std::nullopt;
   const std::optional<core::Polynomial> rest = exact_quotient(root_of_line.square, sheet);
   if (!rest) return std::nullopt;
   SheetFunction boundary = square_of(tower, root, special);
@@ -67,6 +68,22 @@ std::optional<SheetFunction> on_rim_of(const core::RootTower& tower, int root, c
   if (!without_denominators(*rest, tower).is_constant()) boundary.line = {};
   boundary.polynomial = sheet;
   return boundary;
+}
+
+/// Whether a boundary is that of a cut, traced in two: there the square cos(angle) - cos(end) has two zeros side by
+/// side, and sin(angle -+ end) one each.
+bool has_sides(const core::RootTower& tower, const core::Root& bound, const core::Polynomial& sheet) {
+  if (bound.bounds.empty() || bound.rims.empty()) return false;
+  const std::optional<core::Polynomial> rest = exact_quotient(bound.square, sheet);
+  return rest && without_denominators(*rest, tower).is_constant();
+}
+
+/// Where the angle is more than a quarter turn: the other zeros of sin(angle -+ end) are where it is less.
+std::optional<SheetFunction> beyond_quarter_turn(const core::RootTower& tower, const core::Root& bound) {
+  for (const core::Root& root : tower.roots)
+    if (root.is_angle() && root.point == bound.bounds)
+      return SheetFunction{core::constant_polynomial(tower.variables(), -1) * root.cosine_and_sine[0]};
+  return std::nullopt;
 }
 
 bool divisible_by_variable(const core::Polynomial& p, int variable) {
@@ -118,7 +135,18 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     const SheetFunction boundary = rim ? *rim : square_of(tower, static_cast<int>(j), options.special);
     SheetTraceOptions there = options;
     there.special = on_rim(options.special, static_cast<int>(j));
-    SheetTrace all = trace_sheet(below, rest, lower, upper, without_variable(boundary, v), on_boundary, there);
+    std::vector<SheetFunction> parts = {boundary};
+    const core::Root& root = tower.roots[j];
+    // A certificate names the factor itself.
+    if (const auto within = beyond_quarter_turn(tower, root);
+        rim && within && !options.certificate && has_sides(tower, root, sheet)) {
+      parts.clear();
+      for (const core::Rim& side : root.rims) parts.push_back({side.polynomial, side.line});
+      on_boundary.push_back({without_variable(*within, v), core::ArcEnd::boundary, true});
+    }
+    SheetTrace all;
+    for (const SheetFunction& part : parts)
+      append(all, trace_sheet(below, rest, lower, upper, without_variable(part, v), on_boundary, there));
     for (core::SheetClaim& claim : all.claims) put_back(claim, static_cast<int>(j));
     if (!rim) {
       core::Polynomial quotient = sheet;

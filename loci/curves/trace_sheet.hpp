@@ -21,6 +21,7 @@ namespace clearloci::loci::sheet {
 struct Cutter {
   SheetFunction sheet;
   core::ArcEnd label = core::ArcEnd::direct_singularity;
+  bool keep = false;  ///< arcs are wanted only where the sheet is not negative
 };
 
 struct SheetTraceOptions {

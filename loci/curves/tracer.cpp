@@ -106,7 +106,7 @@ void Tracer::find(const std::vector<Cutter>& cutters) {
     if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && !cutters.empty())
       crossing.label = core::ArcEnd::direct_singularity;
   std::vector<Cut> cuts;
-  for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, false});
+  for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, cutter.keep});
   for (const int j : own_.dropped)
     if (!tower_.roots[static_cast<std::size_t>(j)].is_angle())  // no sheet ends there
       cuts.push_back({square_of(tower_, j, options_.special), core::ArcEnd::boundary, true});

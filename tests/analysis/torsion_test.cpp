@@ -170,6 +170,54 @@ TEST(Torsion, CurvesBesideTheCutAreCertified) {
   }
 }
 
+// A spring between ground and crank: at both ends of its range the crank stands still, 0.2 deg apart, and P runs along
+// a circle about its tip, half of it in either mode. Told by the cosine of the angle, the circles were one double curve
+// to cells larger than the slit between them.
+TEST(Torsion, TheCutOfACrankIsTwoHalfCircles) {
+  const auto file = source_dir() + "/tests/corpus/springs/torsion_at_the_crank.yaml";
+  LociRequest request;
+  request.working_modes = {{-1}};  // right
+  const core::LocusMap map = trace_loci(mechanism::read_mechanism(file), request);
+  EXPECT_TRUE(map.complete);
+  const Point2 base = {-3148.0 / 805, 953.0 / 342};
+  const double crank = 39.0 / 97, rod = 136.0 / 129, rest = -59 * degree;
+  std::array<double, 2> lengths = {0, 0};
+  for (const LocusCurve& curve : map.curves) {
+    if (curve.cause.find("half a turn off its rest") == std::string::npos) continue;
+    EXPECT_TRUE(curve.certified);
+    for (const Arc& arc : curve.arcs) {
+      const auto off = [&](const Point2& p, int side) {
+        const double angle = rest + (side == 0 ? 1 : -1) * std::acos(-1313315.0 / 1313317);
+        return std::hypot(p[0] - base[0] - crank * std::cos(angle), p[1] - base[1] - crank * std::sin(angle)) - rod;
+      };
+      const Point2& middle = arc.points[arc.points.size() / 2];
+      const int side = std::abs(off(middle, 0)) < std::abs(off(middle, 1)) ? 0 : 1;
+      lengths[static_cast<std::size_t>(side)] += arc.length;
+      for (const Point2& p : arc.points) EXPECT_NEAR(off(p, side), 0, 1e-11);
+      for (const Point2& end : {arc.points.front(), arc.points.back()}) {
+        const double reach = std::hypot(end[0] - base[0], end[1] - base[1]);
+        EXPECT_LT(std::min(std::abs(reach - (rod + crank)), std::abs(reach - (rod - crank))), 1e-9);
+      }
+    }
+  }
+  for (const double length : lengths) EXPECT_NEAR(length, std::numbers::pi * rod, 1e-4);
+}
+
+// Over the angles of two motors the ends of the range have no closed form.
+TEST(Torsion, TheCutOverAnglesAndOnACouplerIsCertified) {
+  for (const char* const name : {"torsion_at_an_elbow_over_motors", "torsion_at_the_crank_of_a_coupler"}) {
+    SCOPED_TRACE(name);
+    const auto file = source_dir() + "/tests/corpus/springs/" + name + ".yaml";
+    const Validation validation = validate_loci(mechanism::read_mechanism(file), {}, {40, 40});
+    EXPECT_EQ(validation.report.disputed, 0U);
+    EXPECT_TRUE(validation.map.complete);
+    for (const LocusCurve& curve : validation.map.curves) {
+      EXPECT_TRUE(curve.certified) << curve.id << " " << curve.cause;
+      EXPECT_LT(curve.arcs.size(), 20U) << curve.cause;
+    }
+  }
+}
+
 // The fingers of a gripper mirror each other: the angles of their springs are opposite, what they exert on the guide
 // cancels out, and the guide bears nothing in any pose. Its ends had zeros of rounding, and no zone was found.
 TEST(Torsion, OfFingersThatMirrorEachOtherCancelsOut) {
