@@ -227,7 +227,7 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       idle = idle || factor.may_be_idle;
     }
     // Where |A| does not vanish every factor counts once; on the boundary orders are those in the root.
-    std::map<const core::LocusFactor*, bool> margin;
+    std::map<const core::LocusFactor*, std::optional<bool>> margin;
     ReactionOrders orders;
     const bool margins = std::any_of(vanishing.begin(), vanishing.end(), [](const core::LocusFactor* factor) {
       return factor->role == FactorRole::margin;
@@ -237,11 +237,17 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       orders = orders_along(problem, mode, arrangement, index,
                             algebra[static_cast<std::size_t>(arrangement.edges()[e].curve)], [&](ArcOrders& arc) {
                               for (const core::LocusFactor* factor : vanishing)
-                                if (factor->role == FactorRole::margin)
-                                  margin[factor] = is_margin(*factor, arc).value_or(true);
+                                if (factor->role == FactorRole::margin) margin[factor] = is_margin(*factor, arc);
                             });
+    // Along |A| = 0 a reaction need not vanish where its numerator does: nothing is claimed without orders.
+    const bool is_unknown = compared && singular && !orders.decided;
+    const auto is_open_margin = [&](const core::LocusFactor* factor) {
+      return is_unknown || (margin.contains(factor) && !margin.at(factor));
+    };
+    if (is_unknown || std::any_of(vanishing.begin(), vanishing.end(), is_open_margin)) edge.decided = false;
     for (const core::LocusFactor* factor : vanishing) {
-      if (factor->role == FactorRole::margin && !(margin.contains(factor) && !margin.at(factor)))
+      if (factor->role == FactorRole::margin && !is_open_margin(factor) &&
+          !(margin.contains(factor) && margin.at(factor) == false))
         edge.labels.push_back({LocusKind::margin, factor->vanishing, factor->expression, factor->cause});
       if (factor->role == FactorRole::preload)
         edge.labels.push_back({LocusKind::preload, factor->vanishing, factor->expression, factor->cause});
@@ -254,6 +260,7 @@ std::vector<EdgeInMode> label_edges(const LocusProblem& problem, const core::Wor
       if (factor->role == FactorRole::workspace_boundary)
         edge.labels.push_back({LocusKind::workspace_boundary, {}, factor->expression, factor->cause});
     }
+    if (is_unknown) continue;
     EdgeLabel label = compared && orders.decided ? reaction_label(problem, orders) : reaction_label(problem, reactions);
     label.proven = !compared || orders.decided;
     if (!label.vanishing.empty()) edge.labels.push_back(std::move(label));

@@ -314,6 +314,51 @@ class Gathering {
     return orders;
   }
 
+  /// What is claimed of an arc of a reaction or a margin: nothing, for |A| vanishes along it too and orders are not
+  /// known. A ratio of the two need not vanish.
+  static EdgeLabel unknown_label() {
+    EdgeLabel label;
+    label.proven = false;
+    return label;
+  }
+
+  /// The polynomial of |A| that an arc of a factor without polynomials runs along. Zero: |A| vanishes along it and has
+  /// none. Nothing: |A| does not vanish along it.
+  std::optional<core::Polynomial> singular_curve(const SheetShare& share, const TracedArc& traced) const {
+    const core::Polyline& points = traced.arc.points;
+    const double near = on_curve * box_size();
+    for (const LocusFactor& other : problem_.factors) {
+      if (other.role != FactorRole::direct_singularity) continue;
+      if (other.implicit.empty() && VanishesAlong(problem_, mode(share), other.sheet)(traced))
+        return core::Polynomial{2, {}};
+      for (const core::Polynomial& p : other.implicit) {
+        const PlaneCurve curve(p);
+        const auto is_on = [&](const Point2& at) {
+          const PlaneCurve::Jet jet = curve.jet(at);
+          return std::abs(jet.f) <= near * jet.slope();
+        };
+        if (is_on(traced.inner) && is_on(points[points.size() / 3]) && is_on(points[2 * points.size() / 3])) return p;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// What vanishes along an arc of a reaction's factor without polynomials: with the angle of a torsion spring, or too
+  /// large ones. Nothing where the arc is among those of a factor before.
+  std::optional<EdgeLabel> label_without_polynomial(const SheetShare& share, const TracedArc& traced) const {
+    const std::optional<core::Polynomial> curve = singular_curve(share, traced);
+    if (!curve) return label_of(problem_, {share.factor});
+    if (curve->is_zero()) return unknown_label();
+    const ReactionOrders orders = orders_along(share, traced, *curve, [](ArcOrders&) {});
+    if (!orders.decided) return unknown_label();
+    const bool is_told_before = std::any_of(shares_.begin(), shares_.end(), [&](const SheetShare* other) {
+      return other->factor < share.factor && factor(*other).role == FactorRole::reaction &&
+             std::find(orders.vanishes.begin(), orders.vanishes.end(), other->factor) != orders.vanishes.end();
+    });
+    if (is_told_before) return std::nullopt;
+    return reaction_label(problem_, orders);
+  }
+
   /// What vanishes along an arc; nothing where the arc is among those of a factor before, or is none of a margin.
   std::optional<EdgeLabel> label_along(const SheetShare& share, const TracedArc& traced,
                                        const core::Polynomial& implicit) const {
@@ -323,6 +368,8 @@ class Gathering {
       label.proven = proven;
       return label;
     };
+    if (locus_factor.implicit.empty() && locus_factor.role == FactorRole::reaction)
+      return label_without_polynomial(share, traced);
     if (locus_factor.implicit.empty() || locus_factor.role == FactorRole::workspace_boundary)
       return plain({share.factor}, true);
     std::vector<const SheetShare*> others;
@@ -343,7 +390,7 @@ class Gathering {
     });
     if (locus_factor.role == FactorRole::margin) {
       if (margin && !*margin) return std::nullopt;
-      return plain({share.factor}, orders.decided && margin);
+      return orders.decided && margin ? plain({share.factor}, true) : unknown_label();
     }
     if (locus_factor.role == FactorRole::direct_singularity) {
       EdgeLabel label = plain({share.factor}, true);
@@ -363,6 +410,7 @@ class Gathering {
       together.push_back(other->factor);
       proven = proven && other->traced.certified;
     }
+    if (!orders.decided && singular_curve(share, traced)) return unknown_label();
     EdgeLabel label = orders.decided ? reaction_label(problem_, orders) : plain(together, false);
     label.proven = label.proven && proven;
     return label;
@@ -373,6 +421,18 @@ class Gathering {
                     core::to_double(problem_.upper[1] - problem_.lower[1]));
   }
 
+  /// By boxes around parts of the arc.
+  void leave_arc_open(const SheetShare& share, const core::Polyline& points) {
+    constexpr std::size_t most_boxes = 16;
+    const EdgeLabel label = widest_label(problem_, static_cast<std::size_t>(share.factor));
+    const std::size_t step = std::max<std::size_t>(1, (points.size() + most_boxes - 1) / most_boxes);
+    for (std::size_t from = 0; from + 1 < points.size(); from += step) {
+      const auto begin = points.begin() + static_cast<std::ptrdiff_t>(from);
+      const auto end = points.begin() + static_cast<std::ptrdiff_t>(std::min(from + step + 1, points.size()));
+      leave_open(label, mode(share), extent_of(core::Polyline(begin, end)), map_);
+    }
+  }
+
   void take(const SheetShare& share, const TracedArc& traced) {
     if (!traced.arc.closed && traced.arc.length <= shortest_arc * box_size()) return;
     const LocusFactor& locus_factor = factor(share);
@@ -381,11 +441,10 @@ class Gathering {
                                           : locus_factor.implicit[static_cast<std::size_t>(traced.colour)];
     std::optional<EdgeLabel> label = label_along(share, traced, implicit);
     if (!label) return;
-    if (locus_factor.role == FactorRole::reaction && label->vanishing.empty()) {
+    const bool is_of_reactions = locus_factor.role == FactorRole::reaction || locus_factor.role == FactorRole::margin;
+    if (is_of_reactions && label->vanishing.empty()) {
       // Another reaction may vanish there too, and be one that is asked for.
-      if (!label->proven)
-        leave_open(widest_label(problem_, static_cast<std::size_t>(share.factor)), mode(share),
-                   extent_of(traced.arc.points), map_);
+      if (!label->proven) leave_arc_open(share, traced.arc.points);
       return;
     }
     const bool certified = share.traced.certified && label->proven;

@@ -63,6 +63,28 @@ TEST(OnceDisputed, AnArcNextToTheBoundary) {
   EXPECT_GT(validation.report.arcs_held, 2u);
 }
 
+// On the upper half of a circle both numerators and |A| vanish to the first order, so that fy tends to 30 N and more.
+// With the angle of a torsion spring a numerator has no polynomial, and its orders along |A| = 0 were not asked for.
+TEST(OnceDisputed, ReactionsThatAreFiniteOnTheSingularity) {
+  const std::string name = "witness/mirrored_reaction_finite_on_the_singularity";
+  LociRequest request;
+  request.joints = {"A2"};
+  request.quantities = {core::Quantity::fy};
+  const Validation validation = validate_loci(corpus(name), request, {60, 60});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, 500u);
+  const core::LocusMap& map = validation.map;
+  const auto is_on_circle = [](const core::Point2& p) { return std::abs(std::hypot(p[0], p[1]) - 0.375) < 1e-9; };
+  bool is_singularity_traced = false;
+  for (const core::LocusCurve& curve : map.curves)
+    for (const core::Arc& arc : curve.arcs) {
+      const bool is_along = std::all_of(arc.points.begin(), arc.points.end(), is_on_circle);
+      EXPECT_EQ(is_along, curve.kind == core::LocusKind::direct_singularity) << curve.id << " " << curve.factor;
+      is_singularity_traced = is_singularity_traced || is_along;
+    }
+  EXPECT_TRUE(is_singularity_traced);
+}
+
 // Its curve ends in a node on the workspace boundary: the end alone fails the last check, not the arcs that lead there.
 TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
   LociRequest request;
