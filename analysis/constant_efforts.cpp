@@ -197,8 +197,10 @@ class ConstantSearch {
       trial.told.value = {nearest};
       trial.value = {Rational(nearest)};
     }
-    if (trial.told.verdict == Verdict::undecided && trial.told.size[0] == unbounded)
-      trial.told.verdict = Verdict::refuted;
+    if (trial.told.verdict == Verdict::undecided && trial.told.size[0] == unbounded) {
+      trial.told.verdict = Verdict::refuted;  // range by range, not by rows
+      return;
+    }
     if (const auto smallest = smallest_efforts(system_, trial.rows)) tell_rows(system_, smallest->below, trial.told);
     if (trial.told.verdict == Verdict::undecided) trial.told.size[1] = unbounded;
   }
