@@ -41,18 +41,41 @@ bool verdict(const Model& model) {
   return clearloci::verify(model, task, {.depth = clearloci::VerifyDepth::margin}).verified();
 }
 
-BENCHMARK_CAPTURE(fresh_loci, five_bar, "five_bar.yaml", false)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(fresh_loci, five_bar_all_modes, "five_bar.yaml", true)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(drag, loci, "five_bar.yaml", loci)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(fresh_loci, five_bar, "five_bar.yaml", false)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(fresh_loci, five_bar_all_modes, "five_bar.yaml", true)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(drag, loci, "five_bar.yaml", loci)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK_CAPTURE(drag, loci_all_modes, "five_bar.yaml", loci_of_all_modes)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
-BENCHMARK_CAPTURE(drag, zones, "five_bar.yaml", zones)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(drag, verdict, "five_bar.yaml", verdict)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(drag, degree_24_loci, "five_bar_weights.yaml", loci)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(drag, degree_24_zones, "five_bar_weights.yaml", zones)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(drag, zones, "five_bar.yaml", zones)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(drag, verdict, "five_bar.yaml", verdict)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(drag, degree_24_loci, "five_bar_weights.yaml", loci)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK_CAPTURE(drag, degree_24_zones, "five_bar_weights.yaml", zones)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 BENCHMARK_CAPTURE(drag, degree_24_verdict, "five_bar_weights.yaml", verdict)
     ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 }  // namespace

@@ -77,8 +77,8 @@ CurveGraph Tracer::graph_on(const Partition& parts) const {
     tree.whole_or_nothing = options_.whole_or_nothing;
     return curve_graph(own_.tower, curve_, own_.mode, parts, tree);
   };
-  if (options_.searches == nullptr) return find();
   // Modes that differ by other roots have it in common.
+  if (options_.searches == nullptr || own_.dropped.empty()) return find();
   KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::curve, own_.tower, own_.mode,
                                               {sides_[0], sides_[2]}, {sides_[1], sides_[3]}, parts.stars);
   for (const core::Point2& base : bases_) key.box.insert(key.box.end(), {base[0], base[1]});
