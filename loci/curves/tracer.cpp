@@ -64,6 +64,7 @@ void Tracer::find(const std::vector<Cutter>& cutters) {
   TreeOptions tree;
   tree.most_cells = options_.most_cells;
   tree.extended = !options_.sketch;
+  tree.second_look = !options_.certificate;  // the checker has none
   tree.stop = options_.stop;
   tree.whole_or_nothing = options_.whole_or_nothing;
   graph_ = curve_graph(own_.tower, curve_, own_.mode, parts, tree);

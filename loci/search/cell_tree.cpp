@@ -293,7 +293,7 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
   std::vector<Judgement> ahead;  // of the next cells that are to be judged, in reverse
   const auto judgement_of = [&](std::size_t index) {
     if (ahead.empty()) {
-      if (nodes_.size() > many_cells) judge.look_closer();
+      if (options.second_look && nodes_.size() > many_cells) judge.look_closer();
       std::vector<PlaneCell> cells;
       for (std::size_t k = index; k < nodes_.size() && cells.size() < cells_at_a_time; ++k)
         if (Node node = nodes_[k]; !is_in_hole(node.cell, options) && !cut_at_hole(node, options))
