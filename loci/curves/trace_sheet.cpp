@@ -39,7 +39,8 @@ std::shared_ptr<const Tracer> found(const core::RootTower& tower, const core::Wo
   if (options.searches == nullptr) return find();
   KnownSearches::Key key =
       KnownSearches::key(KnownSearches::Key::Kind::curve, tower, mode, lower, upper, options.special);
-  for (const int number : {options.most_cells, options.whole_or_nothing ? 1 : 0, options.colour ? 1 : 0})
+  for (const int number :
+       {options.most_cells, options.whole_or_nothing ? 1 : 0, options.colour ? 1 : 0, options.certificate ? 1 : 0})
     key.numbers.push_back(number);
   key.numbers.insert(key.numbers.end(), options.closed_form.begin(), options.closed_form.end());
   key.numbers.insert(key.numbers.end(), options.along_side.begin(), options.along_side.end());

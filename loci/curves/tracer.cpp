@@ -73,6 +73,7 @@ CurveGraph Tracer::graph_on(const Partition& parts) const {
     TreeOptions tree;
     tree.most_cells = options_.most_cells;
     tree.extended = !options_.sketch;
+    tree.second_look = !options_.certificate;  // the checker has none
     tree.stop = options_.stop;
     tree.whole_or_nothing = options_.whole_or_nothing;
     return curve_graph(own_.tower, curve_, own_.mode, parts, tree);
@@ -82,8 +83,9 @@ CurveGraph Tracer::graph_on(const Partition& parts) const {
   KnownSearches::Key key = KnownSearches::key(KnownSearches::Key::Kind::curve, own_.tower, own_.mode,
                                               {sides_[0], sides_[2]}, {sides_[1], sides_[3]}, parts.stars);
   for (const core::Point2& base : bases_) key.box.insert(key.box.end(), {base[0], base[1]});
-  key.numbers.insert(key.numbers.end(), {options_.most_cells, options_.sketch ? 1 : 0,
-                                         options_.whole_or_nothing ? 1 : 0, skewed_ ? 1 : 0});
+  key.numbers.insert(key.numbers.end(),
+                     {options_.most_cells, options_.sketch ? 1 : 0, options_.whole_or_nothing ? 1 : 0, skewed_ ? 1 : 0,
+                      options_.certificate ? 1 : 0});
   key.polynomials.push_back(curve_.polynomial);
   key.mode.push_back(0);  // a sign that no mode has: no key of another search is this one
   add_line(curve_.line, key);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "loci/search/second_look.hpp"
 #include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
@@ -116,10 +117,15 @@ bool judge_smoothly(const SmoothCells& cells, std::size_t lane, bool is_tiny, Ju
 class Judge {
  public:
   Judge(const SheetProgram& program, const core::WorkingMode& mode, double patch_size)
-      : program_(program), side_by_side_(program, mode), patch_size_(patch_size) {
+      : program_(program), mode_(mode), side_by_side_(program, mode), patch_size_(patch_size) {
     if (!is_smooth_worthwhile(program)) return;
     smooth_.emplace(program, mode);
     rims_.emplace(program);
+  }
+
+  /// From now on by second-order enclosures too.
+  void look_closer() {
+    if (!smooth_ && is_second_look_worthwhile(program_)) smooth_.emplace(program_, mode_);
   }
 
   std::vector<Judgement> operator()(const std::vector<PlaneCell>& cells) {
@@ -255,6 +261,7 @@ class Judge {
   }
 
   const SheetProgram& program_;
+  const core::WorkingMode& mode_;
   SheetCells side_by_side_;
   std::optional<SmoothCells> smooth_;
   std::optional<RimCells> rims_;
@@ -286,6 +293,7 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
   std::vector<Judgement> ahead;  // of the next cells that are to be judged, in reverse
   const auto judgement_of = [&](std::size_t index) {
     if (ahead.empty()) {
+      if (options.second_look && nodes_.size() > many_cells) judge.look_closer();
       std::vector<PlaneCell> cells;
       for (std::size_t k = index; k < nodes_.size() && cells.size() < cells_at_a_time; ++k)
         if (Node node = nodes_[k]; !is_in_hole(node.cell, options) && !cut_at_hole(node, options))

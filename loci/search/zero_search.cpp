@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/errors.hpp"
+#include "loci/search/second_look.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -97,6 +98,8 @@ void ZeroSearch::give_up(std::vector<Box>& live) {
     state.live = 0;
   }
   for (const Box& box : live) ++states_[box.search].live;
+  is_smooth_worthwhile_ =
+      is_smooth_worthwhile_ || (live.size() > many_live_cells && is_second_look_worthwhile(*program_));
   // Along a curve each halving leaves at least four in three; where fewer are left the end is near.
   const auto has_too_many = [&](const Box& box) {
     const State& state = states_[box.search];

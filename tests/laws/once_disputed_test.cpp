@@ -45,6 +45,17 @@ TEST(OnceDisputed, CurvesThatTakeManyCells) {
   hold("witness/stacked_5r", true, request);
 }
 
+// A telescopic leg that is nearly of no length: plain enclosures of what holds the lengths of two legs with weights are
+// wide around it, and the budgets of cells ran out before they told anything.
+TEST(OnceDisputed, ALegOfHardlyAnyLength) {
+  const Validation validation = validate_loci(corpus("loci/three_rpr_turning_short_leg"), {}, {60, 60});
+  EXPECT_EQ(validation.report.disputed, 0u);
+  EXPECT_GT(validation.report.held, 100u);
+  EXPECT_TRUE(validation.map.complete);
+  for (const core::LocusCurve& curve : validation.map.curves) EXPECT_TRUE(curve.certified) << curve.id;
+  for (const core::IsolatedPoint& point : validation.map.isolated_points) EXPECT_TRUE(point.certified);
+}
+
 // A root forty times as large as the box, whose rounding was taken for no convergence: a chord was accepted unmeasured.
 TEST(OnceDisputed, AChordBesideABend) {
   LociRequest request;
