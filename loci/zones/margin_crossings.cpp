@@ -1,6 +1,216 @@
 #include "loci/zones/margin_crossings.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/dense_terms.hpp"
+#include "core/errors.hpp"
+#include "loci/numbers/numbers.hpp"
+
 namespace clearloci::loci {
+namespace {
+
+using core::Polynomial;
+using core::Rational;
+
+Polynomial in_plane(const Univariate& over_x) {
+  Polynomial p{2, {}};
+  for (std::size_t k = over_x.size(); k-- > 0;)
+    if (over_x[k] != 0) p.terms.push_back({{static_cast<int>(k), 0}, Rational(over_x[k])});
+  return p;
+}
+
+/// Of a polynomial in x and y: that of y^power.
+Polynomial coefficient_of(const Polynomial& p, int power) {
+  Polynomial coefficient{1, {}};
+  for (const core::Term& term : p.terms)
+    if (term.exponents[1] == power) coefficient.terms.push_back({{term.exponents[0]}, term.coefficient});
+  return coefficient;
+}
+
+/// What the coefficients of the powers of y have in common.
+Univariate content_of(const Polynomial& p) {
+  Univariate content;
+  for (int power = core::degree_in(p, 1); power >= 0; --power)
+    if (const Polynomial coefficient = coefficient_of(p, power); !coefficient.is_zero())
+      content = content.empty() ? univariate(coefficient) : greatest_common_divisor(content, univariate(coefficient));
+  return content;
+}
+
+Polynomial divided(const Polynomial& p, const Polynomial& divisor) {
+  const std::optional<Polynomial> quotient = core::exact_quotient(p, divisor);
+  core::ensure(quotient.has_value(), "a divisor");
+  return core::primitive_part(*quotient);
+}
+
+/// A multiple of p by a polynomial in x, but for multiples of q, of a lower degree in y than q.
+Polynomial pseudo_remainder(Polynomial p, const Polynomial& q) {
+  const int degree = core::degree_in(q, 1);
+  const Polynomial leading = core::with_variables(coefficient_of(q, degree), 2);
+  for (int top = core::degree_in(p, 1); top >= degree; top = core::degree_in(p, 1)) {
+    Polynomial shift = core::with_variables(coefficient_of(p, top), 2);
+    for (core::Term& term : shift.terms) term.exponents[1] = top - degree;
+    p = leading * p - shift * q;
+  }
+  return p;
+}
+
+/// Of two polynomials in x and y without content, by Euclid's algorithm over the polynomials in x.
+Polynomial common_divisor(Polynomial p, Polynomial q) {
+  while (core::degree_in(q, 1) > 0) {
+    Polynomial rest = pseudo_remainder(std::move(p), q);
+    p = std::move(q);
+    q = rest.is_zero() ? std::move(rest) : divided(rest, in_plane(content_of(rest)));
+  }
+  return q.is_zero() ? p : core::constant_polynomial(2, 1);
+}
+
+/// The same curves, each once. Required: not zero.
+Polynomial square_free(const Polynomial& p) {
+  const Univariate content = content_of(p);
+  const Polynomial rest = divided(p, in_plane(content));
+  const Polynomial once = rest.is_constant() ? rest : divided(rest, common_divisor(rest, core::derivative(rest, 1)));
+  return core::primitive_part(once * in_plane(square_free_part(content)));
+}
+
+/// A bound on the degree of a norm that is worth its factors.
+constexpr double highest_norm_degree = 64;
+/// Numbers that are tried for one of which terms cancel.
+constexpr std::size_t most_ratios = 12;
+
+/// The polynomial on a line y = const.
+Polynomial on_line(const Polynomial& p, const Rational& y) {
+  std::map<std::vector<int>, Rational, std::greater<>> terms;
+  for (core::Term term : p.terms) {
+    for (int& power = term.exponents[1]; power > 0; --power) term.coefficient *= y;
+    terms[term.exponents] += term.coefficient;
+  }
+  Polynomial line;
+  line.variables = p.variables;
+  for (const auto& [exponents, coefficient] : terms)
+    if (coefficient != 0) line.terms.push_back({exponents, coefficient});
+  return line;
+}
+
+/// How many points of a line have a zero of an element or of one of its conjugates. Required: no angle.
+std::size_t zeros_on_line(const Polynomial& p, const core::RootTower& tower_on_line, const Rational& y) {
+  const Polynomial zeros = norm(on_line(p, y), tower_on_line);
+  Polynomial over_x{1, {}};
+  for (const core::Term& term : zeros.terms) over_x.terms.push_back({{term.exponents[0]}, term.coefficient});
+  return over_x.is_zero() ? 0 : square_free_part(univariate(over_x)).size();
+}
+
+using Ratios = std::vector<Rational>;
+
+/// Of the terms of two polynomials with one monomial; those of most terms first.
+Ratios ratios_of_terms(const Polynomial& p, const Polynomial& q) {
+  std::map<std::vector<int>, Rational> coefficients;
+  for (const core::Term& term : q.terms) coefficients.emplace(term.exponents, term.coefficient);
+  std::map<Rational, int> times;
+  for (const core::Term& term : p.terms)
+    if (const auto found = coefficients.find(term.exponents); found != coefficients.end())
+      ++times[term.coefficient / found->second];
+  std::vector<std::pair<int, Rational>> sorted;
+  for (const auto& [ratio, count] : times) sorted.emplace_back(-count, ratio);
+  std::sort(sorted.begin(), sorted.end());
+  Ratios ratios;
+  for (const auto& [count, ratio] : sorted) ratios.push_back(ratio);
+  if (ratios.size() > most_ratios) ratios.resize(most_ratios);
+  return ratios;
+}
+
+/// What a margin's equation was multiplied by, over the tower, but for a number.
+Polynomial cleared(const core::LocusFactor& margin, const core::RootTower& tower) {
+  Polynomial product = core::constant_polynomial(tower.variables(), 1);
+  for (const auto& [sheet, power] : margin.cleared)
+    for (int k = 0; k < power; ++k) product = reduce(product * core::with_variables(sheet, tower.variables()), tower);
+  return product;
+}
+
+/// The numbers by which p is a sum of multiples of polynomials; empty: it is none, or there are several such sums.
+Ratios multiples_in(const Polynomial& p, const std::vector<Polynomial>& summands) {
+  const std::size_t count = summands.size();
+  std::map<std::vector<int>, Ratios> rows;  // of every monomial: its coefficients in the summands, then in p
+  for (std::size_t k = 0; k <= count; ++k)
+    for (const core::Term& term : (k < count ? summands[k] : p).terms)
+      rows.try_emplace(term.exponents, count + 1).first->second[k] = term.coefficient;
+  std::vector<Ratios> pivots(count);  // of every column: a row that begins there with 1
+  for (auto& [exponents, row] : rows) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (row[k] == 0) continue;
+      const Rational leading = row[k];
+      if (pivots[k].empty()) {
+        for (Rational& entry : row) entry /= leading;
+        pivots[k] = std::move(row);
+        row.assign(count + 1, 0);
+        break;
+      }
+      for (std::size_t i = k; i <= count; ++i) row[i] -= leading * pivots[k][i];
+    }
+    if (row[count] != 0) return {};
+  }
+  Ratios multiples(count);
+  for (std::size_t k = count; k-- > 0;) {
+    if (pivots[k].empty()) return {};
+    multiples[k] = pivots[k][count];
+    for (std::size_t i = k + 1; i < count; ++i) multiples[k] -= pivots[k][i] * multiples[i];
+  }
+  return multiples;
+}
+
+/// The number with which the square of f |A| is in the function of a force of two components; 0: not known.
+Rational multiple_of_bound(const core::LocusFactor& margin, const Polynomial& p, const core::RootTower& tower) {
+  std::vector<Polynomial> squares;
+  for (const core::NodeForm::Part& part : margin.nodes->parts) {
+    const Polynomial sheet = core::with_variables(part.sheet, tower.variables());
+    squares.push_back(reduce(sheet * sheet, tower));
+  }
+  const Ratios multiples = multiples_in(p, squares);
+  return multiples.empty() ? Rational(0) : multiples.back();
+}
+
+/// Numbers c among which is the one for which f |A| cancels in p - c q, where p and q have a term each that the rest
+/// of them has not.
+Ratios ratios_to_try(const core::RootTower& tower, const core::LocusFactor& first, const core::LocusFactor& second,
+                     const Polynomial& p, const Polynomial& q) {
+  if (first.nodes && second.nodes) {
+    if (first.nodes->parts.back().sheet != second.nodes->parts.back().sheet) return {};
+    const Rational above = multiple_of_bound(first, p, tower), below = multiple_of_bound(second, q, tower);
+    return above == 0 || below == 0 ? Ratios{} : Ratios{above / below};
+  }
+  Ratios ratios = ratios_of_terms(p, q);
+  if (const Polynomial common = cleared(first, tower); common == cleared(second, tower))
+    for (const Rational& above : ratios_of_terms(p, common))
+      for (const Rational& below : ratios_of_terms(q, common)) {
+        const Rational ratio = above / below;
+        if (std::find(ratios.begin(), ratios.end(), ratio) == ratios.end()) ratios.push_back(ratio);
+      }
+  return ratios;
+}
+
+/// p - c q with that of the numbers c for which it has the fewest zeros: a part of both cancels there, and what is left
+/// is a product, often with a square.
+Polynomial with_most_cancelled(const Polynomial& p, const Polynomial& q, const core::RootTower& tower,
+                               const Ratios& ratios) {
+  const Rational y(3, 1009);  // no curve of a mechanism has it for a special place
+  core::RootTower on_y = tower;
+  for (core::Root& root : on_y.roots) root.square = on_line(root.square, y);
+  Polynomial best;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  for (const Rational& ratio : ratios) {
+    const Polynomial apart = p - core::constant_polynomial(q.variables, ratio) * q;
+    if (const std::size_t zeros = zeros_on_line(apart, on_y, y); zeros < fewest) {
+      fewest = zeros;
+      best = apart;
+    }
+  }
+  return best;
+}
+
+}  // namespace
 
 core::StraightLine difference_of_margins(const core::LocusFactor& first, const core::LocusFactor& second) {
   if (!first.nodes || !second.nodes) return {};
@@ -15,6 +225,29 @@ core::StraightLine difference_of_margins(const core::LocusFactor& first, const c
   const int bound = builder.append(first.nodes->parts.back().line);
   if (bound != builder.append(second.nodes->parts.back().line)) return {};
   return builder.line(builder.subtract(sum_of_squares(*first.nodes), sum_of_squares(*second.nodes)));
+}
+
+std::optional<Polynomial> curve_through_crossings(const core::LocusProblem& problem, const core::LocusFactor& first,
+                                                  const core::LocusFactor& second) {
+  const core::RootTower& tower = problem.tower;
+  const auto widened = [&](const Polynomial& p) { return core::with_variables(p, tower.variables()); };
+  const Polynomial p = widened(first.sheet), q = widened(second.sheet);
+  if (has_angle(p, tower) || has_angle(q, tower) ||
+      std::max(norm_degree(p, tower), norm_degree(q, tower)) > highest_norm_degree)
+    return std::nullopt;
+  const Ratios ratios = ratios_to_try(tower, first, second, p, q);
+  if (ratios.empty()) return std::nullopt;
+  const Polynomial apart = with_most_cancelled(p, q, tower, ratios);
+  if (apart.is_zero()) return std::nullopt;
+  Polynomial curve = square_free(norm(apart, tower));
+  for (const core::LocusFactor* margin : {&first, &second})
+    for (const Polynomial& shared : margin->implicit)
+      if (core::exact_quotient(curve, shared)) return std::nullopt;
+  for (const core::LocusFactor& factor : problem.factors)
+    for (const Polynomial& singular : factor.implicit)
+      if (factor.role == core::FactorRole::direct_singularity)
+        curve = core::exact_quotient(curve, singular).value_or(curve);
+  return curve;
 }
 
 }  // namespace clearloci::loci

@@ -2,6 +2,8 @@
 // |v|^2 - (f |A|)^2 and |w|^2 - (f |A|)^2 differ by little of themselves.
 #pragma once
 
+#include <optional>
+
 #include "core/locus_factor.hpp"
 
 namespace clearloci::loci {
@@ -9,5 +11,15 @@ namespace clearloci::loci {
 /// What stands for the second of two functions where zeros of both are looked for: |v|^2 - |w|^2, far from zero but
 /// where the curves cross. Empty: they are not such functions, or not with one f |A|.
 core::StraightLine difference_of_margins(const core::LocusFactor& first, const core::LocusFactor& second);
+
+/// A polynomial in the coordinates, without squares, on the curve of which every common zero of the two functions is,
+/// on whatever sheet, but for those on |A| = 0, which no margin curve goes on beyond. With a number c, p = q = 0 where
+/// p and p - c q are zero; c is chosen such that what the two have in common, f |A| or its square, cancels. It is the
+/// norm of p - c q over the tower, each factor once, however often it vanishes there: a force and its part along a
+/// guide are equal where the other part vanishes, to the second order, so that their margin curves touch and do not
+/// cross, but cross that curve. Nothing: they have a curve in common, or the norm is too large.
+std::optional<core::Polynomial> curve_through_crossings(const core::LocusProblem& problem,
+                                                        const core::LocusFactor& first,
+                                                        const core::LocusFactor& second);
 
 }  // namespace clearloci::loci

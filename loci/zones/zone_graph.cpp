@@ -323,8 +323,9 @@ class Builder {
       // Where only polynomials are asked for, the second factor's own is.
       sheet::SheetFunction other = {second->sheet, difference_of_margins(*first, *second)};
       if (other.line.empty()) other.line = second->line;
-      return add_zeros(
-          sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, other, lower, upper, effort));
+      return add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, other, lower, upper,
+                                             effort)) ||
+             add_margin_crossings(a, b, lower, upper, effort);
     }
     // Curves of one factor, and of two that vanish on one curve besides, are told apart in the plane; the tower knows
     // where it is undefined.
@@ -335,6 +336,41 @@ class Builder {
       return !passed_by(a, {zero.x, zero.y}) || !passed_by(b, {zero.x, zero.y});
     });
     return add_zeros(found);
+  }
+
+  /// Of margins that touch or run side by side: on a curve that neither does so with. False: there may be more.
+  bool add_margin_crossings(int a, int b, const std::vector<core::Rational>& lower,
+                            const std::vector<core::Rational>& upper, const sheet::ZeroOptions& effort) {
+    if (curve(a).kind != LocusKind::margin || curve(b).kind != LocusKind::margin) return false;
+    const core::LocusFactor &first = *factor_of(problem_, curve(a)), &second = *factor_of(problem_, curve(b));
+    const auto [known, is_new] = through_crossings_.try_emplace({&first, &second});
+    if (is_new) known->second = curve_through_crossings(problem_, first, second);
+    if (!known->second) return false;
+    const core::Polynomial through = core::with_variables(*known->second, problem_.tower.variables());
+    const auto is_passed = [&](const Point2& at) { return passed_by(a, at) && passed_by(b, at); };
+    const auto crosses_all = [&](const core::LocusFactor& margin) {
+      sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, {margin.sheet, margin.line},
+                                                   sheet::SheetFunction{through}, lower, upper, effort);
+      std::erase_if(found.zeros, [&](const sheet::SheetZero& zero) { return !is_passed({zero.x, zero.y}); });
+      settle_touches(margin.sheet, through, found);
+      return add_zeros(found);
+    };
+    return crosses_all(first) || crosses_all(second);
+  }
+
+  /// Takes away what is undecided of two functions where their curves are proven to touch within what counts as one
+  /// point, which becomes a node, or not to meet.
+  void settle_touches(const core::Polynomial& first, const core::Polynomial& second, sheet::ZeroSet& found) {
+    const sheet::Subtower part = sheet::subtower(problem_.tower, mode_, {first, second});
+    sheet::TouchSearch touches(
+        part.tower,
+        {sheet::SheetFunction{sheet::narrowed(first, part)}, sheet::SheetFunction{sheet::narrowed(second, part)}},
+        part.mode, size_);
+    std::erase_if(found.undecided, [&](const sheet::PlaneCell& cell) {
+      const std::optional<sheet::Touch> touch = touches.around({cell.x, cell.y}, {});
+      if (touch && !touch->enclosure.empty()) node_at({touch->enclosure[0].middle(), touch->enclosure[1].middle()});
+      return touch.has_value();
+    });
   }
 
   /// Then their common zeros are not isolated, wherever other curves of theirs meet.
@@ -722,6 +758,8 @@ class Builder {
   CurveProjections& projections_;
   std::vector<const core::LocusFactor*> factors_of_curves_;
   std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, bool> sharing_;
+  std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, std::optional<core::Polynomial>>
+      through_crossings_;
   std::unique_ptr<MarginNodes> margin_nodes_;     // made where two curves may meet
   std::unique_ptr<sheet::SheetProgram> factors_;  // made where a curve touches a side
   ZoneGraph result_;

@@ -205,6 +205,32 @@ INSTANTIATE_TEST_SUITE_P(Files, KeptMarginCurves,
                                          Kept{"tests/corpus/loci/five_bar_margin_heavy.yaml", "498/10"},
                                          Kept{"tests/corpus/loci/prrr_r_margin_sprung.yaml", "20"}));
 
+/// Zones between margins that touch, or meet in one point, are certified and fill the workspace.
+void hold_zones(const std::string& name, LociRequest request) {
+  SCOPED_TRACE(name);
+  const core::Zones map = find_zones(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name), {request});
+  EXPECT_GT(map.zones.size(), 20u);
+  double sum = 0;
+  for (const core::Zone& zone : map.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    sum += zone.size;
+  }
+  EXPECT_NEAR(sum, map.modes.front().workspace, 1e-4 * sum);
+}
+
+TEST(ZonesBetweenMargins, OfForcesAndOfTheirPartsAlongGuides) {
+  LociRequest request;
+  request.min_force = 30;
+  hold_zones("prrrp_margins_touch.yaml", request);
+}
+
+TEST(ZonesBetweenMargins, ThatMeetInOnePoint) {
+  LociRequest request;
+  request.min_force = 10;
+  request.min_couple = 8;
+  hold_zones("one_rail_margins_meet.yaml", request);
+}
+
 INSTANTIATE_TEST_SUITE_P(Parts, MarginCurves, testing::Range(0u, 4u));
 
 }  // namespace

@@ -46,5 +46,51 @@ TEST(MarginCrossings, AreNotToldSoWithSeveralBoundsNorOfOtherFactors) {
   EXPECT_TRUE(difference_of_margins(margin, core::LocusFactor{}).empty());
 }
 
+/// f = N L / A and f = N s / A, s^2 = L^2 - d^2, of size 1: equal where d is zero, to the second order.
+TEST(MarginCrossings, OfAForceAndOfItsPartAreOnTheOtherPart) {
+  const sheet::testing::Ring ring{3};
+  const Polynomial x = ring.x(), y = ring.y(), s = ring.s(1);
+  const Polynomial force = y + ring(2), other = x - y, determinant = x * y + s * x + ring(5);
+  core::LocusProblem problem;
+  problem.tower = sheet::testing::plane();
+  problem.tower.roots.push_back({"s1", "S1", core::RootRole::working_mode, ring(9) - other * other});
+  core::LocusFactor whole, part;
+  whole.role = part.role = core::FactorRole::margin;
+  whole.cleared = part.cleared = {{determinant, 1}};
+  whole.sheet = ring(7) * (ring(3) * force - determinant);
+  part.sheet = ring(11) * (s * force - determinant);
+  const auto in_plane = [](const Polynomial& p) { return core::with_variables(p, 2); };
+  EXPECT_EQ(curve_through_crossings(problem, whole, part), core::primitive_part(in_plane(force) * in_plane(other)));
+  // What is a curve of |A| = 0 bounds both; what is a curve of one of them cannot tell them apart.
+  core::LocusFactor singular;
+  singular.role = core::FactorRole::direct_singularity;
+  singular.implicit = {core::primitive_part(in_plane(force))};
+  problem.factors = {singular};
+  EXPECT_EQ(curve_through_crossings(problem, whole, part), core::primitive_part(in_plane(other)));
+  whole.implicit = {core::primitive_part(in_plane(other))};
+  EXPECT_FALSE(curve_through_crossings(problem, whole, part).has_value());
+}
+
+/// Where a component is the same but for a multiple b of A, the squared forces differ by a product with A.
+TEST(MarginCrossings, OfSquaredForcesThatDifferByAMultipleOfTheDeterminant) {
+  const sheet::testing::Ring ring;
+  const Polynomial x = ring.x(), y = ring.y();
+  const Polynomial determinant = x * x + y - ring(1), along = x + ring(3), across = x * y + ring(1);
+  const auto squared = [&](const Polynomial& first, const Polynomial& second, int scale) {
+    core::LocusFactor margin = margin_of(first, ring(4) * second, determinant);
+    margin.sheet = ring(scale) * (first * first + second * second - ring(9) * determinant * determinant);
+    return margin;
+  };
+  core::LocusProblem problem;
+  problem.tower = sheet::testing::plane();
+  core::LocusFactor singular;
+  singular.role = core::FactorRole::direct_singularity;
+  singular.implicit = {core::primitive_part(determinant)};
+  problem.factors = {singular};
+  EXPECT_EQ(
+      curve_through_crossings(problem, squared(along, across, 1), squared(along + ring(2) * determinant, across, 5)),
+      core::primitive_part(along + determinant));
+}
+
 }  // namespace
 }  // namespace clearloci::loci
