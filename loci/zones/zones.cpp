@@ -69,7 +69,7 @@ class ModeZones {
     for (std::size_t f = 0; f < faces.size(); ++f) {
       Face face = measured(faces[f].walks);
       if (!is_in_workspace(face)) {
-        if (lies_along_locus(face)) lose(face);
+        if (cut_.certified && lies_along_locus(face)) lose(face);
         continue;
       }
       found.push_back(describe(std::move(face)));
@@ -252,8 +252,10 @@ class ModeZones {
 
   /// More vertices where the area of a small face wants them, or where its chords are too coarse to tell its inside.
   void refine(Face& face) {
-    for (int round = 0; round < most_refinements && lies_along_locus(face) && !is_in_workspace(face); ++round) {
-      if (!halve_all(face)) break;
+    // Of a graph with wrong faces it is no matter of chords.
+    const bool may_be_coarse = cut_.certified && lies_along_locus(face);
+    for (int round = 0; may_be_coarse && round < most_refinements && !is_in_workspace(face); ++round) {
+      if (face.outer.size() > most_of_coarse || !halve_all(face)) break;
       face = measured(std::move(face.walks));
     }
     const auto walks = [&](const auto& visit) {
@@ -504,6 +506,7 @@ class ModeZones {
   static constexpr double clear_of_chords = 8;
   static constexpr double area_slack = 1e-5;  ///< relative: what the boundary's curved sides may hide of an area
   static constexpr int most_refinements = 8;
+  static constexpr std::size_t most_of_coarse = 4000;  ///< vertices; a face of more has no coarse chords
   static constexpr double most_sites = 4000, most_sites_of_a_sketch = 250;  ///< on a zone's border
   static constexpr std::size_t most_candidates = 3;
 
