@@ -39,7 +39,6 @@ core::ZoneBorder border_of(const core::PoseStatics& statics, Doubt doubt, int de
   return {.kind = locus_kind_of(task_demand), .vanishing = {{task_demand.joint, task_demand.quantity, 1}}};
 }
 
-/// Of |A| and of what has one component, at the zone's sample: they are those of all of it.
 bool is_of_pin(const mechanism::Mechanism& mechanism, const core::TaskDemand& demand) {
   return demand.quantity == core::Quantity::f &&
          std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
@@ -48,6 +47,7 @@ bool is_of_pin(const mechanism::Mechanism& mechanism, const core::TaskDemand& de
          });
 }
 
+/// Of |A| and of what has one component, at the zone's sample: they are those of all of it.
 void add_signs(const core::PoseStatics& statics, const numeric::NumericModel& model, const DyadSides& sides,
                PoseCell& cell, Zone& zone) {
   const auto at = cell.at(zone.sample);

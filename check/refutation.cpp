@@ -70,6 +70,13 @@ class RefutationCheck {
     return free;
   }
 
+  std::set<std::string> held_efforts() const {
+    std::set<std::string> held;
+    for (const Joint& joint : m_.joints)
+      if (joint.free_effort && !joint.free_effort->given) held.insert(joint.name);
+    return held;
+  }
+
   /// The mechanism with the efforts of a pattern as those that are chosen. Of cables they are as many as are free.
   Mechanism mechanism_of(const Refutation::Pattern& pattern) const {
     const std::set<std::string> named(pattern.joints.begin(), pattern.joints.end()), motors = free_motors();
@@ -79,6 +86,10 @@ class RefutationCheck {
     if (!known || named.size() != pattern.joints.size() ||
         !std::includes(named.begin(), named.end(), motors.begin(), motors.end()))
       throw FalseClaim("refutation: the efforts of a pattern are not those that may be chosen");
+    // Where one choice is for several poses or loads, which tensions are held while others follow is of the model.
+    const bool held = !own_.controlled || (!own_.knows_load && !claim_.loads_within.empty());
+    if (held && named != held_efforts())
+      throw FalseClaim("refutation: the efforts of a pattern are not those that the model holds");
     Mechanism m = m_;
     choose_cables(m, pattern.joints);
     return m;

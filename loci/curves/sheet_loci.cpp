@@ -370,6 +370,8 @@ class Gathering {
     };
     if (locus_factor.implicit.empty() && locus_factor.role == FactorRole::reaction)
       return label_without_polynomial(share, traced);
+    if (locus_factor.implicit.empty() && locus_factor.role == FactorRole::margin && singular_curve(share, traced))
+      return unknown_label();
     if (locus_factor.implicit.empty() || locus_factor.role == FactorRole::workspace_boundary)
       return plain({share.factor}, true);
     std::vector<const SheetShare*> others;

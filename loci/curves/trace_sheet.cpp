@@ -130,7 +130,10 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     std::vector<Cutter> on_boundary;
     for (const Cutter& cutter : cutters) {
       const SheetFunction there = without_variable(cutter.sheet, v);
-      if (!there.polynomial.is_constant()) on_boundary.push_back({there, cutter.label});
+      if (!there.polynomial.is_constant())
+        on_boundary.push_back({there, cutter.label, cutter.keep});
+      else if (cutter.keep && (there.polynomial.is_zero() || there.polynomial.terms.front().coefficient < 0))
+        return {};  // none of the boundary is wanted
     }
     const core::RootTower below = on_rim(tower, static_cast<int>(j));
     const SheetFunction boundary = rim ? *rim : square_of(tower, static_cast<int>(j), options.special);

@@ -104,8 +104,9 @@ void Tracer::find(const std::vector<Cutter>& cutters) {
   }
   own_stars_ = parts.stars;
   if (graph_.stopped && options_.whole_or_nothing) return;
+  const bool ends_at_cutters = std::any_of(cutters.begin(), cutters.end(), [](const Cutter& c) { return !c.keep; });
   for (Crossing& crossing : graph_.crossings)
-    if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && !cutters.empty())
+    if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].singular && ends_at_cutters)
       crossing.label = core::ArcEnd::direct_singularity;
   std::vector<Cut> cuts;
   for (const Cutter& cutter : cutters) cuts.push_back({cutter.sheet, cutter.label, cutter.keep});

@@ -8,7 +8,7 @@
 
 namespace clearloci::loci::sheet {
 
-/// Cells of a tree that were looked at, and cells of one size that are left in a search for zeros.
+/// Cells of a tree, and cells of one size that are left in searches for zeros that run side by side.
 constexpr std::size_t many_cells = 100000, many_live_cells = 3000;
 
 /// Not where the program has no roots, or is too long for the price.

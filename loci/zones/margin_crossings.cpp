@@ -191,6 +191,12 @@ Ratios ratios_to_try(const core::RootTower& tower, const core::LocusFactor& firs
   return ratios;
 }
 
+bool is_of_plane(const Polynomial& sheet) {
+  return std::all_of(sheet.terms.begin(), sheet.terms.end(), [](const core::Term& term) {
+    return std::all_of(term.exponents.begin() + 2, term.exponents.end(), [](int power) { return power == 0; });
+  });
+}
+
 /// p - c q with that of the numbers c for which it has the fewest zeros: a part of both cancels there, and what is left
 /// is a product, often with a square.
 Polynomial with_most_cancelled(const Polynomial& p, const Polynomial& q, const core::RootTower& tower,
@@ -202,7 +208,8 @@ Polynomial with_most_cancelled(const Polynomial& p, const Polynomial& q, const c
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (const Rational& ratio : ratios) {
     const Polynomial apart = p - core::constant_polynomial(q.variables, ratio) * q;
-    if (const std::size_t zeros = zeros_on_line(apart, on_y, y); zeros < fewest) {
+    // Without any the norm is zero, or a number.
+    if (const std::size_t zeros = zeros_on_line(apart, on_y, y); zeros > 0 && zeros < fewest) {
       fewest = zeros;
       best = apart;
     }
@@ -239,13 +246,16 @@ std::optional<Polynomial> curve_through_crossings(const core::LocusProblem& prob
   if (ratios.empty()) return std::nullopt;
   const Polynomial apart = with_most_cancelled(p, q, tower, ratios);
   if (apart.is_zero()) return std::nullopt;
-  Polynomial curve = square_free(norm(apart, tower));
+  const Polynomial conjugates = norm(apart, tower);
+  if (conjugates.is_zero()) return std::nullopt;
+  Polynomial curve = square_free(conjugates);
   for (const core::LocusFactor* margin : {&first, &second})
     for (const Polynomial& shared : margin->implicit)
       if (core::exact_quotient(curve, shared)) return std::nullopt;
   for (const core::LocusFactor& factor : problem.factors)
     for (const Polynomial& singular : factor.implicit)
-      if (factor.role == core::FactorRole::direct_singularity)
+      // With roots the polynomial is zero, too, where |A| vanishes on other sheets alone.
+      if (factor.role == core::FactorRole::direct_singularity && is_of_plane(factor.sheet))
         curve = core::exact_quotient(curve, singular).value_or(curve);
   return curve;
 }

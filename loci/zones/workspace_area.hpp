@@ -31,8 +31,7 @@ struct AreaBounds {
   /// Whether an area of faces is between them, but for what curved sides may hide of it.
   bool allow(double area) const { return area >= (1 - slack) * least && area <= (1 + slack) * most; }
 
- private:
-  static constexpr double slack = 1e-5;
+  static constexpr double slack = 1e-5;  ///< relative: what the boundary's curved sides may hide of an area
 };
 
 /// Bounds on the area of the poses in the box that the mode reaches, proven by enclosures of the roots' squares over

@@ -158,15 +158,16 @@ class ModeZones {
     double covered = 0;
     for (const Zone& zone : found) covered += zone.size;
     const double amiss = std::abs(account.workspace - covered);
-    if (amiss > area_slack * account.workspace) {
+    if (amiss > AreaBounds::slack * account.workspace) {
       account.in_doubt = amiss;
       cut_.certified = false;
       cut_.notes.push_back("the zones found have " + std::to_string(covered) + " m^2 of a workspace of " +
                            std::to_string(account.workspace) + " m^2");
       for (Zone& zone : found) zone.certified = false;
+    } else {
+      account.in_doubt = lost_;
     }
     for (const Zone& zone : found) account.in_doubt += zone.certified ? 0 : zone.size;
-    account.in_doubt += lost_;
     account.in_doubt = std::min(account.in_doubt, std::max(account.workspace, covered));
     account.outside = std::max(0.0, box - account.workspace);
     for (Zone& zone : found)
@@ -205,7 +206,8 @@ class ModeZones {
         const EdgeArea& beside = beside_[static_cast<std::size_t>(half.edge)];
         face.area += half.reversed ? -beside.area : beside.area;
         face.error += beside.error;
-        face.slack += slack_[static_cast<std::size_t>(half.edge)];
+        const double slack = slack_[static_cast<std::size_t>(half.edge)];
+        face.slack += std::max(slack, slack / 2 + std::abs(beside.area) * (slack > 0 ? 1 : 0));
       }
       return ring;
     };
@@ -504,7 +506,6 @@ class ModeZones {
   static constexpr double area_accuracy = 1e-7;  ///< relative; a tenth of what is promised, since it is an estimate
   /// Tolerances, so that a point amid a span this wide is on the side of every curve that its chords tell.
   static constexpr double clear_of_chords = 8;
-  static constexpr double area_slack = 1e-5;  ///< relative: what the boundary's curved sides may hide of an area
   static constexpr int most_refinements = 8;
   static constexpr std::size_t most_of_coarse = 4000;  ///< vertices; a face of more has no coarse chords
   static constexpr double most_sites = 4000, most_sites_of_a_sketch = 250;  ///< on a zone's border

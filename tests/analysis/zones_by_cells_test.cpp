@@ -357,8 +357,9 @@ TEST(ZonesByCells, OverTwoLengthsBoundTheFaces) {
   EXPECT_LE(bounded.workspace - bounded.in_doubt, exact.workspace * (1 + 1e-5));
   for (const Zone& zone : faces.zones) {
     EXPECT_TRUE(zone.certified) << zone.id;
-    EXPECT_EQ(zone.at_least, zone.size) << zone.id;
-    EXPECT_EQ(zone.at_most, zone.size) << zone.id;
+    EXPECT_LE(zone.at_least, zone.size) << zone.id;
+    EXPECT_GE(zone.at_most, zone.size) << zone.id;
+    EXPECT_LT(zone.at_most - zone.at_least, 1e-3 * zone.size) << zone.id;
   }
   const Zone &largest = faces.zones.front(), &by_cells = cells.zones.front();
   EXPECT_LE(by_cells.at_least, largest.size * (1 + 1e-5));
@@ -388,7 +389,11 @@ TEST(ZonesOverTwoLengths, AreTheSameAtACoarseTolerance) {
     const Zones map = find_zones(model, request);
     ASSERT_EQ(map.zones.size(), 10U) << tolerance;
     for (const Zone& zone : map.zones) EXPECT_TRUE(zone.certified) << zone.id << " " << tolerance;
-    EXPECT_NEAR(map.zones[7].size, 4.018e-7, 2e-9) << tolerance;
+    // The eighth is the thinnest; coarse chords tell its size roughly, and bounds of it for certain.
+    constexpr double size = 4.018e-7;
+    EXPECT_NEAR(map.zones[7].size, size, tolerance > 1e-5 ? 1e-7 : 2e-9) << tolerance;
+    EXPECT_LT(map.zones[7].at_least, size) << tolerance;
+    EXPECT_GT(map.zones[7].at_most, size) << tolerance;
   }
 }
 
