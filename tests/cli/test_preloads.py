@@ -503,6 +503,19 @@ class Certificates(InOwnFolder):
             with self.subTest(wrong=what):
                 self.expect(wrong, 1)
 
+    def test_one_choice_for_all_poses_is_of_the_cables_that_the_model_holds(self):
+        """Which tensions are held matters then."""
+        shutil.copy(SOURCE / "examples/cables/three_cables.yaml", self.folder / "m.yaml")
+        (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [0, 0.8], y: [0, 0.8]}\n", encoding="utf-8")
+        self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out", status=1)
+        certificate = json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+        self.assertIn("no efforts keep the task clear", self.expect(certificate, 0))
+        own = certificate["pose_task"]["refutation"]
+        self.assertEqual(own["joints"], ["K3"])
+        own["joints"], own["ranges"] = ["K3", "K2"], [*own["ranges"], ["5", "60"]]
+        own["patterns"][0]["joints"] = ["K2"]
+        self.assertIn("not those that the model holds", self.expect(certificate, 1))
+
     def test_a_task_that_leaves_the_reach_fails_there(self):
         """Not by efforts that exclude each other: there are none."""
         text = (SOURCE / "examples/studies/antagonistic.yaml").read_text(encoding="utf-8")
