@@ -33,9 +33,9 @@ FindLoci finder_of(Engine engine) {
 void add_workspace(const LocusProblem& problem, LocusMap& map) {
   bool by_cells = false;
   for (const core::WorkingMode& mode : problem.modes) {
-    WorkspaceFaces faces = workspace_faces(problem, mode, map);
-    by_cells = by_cells || faces.by_cells;
-    map.workspace.push_back({mode, std::move(faces.rings)});
+    WorkspaceRings workspace = workspace_rings(problem, mode, map);
+    by_cells = by_cells || workspace.by_cells;
+    map.workspace.push_back({mode, std::move(workspace.rings)});
   }
   if (by_cells)
     map.notes.emplace_back(

@@ -74,12 +74,15 @@ WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::Wo
     for (core::Polyline& ring : rings)
       if (ring.size() > 3) result.rings.push_back(std::move(ring));
   }
-  if (!may_have_gaps(map, mode)) return result;
-  const AreaBounds bounds = workspace_area(problem, mode);
-  if (bounds.allow(result.area)) return result;
-  result.by_cells = true;
-  result.rings = rings_of_cells(problem, workspace);
   return result;
+}
+
+WorkspaceRings workspace_rings(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                               const core::LocusMap& map) {
+  WorkspaceFaces faces = workspace_faces(problem, mode, map);
+  if (!may_have_gaps(map, mode) || workspace_area(problem, mode).allow(faces.area)) return {std::move(faces.rings)};
+  ModeWorkspace workspace(problem.tower, mode);
+  return {rings_of_cells(problem, workspace), true};
 }
 
 }  // namespace clearloci::loci

@@ -9,13 +9,21 @@ namespace clearloci::loci {
 struct WorkspaceFaces {
   std::vector<core::Polyline> rings;  ///< to be filled by the even-odd rule
   double area = 0;                    ///< curved sides counted in
+};
+
+/// From the boundary curves that the map has of the mode.
+WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                               const core::LocusMap& map);
+
+struct WorkspaceRings {
+  std::vector<core::Polyline> rings;  ///< to be filled by the even-odd rule
   /// The boundary has gaps, so that its faces contradict proven bounds of the area: the rings are those of cells, each
   /// with a middle that the mode reaches.
   bool by_cells = false;
 };
 
-/// From the boundary curves that the map has of the mode, and the places at which it is open.
-WorkspaceFaces workspace_faces(const core::LocusProblem& problem, const core::WorkingMode& mode,
+/// Of these faces, held against the bounds where the map has open places.
+WorkspaceRings workspace_rings(const core::LocusProblem& problem, const core::WorkingMode& mode,
                                const core::LocusMap& map);
 
 }  // namespace clearloci::loci
