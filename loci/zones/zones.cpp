@@ -257,42 +257,33 @@ class ModeZones {
     // Of a graph with wrong faces it is no matter of chords.
     const bool may_be_coarse = cut_.certified && lies_along_locus(face);
     for (int round = 0; may_be_coarse && round < most_refinements && !is_in_workspace(face); ++round) {
-      if (face.outer.size() > most_of_coarse || !halve_all(face)) break;
+      if (face.outer.size() > most_of_coarse || !halve(face, [](std::size_t) { return true; })) break;
       face = measured(std::move(face.walks));
     }
-    const auto walks = [&](const auto& visit) {
-      for (const HalfEdge half : face.walks.outer) visit(static_cast<std::size_t>(half.edge));
-      for (const auto& walk : face.walks.inner)
-        for (const HalfEdge half : walk) visit(static_cast<std::size_t>(half.edge));
-    };
-    std::size_t edges = 0;
-    walks([&](std::size_t) { ++edges; });
+    std::size_t edges = face.walks.outer.size();
+    for (const auto& walk : face.walks.inner) edges += walk.size();
     for (int round = 0; round < most_refinements && face.error > area_accuracy * face.area; ++round) {
       const double share = area_accuracy * face.area / static_cast<double>(edges);
-      bool finer = false;
-      walks([&](std::size_t e) {
-        GraphEdge& edge = cut_.graph.edges[e];
-        if (beside_[e].error <= share || !halve_chords(edge)) return;
-        beside_[e] = area_beside_chords(edge.points, form_of(edge));
-        finer = true;
-      });
-      if (!finer) return;
+      if (!halve(face, [&](std::size_t e) { return !(beside_[e].error <= share); })) return;
       face = measured(std::move(face.walks));
     }
   }
 
-  bool halve_all(const Face& face) {
+  /// The chords of the edges of a face that `wanted` is true for. False: of none.
+  template <typename Wanted>
+  bool halve(const Face& face, const Wanted& wanted) {
     bool finer = false;
-    const auto halve = [&](const std::vector<HalfEdge>& walk) {
+    const auto visit = [&](const std::vector<HalfEdge>& walk) {
       for (const HalfEdge half : walk) {
-        GraphEdge& edge = cut_.graph.edges[static_cast<std::size_t>(half.edge)];
-        if (!halve_chords(edge)) continue;
-        beside_[static_cast<std::size_t>(half.edge)] = area_beside_chords(edge.points, form_of(edge));
+        const auto e = static_cast<std::size_t>(half.edge);
+        GraphEdge& edge = cut_.graph.edges[e];
+        if (!wanted(e) || !halve_chords(edge)) continue;
+        beside_[e] = area_beside_chords(edge.points, form_of(edge));
         finer = true;
       }
     };
-    halve(face.walks.outer);
-    for (const auto& walk : face.walks.inner) halve(walk);
+    visit(face.walks.outer);
+    for (const auto& walk : face.walks.inner) visit(walk);
     return finer;
   }
 
