@@ -63,18 +63,18 @@ class RefutationCheck {
     }
   }
 
-  std::set<std::string> free_motors() const {
-    std::set<std::string> free;
-    for (const Joint& joint : m_.joints)
-      if (joint.free_effort && !joint.free_effort->given && !mechanism::is_cable(joint)) free.insert(joint.name);
-    return free;
-  }
-
+  /// Of motors, and of the cables that the model leaves free.
   std::set<std::string> held_efforts() const {
     std::set<std::string> held;
     for (const Joint& joint : m_.joints)
       if (joint.free_effort && !joint.free_effort->given) held.insert(joint.name);
     return held;
+  }
+
+  std::set<std::string> free_motors() const {
+    std::set<std::string> motors = held_efforts();
+    std::erase_if(motors, [&](const std::string& name) { return mechanism::is_cable(joint_named(name)); });
+    return motors;
   }
 
   /// The mechanism with the efforts of a pattern as those that are chosen. Of cables they are as many as are free.

@@ -438,9 +438,23 @@ class Certificates(InOwnFolder):
     def refuted(self, mechanism, more):
         (self.folder / "m.yaml").write_text(mechanism.text(), encoding="utf-8")
         box = mechanism.box
-        (self.folder / "t.yaml").write_text(f"format: 1\nbox: {{x: {box[0]}, y: {box[1]}}}\n{more}", encoding="utf-8")
+        return self.certificate_of(f"box: {{x: {box[0]}, y: {box[1]}}}\n{more}")
+
+    def refuted_cables(self, more):
+        shutil.copy(SOURCE / "examples/cables/three_cables.yaml", self.folder / "m.yaml")
+        return self.certificate_of("box: {x: [0, 0.8], y: [0, 0.8]}\n" + more)
+
+    def certificate_of(self, task):
+        """Of a task that `verify` refutes."""
+        (self.folder / "t.yaml").write_text("format: 1\n" + task, encoding="utf-8")
         self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out", status=1)
         return json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+
+    def expect_rejected(self, certificate, what, change):
+        wrong = json.loads(json.dumps(certificate))
+        change(wrong["pose_task"]["refutation"])
+        with self.subTest(wrong=what):
+            self.expect(wrong, 1)
 
     def expect(self, certificate, status, model="m.yaml"):
         (self.folder / "c.cert").write_text(json.dumps(certificate), encoding="utf-8")
@@ -470,19 +484,13 @@ class Certificates(InOwnFolder):
                 certificate = self.refuted(mechanism, more)
                 self.assertIn("no efforts keep the task clear", self.expect(certificate, 0))
                 for what, change in self.mutations(certificate):
-                    wrong = json.loads(json.dumps(certificate))
-                    change(wrong["pose_task"]["refutation"])
-                    with self.subTest(wrong=what):
-                        self.expect(wrong, 1)
-                        seen += 1
+                    self.expect_rejected(certificate, what, change)
+                    seen += 1
         self.assertGreater(seen, 15)
 
     def test_refutations_with_cables_are_certified_and_mutations_are_not(self):
         """Tensions of which each pattern says which are chosen."""
-        shutil.copy(SOURCE / "examples/cables/three_cables.yaml", self.folder / "m.yaml")
-        (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [0, 0.8], y: [0, 0.8]}\npreload: controlled\n", encoding="utf-8")
-        self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out", status=1)
-        certificate = json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+        certificate = self.refuted_cables("preload: controlled\n")
         self.assertIn("no efforts keep the task clear", self.expect(certificate, 0))
         own = certificate["pose_task"]["refutation"]
         chosen = own["patterns"][0]["joints"]
@@ -498,17 +506,11 @@ class Certificates(InOwnFolder):
             "not of the task": lambda own: own["patterns"][0]["rows"][0].update(at=["9/10", "1/10"]),
         }
         for what, change in changes.items():
-            wrong = json.loads(json.dumps(certificate))
-            change(wrong["pose_task"]["refutation"])
-            with self.subTest(wrong=what):
-                self.expect(wrong, 1)
+            self.expect_rejected(certificate, what, change)
 
     def test_one_choice_for_all_poses_is_of_the_cables_that_the_model_holds(self):
         """Which tensions are held matters then."""
-        shutil.copy(SOURCE / "examples/cables/three_cables.yaml", self.folder / "m.yaml")
-        (self.folder / "t.yaml").write_text("format: 1\nbox: {x: [0, 0.8], y: [0, 0.8]}\n", encoding="utf-8")
-        self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out", status=1)
-        certificate = json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+        certificate = self.refuted_cables("")
         self.assertIn("no efforts keep the task clear", self.expect(certificate, 0))
         own = certificate["pose_task"]["refutation"]
         self.assertEqual(own["joints"], ["K3"])
