@@ -37,6 +37,15 @@ std::size_t parameter_of(const mechanism::OpenDesign& open, const mechanism::Des
                                   open.varied.begin());
 }
 
+/// Expressions of parameters with tolerances that stand beside them, or in their place: " (cos(t), sin(t) among them)".
+std::string counted_expressions(const mechanism::OpenDesign& open) {
+  std::string words;
+  for (const mechanism::DesignVariable& variable : open.variables)
+    if (parameter_of(open, variable) == open.varied.size())
+      words += (words.empty() ? " (" : ", ") + core::to_string(variable.meaning);
+  return words.empty() ? words : words + " among them)";
+}
+
 }  // namespace
 
 WidenedTask::WidenedTask(const Mechanism& mechanism, const core::Task& task)
@@ -62,8 +71,8 @@ WidenedTask::WidenedTask(const Mechanism& mechanism, const core::Task& task)
   const std::size_t all = poses_ + beside_.lower.size() + (std::holds_alternative<core::TaskPath>(task.shape) ? 1 : 0);
   if (!beside_.lower.empty() && all > most)
     throw core::InputError({task.file},
-                           "coordinates, tolerances and parts of loads are " + std::to_string(all) +
-                               " together, and cells have room for " + std::to_string(most),
+                           "coordinates, tolerances and parts of loads are " + std::to_string(all) + " together" +
+                               counted_expressions(open_) + ", and cells have room for " + std::to_string(most),
                            "verify the task with fewer tolerances and loads at a time");
 }
 

@@ -2,6 +2,7 @@
 // reactions that vanish with it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -67,6 +68,13 @@ struct LocusFactor {
   std::optional<NodeForm> nodes = {};
 };
 
+/// A force in space that keeps to a plane in every pose: normal . (fx, fy, fz) = 0. Where two of its components vanish
+/// the third does, too, if its part of the normal does not.
+struct ForcePlane {
+  std::string joint;
+  std::array<Polynomial, 3> normal;  ///< over the tower, up to positive factors
+};
+
 /// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the
 /// polynomials, of the box and of `tower.coordinates` is the t of its chart, and the problem covers that chart alone.
 struct LocusProblem {
@@ -82,9 +90,10 @@ struct LocusProblem {
   std::vector<std::string> joint_order;  ///< every joint, in the file's order
   /// Of every joint in that order: the components that vanish together where f does. Empty: fx and fy of each.
   std::vector<std::vector<Quantity>> force_components;
-  std::vector<Vanishing> always_zero;  ///< components that vanish in every pose
-  std::vector<Vanishing> reactions;    ///< every other scalar reaction of the mechanism
-  double tolerance = 1e-5;             ///< chord deviation, m
+  std::vector<ForcePlane> force_planes;  ///< of joints whose force has three components
+  std::vector<Vanishing> always_zero;    ///< components that vanish in every pose
+  std::vector<Vanishing> reactions;      ///< every other scalar reaction of the mechanism
+  double tolerance = 1e-5;               ///< chord deviation, m
 };
 
 /// The components of a joint's f.

@@ -25,24 +25,52 @@ std::vector<const Joint*> joints_of(const Mechanism& mechanism, LinkIndex link) 
   return joints;
 }
 
-using Line = std::array<PointIndex, 2>;
-
-/// `behind`: the link that the force was handed on by. `most`: links.
-std::optional<Line> line_of(const Mechanism& mechanism, const Joint& joint, LinkIndex behind, std::size_t most) {
-  if (!traits(joint).pinned || most == 0) return std::nullopt;
-  for (const LinkIndex link : {joint.from, joint.to})
-    if (const auto pins = pins_of_two_force_link(mechanism, link)) return pins;
-  for (const LinkIndex link : {joint.from, joint.to}) {
-    if (link == ground || link == behind || is_loaded(mechanism, link)) continue;
+/// The joints that hand the force of a joint on from one of its links, the nearest first: links with two joints and
+/// without forces of their own are passed.
+std::vector<const Joint*> handing_on(const Mechanism& mechanism, const Joint& joint, LinkIndex link) {
+  std::vector<const Joint*> passed;
+  const Joint* behind = &joint;
+  while (passed.size() < mechanism.links.size() && link != ground && !is_loaded(mechanism, link)) {
     const std::vector<const Joint*> joints = joints_of(mechanism, link);
-    if (joints.size() != 2) continue;
-    // Both joints of such a link bear the same force.
-    if (const auto line = line_of(mechanism, *joints[joints[0] == &joint ? 1 : 0], link, most - 1)) return line;
+    if (joints.size() != 2) break;
+    behind = joints[joints[0] == behind ? 1 : 0];
+    passed.push_back(behind);
+    link = behind->from == link ? behind->to : behind->from;
   }
+  return passed;
+}
+
+VectorExpression way_between(PointIndex from, PointIndex to) {
+  using Kind = VectorExpression::Kind;
+  const VectorExpression back{Kind::negate, {}, 0, {{Kind::point, {}, from, {}}}};
+  return {Kind::add, {}, 0, {{Kind::point, {}, to, {}}, back}};
+}
+
+/// Of a freedom of `joint`: what a force at `at` that is handed on through it has no part along.
+std::optional<VectorExpression> normal_at(const Joint& joint, PointIndex at) {
+  const JointTraits& kind = traits(joint);
+  if (joint.actuated || joint.effort || is_cable(joint) || kind.meshes || joint.axes.empty()) return std::nullopt;
+  const VectorExpression& axis = joint.axes.front();
+  if (kind.slides) return axis;
+  if (kind.couple == BorneCouple::across_axis || kind.couple == BorneCouple::cross)
+    return VectorExpression{VectorExpression::Kind::cross, {}, 0, {axis, way_between(joint.at, at)}};
   return std::nullopt;
 }
 
 }  // namespace
+
+std::optional<VectorExpression> normal_of_force(const Mechanism& mechanism, const Joint& joint) {
+  if (mechanism.space != Space::spatial || !traits(joint).pinned || traits(joint).slides ||
+      traits(joint).couple != BorneCouple::none)
+    return std::nullopt;
+  for (const LinkIndex link : {joint.from, joint.to})
+    for (const Joint* next : handing_on(mechanism, joint, link)) {
+      if (auto normal = normal_at(*next, joint.at)) return normal;
+      // An actuator of known effort is a load on both of its links.
+      if (next->effort || is_cable(*next) || traits(*next).meshes) break;
+    }
+  return std::nullopt;
+}
 
 std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism& mechanism, LinkIndex link) {
   const std::vector<const Joint*> joints = joints_of(mechanism, link);
@@ -56,17 +84,25 @@ std::optional<std::array<PointIndex, 2>> pins_of_two_force_link(const Mechanism&
 }
 
 std::optional<std::array<PointIndex, 2>> pins_along_force(const Mechanism& mechanism, const Joint& joint) {
-  return line_of(mechanism, joint, ground, mechanism.links.size());
+  const auto line_at = [&mechanism](const Joint& at) {
+    auto line = pins_of_two_force_link(mechanism, at.from);
+    return line ? line : pins_of_two_force_link(mechanism, at.to);
+  };
+  if (!traits(joint).pinned) return std::nullopt;
+  if (const auto line = line_at(joint)) return line;
+  for (const LinkIndex link : {joint.from, joint.to})
+    for (const Joint* next : handing_on(mechanism, joint, link)) {
+      if (!traits(*next).pinned) break;
+      if (const auto line = line_at(*next)) return line;
+    }
+  return std::nullopt;
 }
 
 bool keeps_to_known_line(const Mechanism& mechanism, const Joint& joint) {
   if (is_slot(mechanism, joint) || pins_along_force(mechanism, joint)) return true;
-  for (const LinkIndex link : {joint.from, joint.to}) {
-    const std::vector<const Joint*> joints = joints_of(mechanism, link);
-    if (link == ground || joints.size() != 2 || is_loaded(mechanism, link)) continue;
-    const Joint& other = *joints[joints[0] == &joint ? 1 : 0];
-    if (other.type == JointType::gear || is_slot(mechanism, other)) return true;
-  }
+  for (const LinkIndex link : {joint.from, joint.to})
+    if (const auto passed = handing_on(mechanism, joint, link); !passed.empty())
+      if (passed.front()->type == JointType::gear || is_slot(mechanism, *passed.front())) return true;
   return false;
 }
 

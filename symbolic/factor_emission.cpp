@@ -4,6 +4,7 @@
 
 #include "core/append_roots.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/known_lines.hpp"
 
 namespace clearloci::symbolic {
 
@@ -201,6 +202,20 @@ void FactorEmission::undirected() {
   }
 }
 
+void FactorEmission::force_planes() {
+  for (const mechanism::Joint& joint : d_.mechanism.joints) {
+    if (!d_.selected(joint.name) || core::force_components(d_.result.problem, joint.name).size() != 3) continue;
+    const auto known = mechanism::normal_of_force(d_.mechanism, joint);
+    if (!known) continue;
+    const std::vector<GiNaC::ex> normal = d_.geometry.vector(*known);
+    core::ForcePlane plane{joint.name, {}};
+    for (std::size_t i = 0; i < 3; ++i)
+      plane.normal[i] = core::scaled_for_doubles(
+          d_.elimination.over_tower(d_.geometry.poly(normal[i].expand())).plain(d_.geometry.tower_variables()));
+    d_.result.problem.force_planes.push_back(std::move(plane));
+  }
+}
+
 void FactorEmission::append_roots() {
   if (more_roots_.empty()) return;
   core::LocusProblem& problem = d_.result.problem;
@@ -212,6 +227,8 @@ void FactorEmission::append_roots() {
     if (factor.nodes)
       for (core::NodeForm::Part& part : factor.nodes->parts) widen(part.sheet);
   }
+  for (core::ForcePlane& plane : problem.force_planes)
+    for (core::Polynomial& part : plane.normal) widen(part);
   for (core::WorkingMode& mode : problem.modes) mode.resize(problem.tower.roots.size(), 1);
 }
 

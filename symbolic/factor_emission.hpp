@@ -30,6 +30,8 @@ class FactorEmission {
   void boundaries();
   /// Where f1 and f2 of a joint say nothing of its force.
   void undirected();
+  /// The planes that forces of three components keep to.
+  void force_planes();
   /// The roots that margins brought, into the tower and everything that is written over it.
   void append_roots();
 

@@ -49,21 +49,33 @@ void FactorSelection::mark_contact_loss(const std::string& joint) {
     }
     if (everywhere) want(sharing);
   }
-  // Over three coordinates they vanish together along curves and at points besides.
-  if (d_.result.problem.tower.coordinates.size() == 3 && components.size() > 2)
-    for (const std::vector<std::size_t>& component : components)
-      for (const std::size_t i : component) d_.factors[i].wanted_point = true;
-  // Two equations over a plane have isolated zeros besides, three in general none.
-  if (components.size() > 2) return;
-  const auto in = [](const std::vector<std::size_t>& list, std::size_t f) {
-    return std::find(list.begin(), list.end(), f) != list.end();
+  mark_points(components, 0, {});
+}
+
+void FactorSelection::mark_points(const std::vector<std::vector<std::size_t>>& components, std::size_t next,
+                                  const std::vector<std::size_t>& chosen) {
+  if (next == components.size()) {
+    if (chosen.size() > 1)
+      for (const std::size_t i : chosen) d_.factors[i].wanted_point = true;
+    return;
+  }
+  const std::vector<std::size_t>& component = components[next];
+  const auto in = [](const std::vector<std::size_t>& list, std::size_t i) {
+    return std::find(list.begin(), list.end(), i) != list.end();
   };
-  for (const std::size_t i : components[0]) {
-    for (const std::size_t k : components[1]) {
-      // Where a factor of both vanishes there is a curve of contact loss anyway.
-      if (in(components[1], i) || in(components[0], k) || never_both(i, k) || meet_nowhere(i, k)) continue;
-      d_.factors[i].wanted_point = d_.factors[k].wanted_point = true;
-    }
+  // Where a factor of several components vanishes the others need no zero of their own.
+  if (std::any_of(chosen.begin(), chosen.end(), [&](std::size_t k) { return in(component, k); }))
+    return mark_points(components, next + 1, chosen);
+  for (const std::size_t i : component) {
+    // Where a factor of all of them vanishes there is a curve of contact loss anyway.
+    const bool is_possible = std::none_of(chosen.begin(), chosen.end(),
+                                          [&](std::size_t k) { return never_both(k, i) || meet_nowhere(k, i); });
+    const bool is_curve =
+        std::all_of(components.begin(), components.end(), [&](const auto& list) { return in(list, i); });
+    if (!is_possible || is_curve) continue;
+    std::vector<std::size_t> more = chosen;
+    more.push_back(i);
+    mark_points(components, next + 1, more);
   }
 }
 

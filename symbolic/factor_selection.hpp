@@ -27,6 +27,10 @@ class FactorSelection {
   void want(const std::vector<std::size_t>& list);
   /// f_J = 0 is two equations, or three in space: its curves lie where factors of all of them share a curve.
   void mark_contact_loss(const std::string& joint);
+  /// One factor of every component, of which none is of all: they may vanish together at isolated points, over three
+  /// coordinates along curves, too. `chosen`: of those before `next`.
+  void mark_points(const std::vector<std::vector<std::size_t>>& components, std::size_t next,
+                   const std::vector<std::size_t>& chosen);
   /// Components of a vector of constant length, such as a link's, do not vanish together.
   bool never_both(std::size_t i, std::size_t k);
   bool may_share_curve(std::size_t i, std::size_t k);

@@ -77,6 +77,7 @@ void emit_factors(Derivation& d) {
   emission.direct_singularities();
   emission.boundaries();
   emission.undirected();
+  emission.force_planes();
   emission.append_roots();
 }
 

@@ -230,9 +230,8 @@ bool withhold_wrong_arcs(const core::LocusProblem& problem, core::LocusMap& map)
     curve.certified = false;
     const ArcFault& fault = wrong[first].fault;
     map.notes.push_back((next - first == 1 ? "an arc" : std::to_string(next - first) + " arcs") + " of the curve (" +
-                        (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
-                        ") failed the last check; the parts that failed are withheld: " + fault.what + ", " +
-                        place_words(problem, {fault.at[0], fault.at[0], fault.at[1], fault.at[1]}));
+                        curve_words(curve) + ") failed the last check; the parts that failed are withheld: " +
+                        fault.what + ", " + place_words(problem, {fault.at[0], fault.at[0], fault.at[1], fault.at[1]}));
     std::deque<ArcCheck> checks = checks_of(problem, curve);
     for (std::size_t last = next; last-- > first;) {
       const auto place = curve.arcs.begin() + static_cast<std::ptrdiff_t>(wrong[last].arc);

@@ -321,8 +321,7 @@ std::string note_of_open(const LocusCurve& curve, const Polyline& open) {
       box[2 * i] = std::min(box[2 * i], at[i]);
       box[2 * i + 1] = std::max(box[2 * i + 1], at[i]);
     }
-  return "vertices of " + (curve.cause.empty() ? curve.factor.substr(0, 60) : curve.cause) +
-         " are not known to rounding, " + place_words(box);
+  return "vertices of " + curve_words(curve) + " are not known to rounding, " + place_words(box);
 }
 
 bool is_same(const LocusCurve& a, const LocusCurve& b) {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "loci/curves/edge_labels.hpp"
+#include "loci/curves/force_zeros.hpp"
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/place_words.hpp"
 #include "loci/curves/trace_sheet.hpp"
@@ -25,12 +26,6 @@ using core::LocusProblem;
 using core::Quantity;
 using core::WorkingMode;
 using sheet::MultiInterval;
-
-bool makes_vanish(const core::LocusFactor& factor, const std::string& joint, Quantity quantity) {
-  return factor.role == FactorRole::reaction &&
-         std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
-                     [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
-}
 
 /// Whether a curve passes within `reach` of a point.
 bool passes(const core::LocusCurve& curve, const core::Point2& at, double reach) {
@@ -230,23 +225,15 @@ class Doubts {
   std::vector<std::pair<std::string, std::vector<std::string>>> all_;
 };
 
-using FactorPair = std::pair<const core::LocusFactor*, const core::LocusFactor*>;
-
-/// Factors of the one and the other component of a joint's force; three equations have no common zero in general.
-std::vector<FactorPair> components_of(const LocusProblem& problem, const std::string& joint) {
-  std::vector<FactorPair> pairs;
-  const std::vector<Quantity> components = core::force_components(problem, joint);
-  if (components.size() != 2) return pairs;
-  const auto only_in = [&](Quantity one, Quantity other) {
-    std::vector<const core::LocusFactor*> list;
-    for (const core::LocusFactor& factor : problem.factors)
-      if (makes_vanish(factor, joint, one) && !makes_vanish(factor, joint, other)) list.push_back(&factor);
-    return list;
-  };
-  const std::vector<const core::LocusFactor*> second = only_in(components[1], components[0]);
-  for (const core::LocusFactor* first : only_in(components[0], components[1]))
-    for (const core::LocusFactor* other : second) pairs.emplace_back(first, other);
-  return pairs;
+/// Whether the force is proven to vanish at a proven zero of the first two factors; nothing where it is proven not to.
+std::optional<bool> vanishes_at(const LocusProblem& problem, const WorkingMode& mode, const ForceZeros& zeros,
+                                const sheet::SheetZero& zero) {
+  if (zeros.third == nullptr) return true;
+  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
+  const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+  if (at.empty()) return false;
+  if (is_nonzero(*zeros.third, at)) return std::nullopt;
+  return zeros.normal != nullptr && evaluate(*zeros.normal, at).sign() != 0;
 }
 
 }  // namespace
@@ -258,66 +245,79 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
   const std::vector<sheet::Star> cones = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
-  // Joints along one chain bear the same force: every pair of factors is searched once.
-  std::map<FactorPair, sheet::ZeroSet> zeros;
+  std::vector<std::pair<std::string, ForceZeros>> asked;
+  // Joints along one chain bear the same force: the same factors are searched once.
+  std::map<std::vector<const core::LocusFactor*>, sheet::ZeroSet> zeros;
   for (const std::string& joint : problem.joints)
-    for (const FactorPair& pair : components_of(problem, joint)) zeros.try_emplace(pair);
-  std::vector<std::pair<const FactorPair, sheet::ZeroSet>*> searches;
+    for (const ForceZeros& of_joint : zeros_of_force(problem, joint)) {
+      asked.emplace_back(joint, of_joint);
+      zeros.try_emplace(of_joint.factors());
+    }
+  std::vector<std::pair<const std::vector<const core::LocusFactor*>, sheet::ZeroSet>*> searches;
   for (auto& search : zeros) searches.push_back(&search);
   run_in_order(searches.size(), [&](std::size_t i) {
-    auto& [pair, found] = *searches[i];
-    const auto& [fx, fy] = pair;
-    found = sheet::isolated_zeros(
-        problem.tower, mode, {fx->sheet, fx->line}, {fy->sheet, fy->line}, problem.lower, problem.upper,
-        {.most_cells = most_cells, .special = cones, .stop = stop, .searches = known_searches});
+    auto& [factors, found] = *searches[i];
+    std::vector<sheet::SheetFunction> functions;
+    for (const core::LocusFactor* factor : factors) functions.push_back({factor->sheet, factor->line});
+    found = sheet::isolated_zeros(problem.tower, mode, functions[0], functions[1], problem.lower, problem.upper,
+                                  {.most_cells = most_cells,
+                                   .special = cones,
+                                   .also = {functions.begin() + 2, functions.end()},
+                                   .stop = stop,
+                                   .searches = known_searches});
   });
   Doubts doubts;
-  for (const std::string& joint : problem.joints) {
-    for (const FactorPair& pair : components_of(problem, joint)) {
-      const auto& [fx, fy] = pair;
-      const sheet::ZeroSet& found = zeros.at(pair);
-      const auto add = [&](const core::Point2& at, bool certified) {
-        if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return false;
-        if (may_be_undirected(problem, mode, joint, at, 1e-12 * size)) return false;
-        add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
+  for (const auto& joint_and_factors : asked) {
+    const std::string& joint = joint_and_factors.first;
+    const ForceZeros& factors = joint_and_factors.second;
+    const sheet::ZeroSet& found = zeros.at(factors.factors());
+    const auto add = [&](const core::Point2& at, bool certified) {
+      if (on_contact_loss_curve(map, mode, joint, at, 2 * problem.tolerance)) return false;
+      if (may_be_undirected(problem, mode, joint, at, 1e-12 * size)) return false;
+      add_point(map, first, {LocusKind::contact_loss, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
+                same_point * size);
+      return true;
+    };
+    // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
+    const auto add_without_limit = [&](const core::Point2& at) {
+      if (!ends_on_singularity(map, mode, at, 1e-7 * size))
+        add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
                   same_point * size);
-        return true;
-      };
-      // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
-      const auto add_without_limit = [&](const core::Point2& at) {
-        if (!ends_on_singularity(map, mode, at, 1e-7 * size))
-          add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
-                    same_point * size);
-      };
-      for (const sheet::SheetZero& zero : found.zeros) {
-        if (!on_direct_singularity(problem, mode, zero))
-          add({zero.x, zero.y}, true);
-        else
-          add_without_limit({zero.x, zero.y});
+    };
+    for (const sheet::SheetZero& zero : found.zeros) {
+      const std::optional<bool> vanishes = vanishes_at(problem, mode, factors, zero);
+      if (!vanishes) continue;
+      if (on_direct_singularity(problem, mode, zero)) {
+        add_without_limit({zero.x, zero.y});
+        continue;
       }
-      if (stop && stop()) {
-        map.out_of_time = true;
-        return;
-      }
-      // An undecided cell in which Newton's method finds a point shows that point, and stays an open place besides.
-      std::size_t open = 0;
-      sheet::PlaneCell hull;
-      for (const sheet::PlaneCell& cell : found.undecided) {
-        const core::Point2 centre = middle_of(cell);
-        const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
-        const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
-        // That it leads back to a proven point says nothing of the rest of the cell.
-        const bool is_proven = at && is_proven_at(map, mode, joint, *at, same_point * size);
-        if (at && !is_proven && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
-          if (add(*at, false)) leave_point_open(joint, mode, box_of(cell), map);
-          continue;
-        }
-        leave_point_open(joint, mode, box_of(cell), map);
-        hull = open == 0 ? cell : sheet::PlaneCell{core::hull(hull.x, cell.x), core::hull(hull.y, cell.y)};
-        ++open;
-      }
-      if (open > 0) doubts.add(joint, open, place_words(problem, box_of(hull)));
+      const bool added = add({zero.x, zero.y}, *vanishes);
+      if (added && !*vanishes)
+        leave_point_open(joint, mode,
+                         {zero.x - zero.radius, zero.x + zero.radius, zero.y - zero.radius, zero.y + zero.radius}, map);
     }
+    if (stop && stop()) {
+      map.out_of_time = true;
+      return;
+    }
+    // An undecided cell in which Newton's method finds a point shows that point, and stays an open place besides.
+    std::size_t open = 0;
+    sheet::PlaneCell hull;
+    for (const sheet::PlaneCell& cell : found.undecided) {
+      const core::Point2 centre = middle_of(cell);
+      const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
+      const auto at = newton(problem.tower, mode, factors.system[0]->sheet, factors.system[1]->sheet, centre, reach);
+      // That it leads back to a proven point says nothing of the rest of the cell.
+      const bool is_proven = at && is_proven_at(map, mode, joint, *at, same_point * size);
+      if (at && !is_proven && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
+        if (add(*at, false)) leave_point_open(joint, mode, box_of(cell), map);
+        continue;
+      }
+      leave_point_open(joint, mode, box_of(cell), map);
+      hull = open == 0 ? cell : sheet::PlaneCell{core::hull(hull.x, cell.x), core::hull(hull.y, cell.y)};
+      ++open;
+    }
+    if (open > 0) doubts.add(joint, open, place_words(problem, box_of(hull)));
   }
   doubts.tell(map.notes);
 }

@@ -37,4 +37,16 @@ std::string place_words(const core::LocusProblem& problem, const std::array<doub
   return place_words(in_user_units);
 }
 
+std::string curve_words(core::LocusKind kind, const std::vector<core::Vanishing>& vanishing, const std::string& factor,
+                        const std::string& cause) {
+  constexpr std::size_t longest = 60;
+  if (!cause.empty()) return cause;
+  if (!factor.empty() && factor.size() <= longest) return factor;
+  if (vanishing.empty()) return kind == core::LocusKind::direct_singularity ? "|A| = 0" : core::to_string(kind);
+  std::string words;
+  for (const core::Vanishing& v : vanishing)
+    words += (words.empty() ? "" : ", ") + core::to_string(v.quantity) + "_" + v.joint;
+  return kind == core::LocusKind::margin ? "margin of " + words : words + " = 0";
+}
+
 }  // namespace clearloci::loci

@@ -1,11 +1,13 @@
-// Where something is, in words of a note: in m and rad, as core/shown_units.hpp finds and tells them in the file's
-// units.
+// What and where something is, in words of a note: places in m and rad, as core/shown_units.hpp finds and tells them in
+// the file's units.
 #pragma once
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "core/locus_factor.hpp"
+#include "core/locus_map.hpp"
 
 namespace clearloci::loci {
 
@@ -15,5 +17,14 @@ std::string place_words(const core::LocusProblem& problem, const std::array<doub
 
 /// The same of angles in rad.
 std::string place_words(const std::array<double, 4>& box);
+
+/// Of which curve: what its factor means, else the factor itself, else, where that is too long to be read, what
+/// vanishes there: "f_A3, f_B3 = 0". Of core::LocusCurve and core::OpenRegion.
+std::string curve_words(core::LocusKind kind, const std::vector<core::Vanishing>& vanishing, const std::string& factor,
+                        const std::string& cause);
+template <class Located>
+std::string curve_words(const Located& curve) {
+  return curve_words(curve.kind, curve.vanishing, curve.factor, curve.cause);
+}
 
 }  // namespace clearloci::loci

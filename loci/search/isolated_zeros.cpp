@@ -59,12 +59,16 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
       partition(tower, {box_x.lower(), box_x.upper(), box_y.lower(), box_y.upper()}, bases(tower), special);
 
   ZeroSet result;
-  Charting charting(tower, {first, second}, parts.stars);
+  std::vector<SheetFunction> functions = {first, second};
+  functions.insert(functions.end(), options.also.begin(), options.also.end());
+  System system;
+  for (int f = 2; f < static_cast<int>(functions.size()); ++f) system.also.push_back(f);
+  Charting charting(tower, functions, parts.stars);
   for (const Chart& chart : parts.charts) {
     const bool plane = chart.side == Chart::Side::plane;
     const ChartedSheet sheet = charting.in(chart);
     SheetProgram program(sheet.tower, sheet.functions);
-    ZeroSearch search(program, mode, {});
+    ZeroSearch search(program, mode, system);
     const std::vector<PlaneCell> seeds = plane ? outside_holes(parts) : std::vector<PlaneCell>{{{0, 1}, {-1, 1}}};
     const double chart_size = plane ? size : 1.0;
     const FoundZeros found = search.run(
@@ -108,6 +112,7 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   key.numbers.push_back(options.most_cells);
   key.polynomials.push_back(first.polynomial);
   key.polynomials.push_back(second.polynomial);
+  for (const SheetFunction& function : options.also) key.polynomials.push_back(function.polynomial);
   return *options.searches->get<ZeroSet>(key, [&] {
     return std::make_shared<const ZeroSet>(found_zeros(tower, mode, first, second, lower, upper, options));
   });

@@ -25,6 +25,8 @@ struct ZeroOptions {
   int most_cells = 4096;   ///< live cells of one size: more of them mean that N1 and N2 share a curve
   /// Stars besides the cones at rational points and the touches of the tower.
   std::vector<Star> special = {};
+  /// Further functions: what is known not to be a zero of each of them is left out. A zero in the set need not be one.
+  std::vector<SheetFunction> also = {};
   std::function<bool()> stop = {};    ///< asked now and then; true: leave the rest undecided
   KnownSearches* searches = nullptr;  ///< where the set is looked up and kept; may be null
 };

@@ -161,8 +161,9 @@ void ZeroSearch::enclose(const Group& group, Extent extent, bool with_slopes, co
 
 template <class Function>
 bool ZeroSearch::excludes_zero(const Function& enclosure) const {
-  return std::any_of(system_.functions.begin(), system_.functions.end(),
-                     [&](int f) { return !enclosure(f).contains_zero(); });
+  const auto excludes = [&](int f) { return !enclosure(f).contains_zero(); };
+  return std::any_of(system_.functions.begin(), system_.functions.end(), excludes) ||
+         std::any_of(system_.also.begin(), system_.also.end(), excludes);
 }
 
 void ZeroSearch::exclude_by_values(Candidate& candidate, const SheetCell& cell, bool inside) {
@@ -292,7 +293,8 @@ void ZeroSearch::exclude_smoothly(const Group& group) {
   if (!is_smooth_worthwhile_ || group.empty()) return;
   const auto exclude = [&](Candidate& candidate, SmoothCell::Standing place, const auto& excludes) {
     candidate.excluded = place == SmoothCell::Standing::outside ||
-                         std::any_of(system_.functions.begin(), system_.functions.end(), excludes);
+                         std::any_of(system_.functions.begin(), system_.functions.end(), excludes) ||
+                         std::any_of(system_.also.begin(), system_.also.end(), excludes);
   };
   if (group.size() < few_candidates) {
     if (!smooth_) smooth_.emplace(*program_, mode());

@@ -16,6 +16,7 @@ enum class ZeroCount { none, unique, unknown };
 struct System {
   std::vector<int> functions = {0, 1};
   std::vector<int> free = {0, 1};
+  std::vector<int> also = {};  ///< further functions: a cell without a zero of one of them has none of the system
 };
 
 /// Zeros in the box that `cell` has entered and differentiated. `image`: K(X) in all local coordinates (those that

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -24,57 +23,19 @@ using core::SpaceArc;
 using core::SpaceCurve;
 using space::SpacePoint;
 
-/// Factors of one chart that vanish together, by their places among the problem's: two or three.
-using FactorSet = std::set<std::size_t>;
-
-bool makes_vanish(const LocusFactor& factor, const std::string& joint, Quantity quantity) {
-  return factor.role == FactorRole::reaction &&
-         std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
-                     [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
-}
-
-bool is_always_zero(const LocusProblem& problem, const std::string& joint, Quantity quantity) {
-  return std::any_of(problem.always_zero.begin(), problem.always_zero.end(),
-                     [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
-}
-
-/// One factor of every component: the least such sets. Those of one factor are surfaces.
-std::vector<FactorSet> sets_of(const LocusProblem& problem, const std::string& joint) {
-  std::vector<FactorSet> sets = {{}};
-  for (const Quantity component : core::force_components(problem, joint)) {
-    if (is_always_zero(problem, joint, component)) continue;
-    std::vector<FactorSet> next;
-    for (const FactorSet& set : sets)
-      for (std::size_t f = 0; f < problem.factors.size(); ++f)
-        if (makes_vanish(problem.factors[f], joint, component)) {
-          next.push_back(set);
-          next.back().insert(f);
-        }
-    sets = std::move(next);
-  }
-  const auto holds_another = [&](const FactorSet& set) {
-    return std::any_of(sets.begin(), sets.end(), [&](const FactorSet& other) {
-      return other.size() < set.size() && std::includes(set.begin(), set.end(), other.begin(), other.end());
-    });
-  };
-  std::vector<FactorSet> least;
-  for (const FactorSet& set : sets)
-    if (set.size() > 1 && !holds_another(set) && std::find(least.begin(), least.end(), set) == least.end())
-      least.push_back(set);
-  return least;
-}
-
 /// What a set of one chart came to.
 struct Found {
   space::FoundCurves curves;
   space::FoundPoints points;
 };
 
-space::Equations equations_of(const LocusProblem& problem, const FactorSet& set) {
+sheet::SheetFunction function_of(const LocusFactor& factor) { return {factor.sheet, factor.line}; }
+
+space::Equations equations_of(const LocusProblem& problem, const ForceZeros& zeros) {
   space::Equations equations;
-  for (const std::size_t f : set) equations.system.push_back({problem.factors[f].sheet, problem.factors[f].line});
+  for (const LocusFactor* factor : zeros.factors()) equations.system.push_back(function_of(*factor));
   for (const LocusFactor& factor : problem.factors)
-    if (factor.role == FactorRole::direct_singularity) equations.determinant.push_back({factor.sheet, factor.line});
+    if (factor.role == FactorRole::direct_singularity) equations.determinant.push_back(function_of(factor));
   return equations;
 }
 
@@ -105,13 +66,36 @@ space::FoundCurves dependent_curves(const LocusProblem& problem, const core::Wor
   return best;
 }
 
-Found search(const LocusProblem& problem, const core::WorkingMode& mode, const FactorSet& set,
+/// Of a force that keeps to a plane: the third equation holds along the curves of the others, except where they meet
+/// the zeros of the normal's part. If they may do that, the curves are not proven.
+space::FoundCurves curves_in_plane(const LocusProblem& problem, const core::WorkingMode& mode, const ForceZeros& zeros,
+                                   const space::SearchLimits& limits) {
+  space::Equations two = equations_of(problem, zeros);
+  two.also.push_back(std::move(two.system.back()));
+  two.system.pop_back();
+  space::FoundCurves curves = find_curves(problem, mode, two, limits);
+  if (curves.arcs.empty()) return curves;
+  space::Equations with_normal = two;
+  with_normal.system.push_back({*zeros.normal});
+  const space::FoundPoints meetings = find_points(problem, mode, with_normal, limits);
+  if (meetings.points.empty() && open_cells(meetings.undecided) == 0) return curves;
+  std::erase_if(curves.arcs,
+                [&](const space::ChartArc& arc) { return !vanishes_along(problem, mode, two.also.front(), arc); });
+  for (space::ChartArc& arc : curves.arcs) arc.certified = false;
+  return curves;
+}
+
+Found search(const LocusProblem& problem, const core::WorkingMode& mode, const ForceZeros& zeros,
              const std::function<bool()>& stop) {
-  const space::Equations equations = equations_of(problem, set);
+  const space::Equations equations = equations_of(problem, zeros);
   const space::SearchLimits limits{.tolerance = problem.tolerance, .stop = stop};
   Found found;
-  if (set.size() == 2) {
+  if (zeros.third == nullptr) {
     found.curves = find_curves(problem, mode, equations, limits);
+    return found;
+  }
+  if (zeros.normal != nullptr) {
+    found.curves = curves_in_plane(problem, mode, zeros, limits);
     return found;
   }
   found.points = find_points(problem, mode, equations, limits);
@@ -272,14 +256,11 @@ class ModeCurves {
       : charts_(charts), mode_(mode), stop_(stop) {}
 
   void run(LocusMap& map) {
-    std::vector<std::pair<std::size_t, FactorSet>> tasks;  // chart, factors
-    for (std::size_t c = 0; c < charts_.size(); ++c) {
-      std::set<FactorSet> sets;
+    std::vector<std::pair<std::size_t, ForceZeros>> tasks;  // chart, factors
+    for (std::size_t c = 0; c < charts_.size(); ++c)
       for (const std::string& joint : charts_[c]->joints)
-        for (FactorSet& set : sets_of(*charts_[c], joint))
-          if (set.size() <= 3) sets.insert(std::move(set));
-      for (const FactorSet& set : sets) tasks.emplace_back(c, set);
-    }
+        for (const ForceZeros& zeros : zeros_of_force(*charts_[c], joint))
+          if (std::find(tasks.begin(), tasks.end(), std::pair(c, zeros)) == tasks.end()) tasks.emplace_back(c, zeros);
     std::vector<Found> found(tasks.size());
     run_in_order(tasks.size(),
                  [&](std::size_t t) { found[t] = search(*charts_[tasks[t].first], mode_, tasks[t].second, stop_); });
@@ -304,10 +285,8 @@ class ModeCurves {
   }
 
  private:
-  void add(const LocusProblem& problem, const FactorSet& set, const Found& found, LocusMap& map) {
-    std::vector<const LocusFactor*> factors;
-    for (const std::size_t f : set) factors.push_back(&problem.factors[f]);
-    const EdgeLabel label = reaction_label(problem, factors);
+  void add(const LocusProblem& problem, const ForceZeros& zeros, const Found& found, LocusMap& map) {
+    const EdgeLabel label = reaction_label(problem, zeros.factors());
     if (label.vanishing.empty()) return;
     note_undecided(problem, label, found.curves.undecided, found.curves.gave_up, map);
     note_undecided(problem, label, found.points.undecided, found.points.gave_up, map);

@@ -156,8 +156,7 @@ class Builder {
     }
     for (const core::OpenRegion& region : map_.open)
       if (region.mode == mode_ && !region.point && cuts_workspace(region.kind))
-        doubt_for_good("what is open of " + (region.cause.empty() ? region.factor.substr(0, 60) : region.cause) +
-                       " may run through them");
+        doubt_for_good("what is open of " + curve_words(region) + " may run through them");
     const Polyline corners = {low_, {high_[0], low_[1]}, high_, {low_[0], high_[1]}, low_};
     for (std::size_t i = 0; i < 4; ++i) strands_.push_back({box_owner, false, {corners[i], corners[i + 1]}, {}});
   }

@@ -86,6 +86,17 @@ class Results(InOwnFolder):
         self.holds("loci", "loci", FOUR_BAR)
         self.holds("loci", "loci", EXAMPLES / "minitaur_leg.yaml", "--joint", "A1")
 
+    def test_what_is_left_at_a_time_limit(self):
+        task = EXAMPLES / "tasks" / "pick_and_place.yaml"
+        for name, *words in [
+            ("loci", FIVE_BAR),
+            ("zones", FIVE_BAR),
+            ("verify", FIVE_BAR, task),
+            ("error", EXAMPLES / "three_upu.yaml"),
+            ("validate", FIVE_BAR),
+        ]:
+            self.holds(name, name, *words, "--time-limit", "0.00001", status=3)
+
     def test_zones(self):
         self.holds("zones", "zones", FIVE_BAR)
         self.holds("zones", "zones", FOUR_BAR)

@@ -1,5 +1,6 @@
-// Contact losses of pins in space: where the part of the force across the axis vanishes and the force does not. Held
-// against the turns of that part round the cells of a grid, from reactions that are solved plainly.
+// Contact losses in space at single poses of a slice: of pins, where the part of the force across the axis vanishes and
+// the force does not; of balls whose force keeps to a plane. Held against the turns of two parts of the force round the
+// cells of a grid, from reactions that are solved plainly.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -70,8 +71,87 @@ class PinForce {
   std::size_t joint_;
 };
 
+/// The force of the ball at the end of a leg that turns about an axis through its base: along that axis and along the
+/// leg, times |A|. There is no third part.
+class BallForce {
+ public:
+  BallForce(const Mechanism& m, const std::string& leg)
+      : model_(numeric::compile(m)),
+        mode_(mechanism::working_mode(m)),
+        ball_(index_of(m, "B" + leg)),
+        pin_(index_of(m, "A" + leg)) {}
+
+  Eigen::Vector2d numerator(std::span<const double> pose) const {
+    const numeric::Posture posture = numeric::posture(model_, pose, mode_);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(numeric::newton_euler_matrix(model_, posture));
+    const Eigen::VectorXd values = lu.solve(numeric::load_column(model_, posture));
+    const auto& joints = model_.mechanism.joints;
+    const Eigen::Vector3d force =
+        numeric::joint_reactions(joints.size(), numeric::reaction_columns(model_, posture), values).at(ball_).force;
+    const auto place = [&](std::size_t joint) { return posture.points[static_cast<std::size_t>(joints[joint].at)]; };
+    const Eigen::Vector3d way = (place(ball_) - place(pin_)).normalized(), axis = posture.axes[pin_];
+    EXPECT_LT(std::abs(force.dot(axis.cross(way))), 1e-9 * (1 + force.norm()));
+    return lu.determinant() * Eigen::Vector2d(force.dot(axis), force.dot(way));
+  }
+
+ private:
+  numeric::NumericModel model_;
+  std::vector<int> mode_;
+  std::size_t ball_, pin_;
+};
+
+/// A platform that does not turn, on two legs that turn in one upright plane and on two that turn as they like.
+/// `turned`: the plane is at an angle of atan(4/3) to the first axis, so that no component of a force is zero in it.
+std::string two_legs_in_a_plane(unsigned number, bool turned) {
+  std::mt19937 random(seed + number);
+  const auto near = [&random](double middle, double spread) {
+    const int thousandths = std::uniform_int_distribution<int>(-1000, 1000)(random);
+    return std::to_string(middle + spread * thousandths / 1000);
+  };
+  const std::string c = turned ? "3/5" : "1", s = turned ? "4/5" : "0";
+  const auto in_plane = [&](const std::string& along, const std::string& up) {
+    return "[" + c + "*(" + along + "), " + s + "*(" + along + "), " + up + "]";
+  };
+  const auto triple = [](const std::string& x, const std::string& y, const std::string& z) {
+    return "[" + x + ", " + y + ", " + z + "]";
+  };
+  std::string text =
+      "format: 1\nspace: spatial\nworkspace: {x: [-2/5, 2/5], z: [3/5, 7/5]}\npoints:\n  P: " + in_plane("x", "z") +
+      "\n";
+  for (const int leg : {1, 2}) {
+    const std::string k = std::to_string(leg);
+    const double side = leg == 1 ? 1 : -1;
+    text += "  A" + k + ": " + in_plane(near(0.75 * side, 0.2), near(0, 0.1)) + "\n";
+    text += "  B" + k + ": " + in_plane("x + " + near(0.4 * side, 0.1), "z + " + near(0, 0.1)) + "\n";
+  }
+  for (const int leg : {3, 4}) {
+    const std::string k = std::to_string(leg);
+    const double side = leg == 3 ? 1 : -1;
+    text += "  A" + k + ": " + triple(near(0, 0.3), near(0.7 * side, 0.2), near(0, 0.2)) + "\n";
+    text += "  B" + k + ": " +
+            triple(c + "*x + " + near(0, 0.2), s + "*x + " + near(0.35 * side, 0.1), "z + " + near(0, 0.2)) + "\n";
+  }
+  text += "links:\n  platform: {points: [P, B1, B2, B3, B4]}\n";
+  std::string joints = "joints:\n";
+  for (const int leg : {1, 2, 3, 4}) {
+    const std::string k = std::to_string(leg), way = "B" + k + " - A" + k;
+    text += "  cylinder" + k + ": {points: [A" + k + "]}\n  rod" + k + ": {points: [B" + k + "]}\n";
+    joints += "  A" + k +
+              (leg < 3 ? ": {revolute: [ground, cylinder" + k + "], at: A" + k + ", axis: [-" + s + ", " + c + ", 0]}\n"
+                       : ": {universal: [ground, cylinder" + k + "], at: A" + k +
+                             ", axes: [[1, 0, 0], 'cross([1, 0, 0], " + way + ")']}\n");
+    joints += "  S" + k + ": {prismatic: [cylinder" + k + ", rod" + k + "], at: B" + k + ", axis: '" + way +
+              "', actuated: true}\n  B" + k + ": {spherical: [rod" + k + ", platform], at: B" + k +
+              ", clearance: {radial: 10e-6}}\n";
+  }
+  return text + joints + "end_effector: {link: platform, at: P}\nloads:\n  - {link: platform, at: P, force: " +
+         triple(near(0, 40), near(0, 40), near(-100, 30)) +
+         ", couple: " + triple(near(0, 20), near(0, 20), near(0, 20)) + "}\n";
+}
+
 /// How far a vector turns from a to b, halving the way until it turns by little.
-double turn(const PinForce& force, const core::Point2& a, const core::Point2& b, const Eigen::Vector2d& at_a,
+template <class Force>
+double turn(const Force& force, const core::Point2& a, const core::Point2& b, const Eigen::Vector2d& at_a,
             const Eigen::Vector2d& at_b, int depth = 0) {
   const double angle = std::atan2(at_a.x() * at_b.y() - at_a.y() * at_b.x(), at_a.dot(at_b));
   if (std::abs(angle) < 0.6 || depth > 12) return angle;
@@ -85,11 +165,12 @@ struct TurnedCell {
 };
 
 /// The cells round which the force turns by a full turn: each has a zero of odd number.
-std::vector<TurnedCell> turned_cells(const PinForce& force, int n) {
-  constexpr double low = -0.4, width = 0.8;
+template <class Force>
+std::vector<TurnedCell> turned_cells(const Force& force, int n, const core::Point2& low = {-0.4, -0.4}) {
+  constexpr double width = 0.8;
   const auto place = [&](int i, int j) {
     // Off every symmetry.
-    return core::Point2{low + width * (i + 0.1234) / n, low + width * (j + 0.3141) / n};
+    return core::Point2{low[0] + width * (i + 0.1234) / n, low[1] + width * (j + 0.3141) / n};
   };
   std::vector<Eigen::Vector2d> nodes;
   for (int j = 0; j < n; ++j)
@@ -164,6 +245,40 @@ TEST(PinsInSpace, ContactIsLostAtPointsOfASlice) {
   }
   EXPECT_GT(points, 4);
   EXPECT_GT(cells, 3);
+}
+
+TEST(BallsInSpace, ContactIsLostAtPointsOfASlice) {
+  int points = 0, cells = 0;
+  for (unsigned number = 0; number < 12; ++number) {
+    const std::string text = two_legs_in_a_plane(number, number % 2 == 1);
+    SCOPED_TRACE(text);
+    const Mechanism m = mechanism::parse_mechanism(text, "legs.yaml");
+    const core::LocusMap map = trace_loci(m, {});
+    for (const std::string leg : {"1", "2"}) {
+      const BallForce force(m, leg);
+      const auto is_point_of = [&](const core::IsolatedPoint& point) {
+        return point.kind == core::LocusKind::contact_loss && loses_contact(point.vanishing, "B" + leg);
+      };
+      for (const core::IsolatedPoint& point : map.isolated_points) {
+        if (!is_point_of(point)) continue;
+        EXPECT_TRUE(point.certified) << point.at[0] << ", " << point.at[1];
+        EXPECT_LT(force.numerator(point.at).norm(), 1e-8);
+        ++points;
+      }
+      for (const TurnedCell& cell : turned_cells(force, 40, {-0.4, 0.6})) {
+        if (is_near_singularity(map, cell)) continue;
+        ++cells;
+        const bool listed =
+            std::any_of(map.isolated_points.begin(), map.isolated_points.end(), [&](const core::IsolatedPoint& point) {
+              return is_point_of(point) && cell.lower[0] <= point.at[0] && point.at[0] <= cell.upper[0] &&
+                     cell.lower[1] <= point.at[1] && point.at[1] <= cell.upper[1];
+            });
+        EXPECT_TRUE(listed) << "B" << leg << " near (" << cell.lower[0] << ", " << cell.lower[1] << ")";
+      }
+    }
+  }
+  EXPECT_GT(points, 3);
+  EXPECT_GT(cells, 2);
 }
 
 /// The first point of a slice at which a pin alone loses its contact, and the file that has it.
