@@ -262,11 +262,24 @@ class ModeZones {
     }
     std::size_t edges = face.walks.outer.size();
     for (const auto& walk : face.walks.inner) edges += walk.size();
-    for (int round = 0; round < most_refinements && face.error > area_accuracy * face.area; ++round) {
-      const double share = area_accuracy * face.area / static_cast<double>(edges);
+    const double least = area_of_roundings(face);
+    for (int round = 0; round < most_refinements; ++round) {
+      const double wanted = std::max(area_accuracy * face.area, least);
+      if (face.error <= wanted) return;
+      const double share = wanted / static_cast<double>(edges);
       if (!halve(face, [&](std::size_t e) { return !(beside_[e].error <= share); })) return;
       face = measured(std::move(face.walks));
     }
+  }
+
+  /// What a face's area is not known better than, since its vertices are doubles. What is left between curves that
+  /// meet all along may be as small.
+  double area_of_roundings(const Face& face) const {
+    double farthest = 0, outline = length_of(face.outer);
+    for (const auto* corner : {&map_.lower, &map_.upper})
+      for (const core::Rational& at : *corner) farthest = std::max(farthest, std::abs(core::to_double(at)));
+    for (const Polyline& hole : face.holes) outline += length_of(hole);
+    return std::numeric_limits<double>::epsilon() * farthest * outline;
   }
 
   /// The chords of the edges of a face that `wanted` is true for. False: of none.
