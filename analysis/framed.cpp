@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <map>
 #include <regex>
 #include <string>
 #include <utility>
+
+#include "core/dense_terms.hpp"
 
 namespace clearloci {
 namespace {
@@ -120,23 +124,45 @@ class Outward {
     return result + rest;
   }
 
-  /// p with (v - from) / scale in the place of v.
+  /// p with (v - from) / scale in the place of v, times a positive number: in whole numbers, for fractions would be
+  /// reduced at every step.
   core::Polynomial substituted(const core::Polynomial& p, int v, const Rational& from) const {
-    const int degree = core::degree_in(p, v);
-    const core::Polynomial way =
-        core::constant_polynomial(p.variables, 1 / frame_.scale) *
-        (core::variable_polynomial(p.variables, v) - core::constant_polynomial(p.variables, from));
-    core::Polynomial sum = core::constant_polynomial(p.variables, 0);
-    for (int power = degree; power >= 0; --power) {
-      core::Polynomial coefficient{p.variables, {}};
-      for (core::Term term : p.terms) {
-        if (term.exponents[static_cast<std::size_t>(v)] != power) continue;
-        term.exponents[static_cast<std::size_t>(v)] = 0;
-        coefficient.terms.push_back(std::move(term));
-      }
-      sum = sum * way + coefficient;
+    using core::Integer;
+    const auto at = static_cast<std::size_t>(v), degree = static_cast<std::size_t>(core::degree_in(p, v));
+    // (b v - a) n / d to the power of k, times d to the degree.
+    const Integer a = from.get_num(), b = from.get_den(), n = frame_.scale.get_den(), d = b * frame_.scale.get_num();
+    const core::WholeTerms whole = core::whole_terms(p);
+    std::map<std::vector<int>, std::vector<Integer>> rows;  // by the exponents of the other variables
+    for (std::size_t i = 0; i < p.terms.size(); ++i) {
+      std::vector<int> others = p.terms[i].exponents;
+      const auto power = static_cast<std::size_t>(std::exchange(others[at], 0));
+      rows.try_emplace(std::move(others), degree + 1).first->second[power] = whole.coefficients[i];
     }
-    return sum;
+    std::map<std::vector<int>, Integer, std::greater<>> terms;
+    for (auto& [others, row] : rows) {
+      multiply_by_powers(row.begin(), row.end(), n);
+      multiply_by_powers(row.rbegin(), row.rend(), d);
+      for (std::size_t i = 0; i < degree; ++i)
+        for (std::size_t k = degree; k-- > i;) mpz_submul(row[k].get_mpz_t(), a.get_mpz_t(), row[k + 1].get_mpz_t());
+      multiply_by_powers(row.begin(), row.end(), b);
+      for (std::size_t power = 0; power <= degree; ++power) {
+        if (row[power] == 0) continue;
+        std::vector<int> exponents = others;
+        exponents[at] = static_cast<int>(power);
+        terms.emplace(std::move(exponents), std::move(row[power]));
+      }
+    }
+    core::Polynomial result{p.variables, {}};
+    for (auto& [exponents, coefficient] : terms) result.terms.push_back({exponents, Rational(coefficient)});
+    return core::primitive_part(result);
+  }
+
+  /// The first by 1, the next by the factor, the next by its square.
+  template <class Iterator>
+  static void multiply_by_powers(Iterator from, Iterator to, const core::Integer& factor) {
+    if (factor == 1) return;
+    core::Integer power = 1;
+    for (; from != to; ++from, power *= factor) *from *= power;
   }
 
   static double length_of(const core::Polyline& points) {

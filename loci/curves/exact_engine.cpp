@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
 
 #include "loci/curves/abandonable.hpp"
@@ -14,6 +15,7 @@
 #include "loci/curves/out_of_reach.hpp"
 #include "loci/curves/plane_curve.hpp"
 #include "loci/curves/vertex_placement.hpp"
+#include "loci/search/search.hpp"
 #include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci {
@@ -56,6 +58,23 @@ CurveList distinct_curves(const LocusProblem& problem) {
   return list;
 }
 
+/// Known or not yet: it does not depend on the tolerance.
+std::shared_ptr<const CurveArrangement> arrangement_of(const LocusProblem& problem,
+                                                       const std::vector<core::Polynomial>& curves,
+                                                       const TraceOptions& options) {
+  const auto find = [&]() -> std::shared_ptr<const CurveArrangement> {
+    return std::make_shared<const CurveArrangement>(
+        curves, std::array{problem.lower[0], problem.lower[1]}, std::array{problem.upper[0], problem.upper[1]},
+        [&options] { return options.deadline && std::chrono::steady_clock::now() > *options.deadline; });
+  };
+  // Under a deadline whoever asks may go on before it is found.
+  if (options.searches == nullptr || options.deadline) return find();
+  using Key = sheet::KnownSearches::Key;
+  Key key = sheet::KnownSearches::key(Key::Kind::arrangement, problem.tower, {}, problem.lower, problem.upper);
+  key.polynomials.insert(key.polynomials.end(), curves.begin(), curves.end());
+  return options.searches->get<CurveArrangement>(key, find);
+}
+
 class ExactTrace {
  public:
   ExactTrace(const LocusProblem& problem, const TraceOptions& options, const IsWanted& is_wanted)
@@ -63,8 +82,8 @@ class ExactTrace {
         options_(options),
         is_wanted_(is_wanted),
         list_(distinct_curves(problem)),
-        arrangement_(list_.curves, {problem.lower[0], problem.lower[1]}, {problem.upper[0], problem.upper[1]},
-                     [&options] { return options.deadline && std::chrono::steady_clock::now() > *options.deadline; }),
+        found_(arrangement_of(problem, list_.curves, options)),
+        arrangement_(*found_),
         signs_(problem.tower, arrangement_),
         lines_(arrangement_.edges().size()),
         cones_(sheet::cones(problem.tower)) {
@@ -324,7 +343,8 @@ class ExactTrace {
   const TraceOptions& options_;
   const IsWanted& is_wanted_;
   CurveList list_;
-  CurveArrangement arrangement_;
+  std::shared_ptr<const CurveArrangement> found_;
+  const CurveArrangement& arrangement_;
   SheetSigns signs_;
   std::vector<int> sheets_;
   std::vector<core::ClosedForm> forms_;

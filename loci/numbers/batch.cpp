@@ -6,8 +6,7 @@
 namespace clearloci::loci::sheet::batch {
 
 void run_by_lanes(const Instruction* begin, const Instruction* end, const Batch* values, Batch* results) {
-  for (const Instruction* instruction = begin; instruction != end; ++instruction, ++results)
-    *results = result_of(instruction->operation, values[instruction->first], values[instruction->second]);
+  run_instructions(begin, end, values, results);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -20,30 +19,37 @@ using Wide __attribute__((vector_size(sizeof(Batch)), aligned(alignof(Batch)), m
 inline const Wide& wide(const Batch& a) { return reinterpret_cast<const Wide&>(a); }
 inline Wide& wide(Batch& a) { return reinterpret_cast<Wide&>(a); }
 
+/// As run_instructions().
 __attribute__((always_inline)) inline void run_wide(const Instruction* begin, const Instruction* end,
                                                     const Batch* values, Batch* results) {
   using Operation = SheetCode::Operation;
-  for (const Instruction* instruction = begin; instruction != end; ++instruction, ++results) {
-    const Batch& a = values[instruction->first];
-    const Batch& b = values[instruction->second];
-    switch (instruction->operation) {
+  while (begin != end) {
+    const Operation operation = begin->operation;
+    const auto go_on = [&] { return ++begin != end && begin->operation == operation; };
+    switch (operation) {
       case Operation::add:
-        wide(*results) = wide(a) + wide(b);
+        do wide(*results++) = wide(values[begin->first]) + wide(values[begin->second]);
+        while (go_on());
         break;
       case Operation::subtract:
-        wide(*results) = wide(a) - wide(b);
+        do wide(*results++) = wide(values[begin->first]) - wide(values[begin->second]);
+        while (go_on());
         break;
       case Operation::multiply:
-        wide(*results) = wide(a) * wide(b);
+        do wide(*results++) = wide(values[begin->first]) * wide(values[begin->second]);
+        while (go_on());
         break;
       case Operation::square:
-        wide(*results) = wide(a) * wide(a);
+        do wide(*results++) = wide(values[begin->first]) * wide(values[begin->first]);
+        while (go_on());
         break;
       case Operation::inverse:
-        wide(*results) = 1 / wide(a);
+        do wide(*results++) = 1 / wide(values[begin->first]);
+        while (go_on());
         break;
       default:
-        *results = result_of(instruction->operation, a, b);
+        do *results++ = result_of(operation, values[begin->first], values[begin->second]);
+        while (go_on());
     }
   }
 }

@@ -8,7 +8,7 @@
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
-#define CLEARLOCI_AVX2 __attribute__((target("avx2")))
+#define CLEARLOCI_AVX2 __attribute__((target("avx2,fma")))
 #define CLEARLOCI_AVX512 __attribute__((target("avx512f,avx512dq")))
 #endif
 
@@ -97,11 +97,15 @@ CLEARLOCI_WIDE inline Wide load(const double* from) { return _mm256_load_pd(from
 CLEARLOCI_WIDE inline void store(double* to, Wide a) { _mm256_store_pd(to, a); }
 CLEARLOCI_WIDE inline Wide plus(Wide a, Wide b) { return _mm256_add_pd(a, b); }
 CLEARLOCI_WIDE inline Wide times(Wide a, Wide b) { return _mm256_mul_pd(a, b); }
+CLEARLOCI_WIDE inline Wide times_plus(Wide a, Wide b, Wide c) { return _mm256_fmadd_pd(a, b, c); }
 CLEARLOCI_WIDE inline Wide largest(Wide a, Wide b) { return _mm256_max_pd(a, b); }
 CLEARLOCI_WIDE inline Wide least(Wide a, Wide b) { return _mm256_min_pd(a, b); }
 CLEARLOCI_WIDE inline Wide swapped(Wide a) { return _mm256_permute_pd(a, 0b0101); }
 CLEARLOCI_WIDE inline Wide magnitude(Wide a) { return _mm256_andnot_pd(all(-0.0), a); }
 CLEARLOCI_WIDE inline Wide number_or_zero(Wide a) { return _mm256_and_pd(a, _mm256_cmp_pd(a, a, _CMP_ORD_Q)); }
+CLEARLOCI_WIDE inline bool is_any_unordered(Wide a, Wide b) {
+  return _mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_UNORD_Q)) != 0;
+}
 CLEARLOCI_WIDE inline Wide negated(Wide a) { return _mm256_xor_pd(all(-0.0), a); }
 CLEARLOCI_WIDE inline Wide first_ends(Wide a, Wide b) { return _mm256_unpacklo_pd(a, b); }
 CLEARLOCI_WIDE inline Wide second_ends(Wide a, Wide b) { return _mm256_unpackhi_pd(a, b); }
@@ -128,6 +132,7 @@ CLEARLOCI_WIDE inline Wide load(const double* from) { return _mm512_load_pd(from
 CLEARLOCI_WIDE inline void store(double* to, Wide a) { _mm512_store_pd(to, a); }
 CLEARLOCI_WIDE inline Wide plus(Wide a, Wide b) { return _mm512_add_pd(a, b); }
 CLEARLOCI_WIDE inline Wide times(Wide a, Wide b) { return _mm512_mul_pd(a, b); }
+CLEARLOCI_WIDE inline Wide times_plus(Wide a, Wide b, Wide c) { return _mm512_fmadd_pd(a, b, c); }
 CLEARLOCI_WIDE inline Wide largest(Wide a, Wide b) { return _mm512_max_pd(a, b); }
 CLEARLOCI_WIDE inline Wide least(Wide a, Wide b) { return _mm512_min_pd(a, b); }
 CLEARLOCI_WIDE inline Wide swapped(Wide a) { return _mm512_permute_pd(a, 0b01010101); }
@@ -135,6 +140,7 @@ CLEARLOCI_WIDE inline Wide magnitude(Wide a) { return _mm512_andnot_pd(all(-0.0)
 CLEARLOCI_WIDE inline Wide number_or_zero(Wide a) {
   return _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(a, a, _CMP_ORD_Q), a);
 }
+CLEARLOCI_WIDE inline bool is_any_unordered(Wide a, Wide b) { return _mm512_cmp_pd_mask(a, b, _CMP_UNORD_Q) != 0; }
 CLEARLOCI_WIDE inline Wide negated(Wide a) { return _mm512_xor_pd(all(-0.0), a); }
 CLEARLOCI_WIDE inline Wide first_ends(Wide a, Wide b) { return _mm512_unpacklo_pd(a, b); }
 CLEARLOCI_WIDE inline Wide second_ends(Wide a, Wide b) { return _mm512_unpackhi_pd(a, b); }
@@ -168,7 +174,7 @@ void run_by_avx512(const Instruction* begin, const Instruction* end, const JetBa
   by_avx512::run_wide(begin, end, values, results, count);
 }
 
-bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
+bool has_avx2() { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0; }
 bool has_avx512() { return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0; }
 
 #else

@@ -1,4 +1,4 @@
-// What one instruction of a SheetProgram makes of numbers of any kind. Of interest to loci/numbers/ alone.
+// What the instructions of a SheetProgram make of numbers of any kind. Of interest to loci/numbers/ alone.
 #pragma once
 
 #include <cmath>
@@ -33,6 +33,37 @@ T result_of(SheetCode::Operation operation, const T& a, const T& b) {
   }
   core::ensure(false, "every operation is known");
   return a;
+}
+
+/// The instructions [begin, end) on registers `values`, their results from `results` on. Neighbours are mostly alike
+/// (SheetCode): what is to be done is told once for all of them.
+template <class T>
+void run_instructions(const SheetCode::Instruction* begin, const SheetCode::Instruction* end, const T* values,
+                      T* results) {
+  using Operation = SheetCode::Operation;
+  const auto run_alike = [&](const auto& of) {
+    const Operation operation = begin->operation;
+    do *results++ = of(values[begin->first], values[begin->second]);
+    while (++begin != end && begin->operation == operation);
+  };
+  while (begin != end) {
+    switch (const Operation operation = begin->operation) {
+      case Operation::add:
+        run_alike([](const T& a, const T& b) { return a + b; });
+        break;
+      case Operation::subtract:
+        run_alike([](const T& a, const T& b) { return a - b; });
+        break;
+      case Operation::multiply:
+        run_alike([](const T& a, const T& b) { return a * b; });
+        break;
+      case Operation::square:
+        run_alike([](const T& a, const T&) { return squared(a); });
+        break;
+      default:
+        run_alike([operation](const T& a, const T& b) { return result_of(operation, a, b); });
+    }
+  }
 }
 
 }  // namespace clearloci::loci::sheet

@@ -174,10 +174,7 @@ void SheetProgram::Registers<T>::run(int stage) {
   } else if constexpr (std::is_same_v<T, Batch>) {
     batch::run(code.instructions.data() + begin, code.instructions.data() + end, values, values + offset + begin);
   } else {
-    for (int i = begin; i < end; ++i) {
-      const SheetCode::Instruction& instruction = code.instructions[i];
-      values[offset + i] = result_of(instruction.operation, values[instruction.first], values[instruction.second]);
-    }
+    run_instructions(code.instructions.data() + begin, code.instructions.data() + end, values, values + offset + begin);
   }
 }
 

@@ -20,7 +20,7 @@ class KnownSearches {
  public:
   /// All that a search of one kind depends on. A function's straight line comes with its polynomial.
   struct Key {
-    enum class Kind { curve, zeros, algebra } kind = Kind::curve;
+    enum class Kind { curve, zeros, algebra, arrangement } kind = Kind::curve;
     core::WorkingMode mode;
     std::vector<core::Rational> box;            ///< its sides, then what the stars are
     std::vector<core::Polynomial> polynomials;  ///< squares and denominators of the tower, then functions

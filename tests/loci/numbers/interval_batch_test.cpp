@@ -108,6 +108,38 @@ TEST_P(Lanes, WhatOverflowsExcludesNothing) {
     }
 }
 
+/// Bounds that overflow, and what is computed with them: differences of infinities, their products with 0.
+TEST_P(Lanes, AreWhatIntervalsAreAloneWhereBoundsOverflow) {
+  std::mt19937_64 random(23);
+  std::uniform_int_distribution<int> draw(0, 6);
+  const std::array<Interval, 7> some = {Interval(0.0, 1e300),    Interval(-1e300, 1e300), Interval(1e200, 1e300),
+                                        Interval(-1e300, -1.0), Interval(0.0),           Interval(-0.5, 2.0),
+                                        Interval(1e-300, 1e-200)};
+  const std::vector<Instruction> code = {
+      {Operation::multiply, 0, 1}, {Operation::square, 0, 0},   {Operation::square, 2, 2},   {Operation::subtract, 2, 3},
+      {Operation::add, 4, 5},      {Operation::multiply, 6, 1}, {Operation::multiply, 5, 7}, {Operation::square, 6, 6},
+      {Operation::subtract, 8, 9}, {Operation::add, 10, 0}};
+  for (int i = 0; i < 400; ++i) {
+    std::array<IntervalBatch, 12> values;
+    std::array<std::array<Interval, 12>, IntervalBatch::size> alone;
+    for (std::size_t l = 0; l < IntervalBatch::size; ++l)
+      for (const std::size_t v : {0, 1})
+        alone[l][v] = values[v].lanes[l] = some.at(static_cast<std::size_t>(draw(random)));
+    run(code, values.data(), values.data() + 2);
+    for (std::size_t k = 0; k < code.size(); ++k)
+      for (std::size_t l = 0; l < IntervalBatch::size; ++l) {
+        const Interval &a = alone[l][static_cast<std::size_t>(code[k].first)],
+                       &b = alone[l][static_cast<std::size_t>(code[k].second)];
+        Interval& result = alone[l][2 + k];
+        result = code[k].operation == Operation::add        ? a + b
+                 : code[k].operation == Operation::subtract ? a - b
+                 : code[k].operation == Operation::multiply ? a * b
+                                                            : squared(a);
+        ASSERT_TRUE(same(values[2 + k].lanes[l], result)) << k;
+      }
+  }
+}
+
 /// A function's value, its value at the middle and its slopes, as jets carry them, or not bounded.
 template <std::size_t N>
 void expect_jets_as_alone(RunJets<N> run) {
