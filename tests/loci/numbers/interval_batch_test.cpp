@@ -113,12 +113,13 @@ TEST_P(Lanes, AreWhatIntervalsAreAloneWhereBoundsOverflow) {
   std::mt19937_64 random(23);
   std::uniform_int_distribution<int> draw(0, 6);
   const std::array<Interval, 7> some = {Interval(0.0, 1e300),    Interval(-1e300, 1e300), Interval(1e200, 1e300),
-                                        Interval(-1e300, -1.0), Interval(0.0),           Interval(-0.5, 2.0),
+                                        Interval(-1e300, -1.0),  Interval(0.0),           Interval(-0.5, 2.0),
                                         Interval(1e-300, 1e-200)};
-  const std::vector<Instruction> code = {
-      {Operation::multiply, 0, 1}, {Operation::square, 0, 0},   {Operation::square, 2, 2},   {Operation::subtract, 2, 3},
-      {Operation::add, 4, 5},      {Operation::multiply, 6, 1}, {Operation::multiply, 5, 7}, {Operation::square, 6, 6},
-      {Operation::subtract, 8, 9}, {Operation::add, 10, 0}};
+  const std::vector<Instruction> code = {{Operation::multiply, 0, 1}, {Operation::square, 0, 0},
+                                         {Operation::square, 2, 2},   {Operation::subtract, 2, 3},
+                                         {Operation::add, 4, 5},      {Operation::multiply, 6, 1},
+                                         {Operation::multiply, 5, 7}, {Operation::square, 6, 6},
+                                         {Operation::subtract, 8, 9}, {Operation::add, 10, 0}};
   for (int i = 0; i < 400; ++i) {
     std::array<IntervalBatch, 12> values;
     std::array<std::array<Interval, 12>, IntervalBatch::size> alone;
