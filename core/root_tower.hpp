@@ -57,7 +57,7 @@ void rewrite(Root& root, const Rewrite& as) {
 inline constexpr int angle_shift = 4;
 
 /// The way from one end of a dyad to the other, over the tower: numerators over a positive denominator, and the way as
-/// it is computed. Where both vanish the construction is undefined.
+/// it is computed. Where both vanish the construction is undefined. Without lines: the way along a telescopic leg.
 struct DyadBase {
   Polynomial x, y;
   StraightLine x_line, y_line;
@@ -69,7 +69,7 @@ struct RootTower {
   /// Squared distances that the construction divides by (the D of method.md section 1, cleared of denominators),
   /// in (coordinates..., s1...sm): >= 0 everywhere; where one vanishes the construction is undefined.
   std::vector<Polynomial> denominators;
-  /// Of the dyads between points that are not fixed: their squared distances are among the denominators.
+  /// Of telescopic legs and of dyads between points that are not fixed: their squares are among the denominators.
   std::vector<DyadBase> bases = {};
 
   int variables() const { return static_cast<int>(coordinates.size() + roots.size()); }

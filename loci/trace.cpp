@@ -54,7 +54,7 @@ void add_points(const LocusProblem& problem, const TraceOptions& options, bool w
     add_contact_loss_points(problem, mode, map, stop,
                             options.sketch ? sheet::cells_of_a_sketch : sheet::ZeroOptions().most_cells,
                             options.searches);
-    add_touching_points(problem, mode, map);
+    add_singular_points(problem, mode, map);
   }
   // A point that lies on an arc which is withheld looks isolated.
   for (std::size_t i = count_before; withheld && i < map.isolated_points.size(); ++i)

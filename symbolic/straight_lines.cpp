@@ -134,6 +134,22 @@ void StraightLines::let(int ring_variable, int root, const Poly& divisor) {
   known_[ring_variable] = builder_.multiply(builder_.variable(root), builder_.inverse(below));
 }
 
+namespace {
+
+/// In the plane: numerators of a vector over the tower.
+std::array<Poly, 2> way_over_tower(const Geometry& geometry, const mechanism::VectorExpression& vector) {
+  const std::vector<GiNaC::ex> natural = geometry.vector(vector);
+  std::array<Poly, 2> parts = {geometry.poly(natural[0]), geometry.poly(natural[1])};
+  for (const Substitution& pair : geometry.substitutions()) {
+    const int degree = std::max(Geometry::degree_in(parts[0], pair), Geometry::degree_in(parts[1], pair));
+    for (Poly& part : parts)
+      if (degree > 0) part = geometry.substituted(part, pair, degree);
+  }
+  return {geometry.reduce(parts[0]), geometry.reduce(parts[1])};
+}
+
+}  // namespace
+
 core::RootTower StraightLines::tower() {
   core::RootTower tower = geometry_->plain_tower();
   for (std::size_t j = 0; j < tower.roots.size(); ++j) tower.roots[j].line = square(j);
@@ -142,6 +158,13 @@ core::RootTower StraightLines::tower() {
     if (auto lines = way(dyad_way.point))
       tower.bases.push_back(
           {dyad_way.x.plain(variables), dyad_way.y.plain(variables), std::move((*lines)[0]), std::move((*lines)[1])});
+  if (geometry_->mechanism().space != mechanism::Space::planar) return tower;
+  for (const mechanism::Joint& joint : geometry_->mechanism().joints)
+    for (const mechanism::VectorExpression& axis : joint.axes) {
+      const auto [x, y] = way_over_tower(*geometry_, axis);
+      const core::DyadBase leg = {x.plain(variables), y.plain(variables), {}, {}};
+      if (!leg.x.is_constant() || !leg.y.is_constant()) tower.bases.push_back(leg);
+    }
   return tower;
 }
 

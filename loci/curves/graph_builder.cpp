@@ -89,7 +89,8 @@ void GraphBuilder::pair_in_leaves(int patch) {
     });
     bool clear = seen.size() % 2 == 0 && !open_[patch][index];
     for (std::size_t i = 0; i + 1 < seen.size(); ++i)
-      clear = clear && seen[i].enclosure[v].upper() < seen[i + 1].enclosure[v].lower();
+      clear = clear && (seen[i].enclosure[v].upper() < seen[i + 1].enclosure[v].lower() ||
+                        (i % 2 != 0 && seen[i].crossing == seen[i + 1].crossing));
     if (!clear) {
       unlucky_ = true;
       graph_.undecided.push_back(graph_.patches[patch].chart.to_plane(leaf_data.cell));

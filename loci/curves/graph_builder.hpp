@@ -81,9 +81,13 @@ class GraphBuilder {
     bool at_end[2] = {false, false};
   };
 
+  /// Takes the clusters of cells at a star in which the curve's direction is a double one out of what is undecided: a
+  /// zero is there twice, or not at all where no branch arrives. Required: the curve is a graph over t there.
+  void settle_touches(int patch, FoundZeros& found) const;
+
   std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
                                                              double from, double to, std::size_t most_cells,
-                                                             bool at_star, Trouble& trouble);
+                                                             bool at_star, bool is_graph, Trouble& trouble);
 
   std::size_t cells_on_edge() const { return options_.extended ? most_cells_on_edge : most_cells_on_edge_of_a_sketch; }
 

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <span>
 
+#include "loci/curves/star_touch.hpp"
+
 namespace clearloci::loci::sheet {
 namespace {
 
@@ -22,6 +24,9 @@ constexpr std::size_t few_cells_on_edge = 32, edges_at_a_time = 256, many_hard_e
 constexpr std::size_t hard_edges_at_a_time = 16;
 
 constexpr std::ptrdiff_t many_edges_given_up = 64;
+
+// A double zero over the directions from a star is left open down to this width at most.
+constexpr double widest_star_touch = 1e-5;
 
 constexpr std::size_t most_rim_cells = 8192;
 
@@ -53,7 +58,7 @@ std::optional<bool> GraphBuilder::enters_mode(int patch, const std::vector<Inter
   for (std::size_t j = 0; j < mode_.size(); ++j)
     if (zero[2 + j].sign() == 0) vanishing.push_back(static_cast<int>(j));
   const Star& star = parts_.stars[static_cast<std::size_t>(graph_.patches[patch].chart.star)];
-  if (vanishing.size() != 1 || star.apex) return std::nullopt;
+  if (vanishing.size() != 1 || (star.apex && !star.apex->exact)) return std::nullopt;
   const auto j = static_cast<std::size_t>(vanishing.front());
   if (!vanishes_with(star, tower_, around(star, curve_.polynomial), vanishing.front())) return std::nullopt;
   SheetCell cell(*graph_.patches[patch].program, mode_);
@@ -77,11 +82,30 @@ bool GraphBuilder::leave_those_in_mode(int patch, std::vector<std::vector<Interv
   return true;
 }
 
+void GraphBuilder::settle_touches(int patch, FoundZeros& found) const {
+  const std::vector<PlaneCell> places = clusters(found.undecided);
+  if (std::any_of(places.begin(), places.end(),
+                  [](const PlaneCell& cell) { return cell.y.width() > widest_star_touch; }))
+    return;
+  Charting charting(tower_, {curve_}, parts_.stars);
+  const ChartedSheet sheet = charting.in(graph_.patches[patch].chart);
+  std::vector<std::vector<Interval>> zeros;
+  for (const PlaneCell& cell : places) {
+    const std::optional<StarTouch> touch = star_touch(graph_.patches[patch].chart, sheet, mode_, cell.y);
+    if (!touch) return;
+    if (touch->enters) zeros.insert(zeros.end(), 2, touch->enclosure);
+  }
+  found.undecided.clear();
+  found.gave_up = false;
+  found.enclosures.insert(found.enclosures.end(), zeros.begin(), zeros.end());
+}
+
 std::optional<std::vector<std::vector<Interval>>> GraphBuilder::zeros_on(int patch, ZeroSearch& search, int axis,
                                                                          double at, double from, double to,
                                                                          std::size_t most_cells, bool at_star,
-                                                                         Trouble& trouble) {
+                                                                         bool is_graph, Trouble& trouble) {
   FoundZeros found = search.run({segment_of(axis, at, from, to)}, limits_on_edge(patch, most_cells));
+  if (at_star && is_graph && !found.undecided.empty()) settle_touches(patch, found);
   // As many as that are left where none of all halves, halved again, was excluded.
   trouble.runs_along = found.gave_up && found.undecided.size() >= 2 * most_cells;
   const double ends = well_inside * (to - from);
@@ -203,7 +227,9 @@ void GraphBuilder::meet_border(int patch) {
             runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
         Trouble trouble;
         const bool at_star = side != Side::plane && axis == 0 && end < 0;
-        auto zeros = zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, at_star, trouble);
+        const bool is_graph = leaf(patch, index).kind == LeafKind::graph && leaf(patch, index).along == 1;
+        auto zeros =
+            zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, at_star, is_graph, trouble);
         runs_along = runs_along || trouble.runs_along;
         if (!zeros) {
           give_up_on(patch, index);
@@ -236,7 +262,11 @@ void GraphBuilder::hand_over(int patch, int index, int axis, int end, std::vecto
     return;
   }
   if (axis == 0 && end < 0) {
-    at_leaf_[patch][index].push_back({add_crossing(patch, zero, Crossing::Kind::star), zero});
+    // Two branches that arrive side by side do so in one crossing.
+    std::vector<LeafCrossing>& seen = at_leaf_[patch][index];
+    const bool again = !seen.empty() && graph_.crossings[seen.back().crossing].kind == Crossing::Kind::star &&
+                       seen.back().enclosure[1].middle() == zero[1].middle();
+    seen.push_back({again ? seen.back().crossing : add_crossing(patch, zero, Crossing::Kind::star), zero});
     return;
   }
   int other = 0, other_leaf = -1;

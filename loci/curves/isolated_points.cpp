@@ -259,9 +259,15 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     auto& [factors, found] = *searches[i];
     std::vector<sheet::SheetFunction> functions;
     for (const core::LocusFactor* factor : factors) functions.push_back({factor->sheet, factor->line});
+    // Where both have gradients a leg without length is a common zero like others. |A| vanishes there, too.
+    std::vector<sheet::Star> stars = cones;
+    std::erase_if(stars, [&functions](const sheet::Star& star) {
+      return star.no_length && !star.is_sheared() && sheet::is_smooth_at(star, functions[0].polynomial) &&
+             sheet::is_smooth_at(star, functions[1].polynomial);
+    });
     found = sheet::isolated_zeros(problem.tower, mode, functions[0], functions[1], problem.lower, problem.upper,
                                   {.most_cells = most_cells,
-                                   .special = cones,
+                                   .special = std::move(stars),
                                    .also = {functions.begin() + 2, functions.end()},
                                    .stop = stop,
                                    .searches = known_searches});
@@ -322,18 +328,36 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
   doubts.tell(map.notes);
 }
 
-void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
+namespace {
+
+/// |A| vanishes at a star of the box; added where no curve of the map with |A| = 0 passes within `reach` in the mode.
+void add_singular_point(const LocusProblem& problem, const WorkingMode& mode, const sheet::Star& star, double reach,
+                        LocusMap& map) {
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
+  const core::Point2 at = {core::to_double(star.x), core::to_double(star.y)};
+  const bool reached = std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
+    return curve.mode == mode && curve.kind == LocusKind::direct_singularity && passes(curve, at, reach);
+  });
+  if (!reached) add_point(map, 0, {LocusKind::direct_singularity, {}, {at[0], at[1]}, mode, true}, 1e-9 * size);
+}
+
+}  // namespace
+
+void add_singular_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
+  const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
+                               core::to_double(problem.upper[1] - problem.lower[1]));
+  const auto is_pose = [&](const sheet::Star& star) {
+    const core::Rational r = star.apex ? star.apex->radius : core::Rational(0);
+    const PointEnclosure at = {{star.x - r, star.y - r}, {star.x + r, star.y + r}};
+    for (std::size_t c = 0; c < 2; ++c)
+      if (at.lower[c] < problem.lower[c] || problem.upper[c] < at.upper[c]) return false;
+    return !on_sheet(problem.tower, mode, at).empty();
+  };
   for (const sheet::Star& touch : sheet::touches(problem.tower)) {
     std::vector<core::Rational> exact(static_cast<std::size_t>(problem.tower.variables()), core::Rational(0));
     exact[0] = touch.x;
     exact[1] = touch.y;
-    const bool in_box = problem.lower[0] <= touch.x && touch.x <= problem.upper[0] && problem.lower[1] <= touch.y &&
-                        touch.y <= problem.upper[1];
-    const std::vector<MultiInterval> on = on_sheet(problem.tower, mode, {{touch.x, touch.y}, {touch.x, touch.y}});
-    if (!in_box || on.empty()) continue;
-    const core::Point2 at = {core::to_double(touch.x), core::to_double(touch.y)};
     const auto vanishes = [&](const core::Polynomial& sheet) {
       for (std::size_t j = 0; j < problem.tower.roots.size(); ++j)
         if (touch.power_of_root(static_cast<int>(j)) == 0 && core::depends_on(sheet, 2 + static_cast<int>(j)))
@@ -344,12 +368,11 @@ void add_touching_points(const LocusProblem& problem, const WorkingMode& mode, L
         std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
           return factor.role == FactorRole::direct_singularity && vanishes(factor.sheet);
         });
-    const bool reached = std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
-      return curve.mode == mode && curve.kind == LocusKind::direct_singularity && passes(curve, at, 1e-9 * size);
-    });
-    if (singular && !reached)
-      add_point(map, 0, {LocusKind::direct_singularity, {}, {at[0], at[1]}, mode, true}, 1e-9 * size);
+    if (singular && is_pose(touch)) add_singular_point(problem, mode, touch, 1e-9 * size, map);
   }
+  for (const sheet::Star& star : sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper))
+    if (star.no_length && is_pose(star))  // where a curve is smooth it need have no vertex
+      add_singular_point(problem, mode, star, 2 * problem.tolerance, map);
 }
 
 void drop_points_on_curves(LocusMap& map) {

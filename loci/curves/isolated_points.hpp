@@ -24,9 +24,9 @@ inline bool is_undirected_pin(const core::LocusFactor& factor, const std::string
 void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map,
                              const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* searches);
 
-/// The points at which workspace boundaries touch and |A| vanishes though no curve of the map with |A| = 0 arrives in
-/// this mode: both legs are in line with each other there.
-void add_touching_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
+/// The points at which |A| vanishes though no curve of the map with |A| = 0 arrives in this mode: where workspace
+/// boundaries touch, for both legs are in line with each other there, and where a telescopic leg has no length.
+void add_singular_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map);
 
 /// Leaves out points at which nothing vanishes but what does along a curve of the map that passes through them, as at a
 /// star that a factor reaches along one of its curves and that another of them is: they are none of their own.

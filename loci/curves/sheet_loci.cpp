@@ -150,6 +150,19 @@ core::Polyline close_vertices(const core::Polyline& points, const core::ClosedFo
   return line;
 }
 
+/// Where legs have no length, for one function: none where it is smooth, for it passes through there as it is. One that
+/// holds no root which vanishes there is no longer of the order of the leg, but of the second one like any other.
+void fit_legs(const core::RootTower& tower, const core::Polynomial& function, std::vector<sheet::Star>& stars) {
+  std::erase_if(stars, [&](const sheet::Star& star) { return star.no_length && sheet::is_smooth_at(star, function); });
+  for (sheet::Star& star : stars) {
+    const bool has_root = std::any_of(star.roots.begin(), star.roots.end(),
+                                      [&](int root) { return core::depends_on(function, 2 + root); });
+    if (!star.no_length || !star.is_sheared() || has_root) continue;
+    star.shape = sheet::Star::Shape::cone;
+    sheet::settle_roots(star, tower);
+  }
+}
+
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
                               const CurveAlgebras& algebras, const std::vector<sheet::NestedMeeting>& nested,
                               const MarginNodes& nodes, sheet::SheetTraceOptions options) {
@@ -168,6 +181,7 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
     corner.singular = is_singular(problem, mode, corner);
     options.special.push_back(std::move(corner));
   }
+  fit_legs(problem.tower, factor.sheet, options.special);
   for (sheet::Star& node : nodes.of(factor)) options.special.push_back(std::move(node));
   std::vector<sheet::Cutter> cutters;
   std::vector<const LocusFactor*> shared;

@@ -135,7 +135,7 @@ void Tracer::cut_at_stars(const Subtower& both, const Cut& cut, const Partition&
     const bool is_on_boundary =
         star.shape == Star::Shape::corner &&
         std::any_of(star.roots.begin(), star.roots.end(), [&](int root) { return star.power_of_root(root) > 1; });
-    if (star.shape != Star::Shape::cone && !is_on_boundary) continue;
+    if (star.shape != Star::Shape::cone && !star.no_length && !is_on_boundary) continue;
     std::vector<Crossing*> ends;
     for (Crossing& crossing : graph_.crossings)
       if (crossing.kind == Crossing::Kind::star && own_stars_[crossing.star].at_same_place(star))

@@ -41,8 +41,9 @@ void add_line(const core::StraightLine& line, KnownSearches::Key& key) {
 
 SheetFunction square_of(const core::RootTower& tower, int root, const std::vector<Star>& special) {
   const core::Root& root_of_line = tower.roots[static_cast<std::size_t>(root)];
-  bool by_line = std::any_of(special.begin(), special.end(),
-                             [&](const Star& star) { return star.apex && star.power_of_root(root) > 0; });
+  bool by_line = std::any_of(special.begin(), special.end(), [&](const Star& star) {
+    return star.apex && !star.apex->exact && star.power_of_root(root) > 0;
+  });
   if (root_of_line.role == core::RootRole::working_mode)
     for (std::size_t j = 0; j < tower.roots.size(); ++j)
       by_line = by_line || core::depends_on(root_of_line.square, 2 + static_cast<int>(j));

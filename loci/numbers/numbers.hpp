@@ -13,6 +13,7 @@
 #include "loci/numbers/jet.hpp"
 #include "loci/numbers/jet_batch.hpp"
 #include "loci/numbers/multi_interval.hpp"
+#include "loci/numbers/number_field.hpp"
 #include "loci/numbers/sheet_program.hpp"
 #include "loci/numbers/tower_algebra.hpp"
 #include "loci/numbers/univariate.hpp"

@@ -1,6 +1,7 @@
 #include "loci/numbers/univariate.hpp"
 
 #include <flint/fmpz_poly.h>
+#include <flint/fmpz_poly_factor.h>
 
 #include <algorithm>
 
@@ -141,6 +142,23 @@ Univariate square_free_part(const Univariate& p) {
   if (p.size() <= 2) return p;
   const Univariate common = greatest_common_divisor(p, derivative(p));
   return common.size() <= 1 ? p : exact_quotient(p, common);
+}
+
+std::vector<Univariate> irreducible_factors(const Univariate& p) {
+  const FlintPoly whole(p);
+  fmpz_poly_factor_t found;
+  fmpz_poly_factor_init(found);
+  fmpz_poly_factor(found, whole.get());
+  std::vector<Univariate> factors;
+  for (slong i = 0; i < found->num; ++i) {
+    Univariate factor(static_cast<std::size_t>(fmpz_poly_length(found->p + i)));
+    for (std::size_t k = 0; k < factor.size(); ++k)
+      fmpz_poly_get_coeff_mpz(factor[k].get_mpz_t(), found->p + i, static_cast<slong>(k));
+    factors.push_back(std::move(factor));
+  }
+  fmpz_poly_factor_clear(found);
+  for (Univariate& factor : factors) make_primitive(factor);
+  return factors;
 }
 
 int sign_at(const Univariate& p, const Rational& x) {

@@ -25,6 +25,9 @@ Univariate exact_quotient(const Univariate& a, const Univariate& b);
 
 Univariate square_free_part(const Univariate& p);
 
+/// Those over Q of a polynomial that is not zero, each once.
+std::vector<Univariate> irreducible_factors(const Univariate& p);
+
 int sign_at(const Univariate& p, const core::Rational& x);
 
 /// The one root of `polynomial` between the ends, which is no root itself; the root itself where the ends are equal.

@@ -160,10 +160,7 @@ class Nodes {
   std::vector<SheetFunction> functions_;  ///< the two that are looked for, all parts, the probe
 };
 
-/// Of a way that is linear in the coordinates. Over the half tangents of angles it is not.
-bool is_at_rational_point(const core::DyadBase& base) {
-  return core::total_degree(base.x) <= 1 && core::total_degree(base.y) <= 1;
-}
+bool is_linear(const core::DyadBase& way) { return core::total_degree(way.x) <= 1 && core::total_degree(way.y) <= 1; }
 
 }  // namespace
 
@@ -171,9 +168,19 @@ std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::Worki
                                  const std::vector<Rational>& lower, const std::vector<Rational>& upper) {
   const Surroundings box(lower, upper);
   std::vector<Star> stars;
+  const auto add = [&](Star star) {
+    const bool is_known =
+        std::any_of(stars.begin(), stars.end(), [&](const Star& other) { return other.at_same_place(star); });
+    if (!is_known) stars.push_back(std::move(star));
+  };
   for (const core::DyadBase& base : tower.bases) {
+    if (!is_leg(base) && is_linear(base)) continue;  // cones() knows it exactly
+    if (std::optional<std::vector<Star>> exact = zeros_of_way(tower, base, box.lower, box.upper)) {
+      for (Star& star : *exact) add(std::move(star));
+      continue;
+    }
+    if (is_leg(base)) continue;  // of what vanishes with it nothing is recognised
     const Subtower part = subtower(tower, mode, {base.x, base.y});
-    if (is_at_rational_point(base)) continue;  // known exactly, or nowhere
     const SheetFunction x = {narrowed(base.x, part), narrowed(base.x_line, part)};
     const SheetFunction y = {narrowed(base.y, part), narrowed(base.y_line, part)};
     const ZeroSet found = isolated_zeros(part.tower, part.mode, x, y, box.lower, box.upper);
@@ -185,7 +192,7 @@ std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::Worki
       if (!star) continue;
       star->apex->vanishing = {base.x_line, base.y_line};
       find_roots_of(*star, tower);
-      if (!star->roots.empty()) stars.push_back(std::move(*star));
+      if (!star->roots.empty()) add(std::move(*star));
     }
   }
   return stars;

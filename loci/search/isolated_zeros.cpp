@@ -20,6 +20,7 @@ constexpr double at_rounding = 1e-12;
 /// The direction from end to end is, so that roots vanish; at nodes of a function alone none do. Of a cone that a
 /// boundary runs through they vanish with the second power at least.
 bool is_undefined_at(const Star& star) {
+  if (star.no_length) return true;
   if (star.shape == Star::Shape::corner)
     return std::any_of(star.roots.begin(), star.roots.end(), [&](int root) { return star.power_of_root(root) > 1; });
   return star.shape == Star::Shape::cone && !star.roots.empty();

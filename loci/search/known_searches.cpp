@@ -25,9 +25,10 @@ KnownSearches::Key KnownSearches::key(Key::Kind kind, const core::RootTower& tow
   for (const Star& star : stars) {
     result.box.insert(result.box.end(), {star.x, star.y, star.slope});
     if (std::isfinite(star.room)) result.box.emplace_back(star.room);
-    result.numbers.insert(result.numbers.end(),
-                          {static_cast<int>(star.shape), star.along_y ? 1 : 0, star.singular ? 1 : 0,
-                           std::isfinite(star.room) ? 1 : 0, star.apex ? 1 : 0, static_cast<int>(star.roots.size())});
+    result.numbers.insert(
+        result.numbers.end(),
+        {static_cast<int>(star.shape), star.along_y ? 1 : 0, star.singular ? 1 : 0, star.no_length ? 1 : 0,
+         std::isfinite(star.room) ? 1 : 0, star.apex ? 1 : 0, static_cast<int>(star.roots.size())});
     result.numbers.insert(result.numbers.end(), star.roots.begin(), star.roots.end());
     if (!star.apex) continue;
     result.box.push_back(star.apex->radius);

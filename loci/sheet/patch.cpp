@@ -189,7 +189,7 @@ const Charting::AtStar& Charting::at_star(int index) {
   AtStar at_star;
   at_star.star = index;
   const Star& star = stars_[index];
-  if (star.apex) {
+  if (star.apex && !star.apex->exact) {
     for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
       const core::Root& root = tower_.roots[j];
       at_star.squares.push_back(root.is_angle() ? polar_angle(star, tower_, root)
@@ -297,9 +297,12 @@ Partition partition(const core::RootTower& tower, const std::array<double, 4>& b
                     const std::vector<Star>& special, bool skewed) {
   std::vector<Star> all = cones(tower);
   for (const Star& star : special) {
-    const bool taken =
-        std::any_of(all.begin(), all.end(), [&](const Star& other) { return other.at_same_place(star); });
-    if (!taken) all.push_back(star);
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const Star& other) { return other.at_same_place(star); });
+    if (known == all.end())
+      all.push_back(star);
+    else
+      known->no_length = known->no_length || star.no_length;
     bases.push_back(place_of(star));
   }
   Partition result;

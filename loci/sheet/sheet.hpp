@@ -23,3 +23,4 @@
 #include "loci/sheet/smooth_cell.hpp"
 #include "loci/sheet/star.hpp"
 #include "loci/sheet/subtower.hpp"
+#include "loci/sheet/way_zeros.hpp"

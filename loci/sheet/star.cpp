@@ -34,6 +34,8 @@ void add(std::vector<Star>& stars, Star star) {
   if (!again) stars.push_back(std::move(star));
 }
 
+bool is_algebraic(const Star& star) { return star.apex && star.apex->exact; }
+
 /// The other roots' squares do not vanish there too: what happens then is not told by two circles.
 bool alone(const core::RootTower& tower, const Star& star) {
   std::vector<Rational> at(static_cast<std::size_t>(tower.variables()), Rational(0));
@@ -87,6 +89,22 @@ namespace {
 
 enum class Roots { absent, smooth, halved };
 
+/// Whether a square is negative at a star, where it stands on no other root.
+bool is_negative_at(const Star& star, const core::RootTower& tower, const Polynomial& around_star) {
+  NumberField::Element value;
+  for (const core::Term& term : around_star.terms) {
+    const auto roots = term.exponents.begin() + 2;
+    if (std::any_of(roots, roots + static_cast<std::ptrdiff_t>(tower.roots.size()), [](int e) { return e != 0; }))
+      return false;
+    if (term.exponents[0] != 0 || term.exponents[1] != 0) continue;
+    const auto power = static_cast<std::size_t>(is_algebraic(star) ? term.exponents.back() : 0);
+    if (value.size() <= power) value.resize(power + 1);
+    value[power] += term.coefficient;
+  }
+  if (is_algebraic(star)) return star.apex->exact->field.enclosure(value).sign() < 0;
+  return !value.empty() && value.front() < 0;
+}
+
 /// Finds the roots that vanish at a star, by the orders of their squares. Halved: of an odd order one vanishes as the
 /// root of the distance does, for a workspace boundary passes through.
 Roots find_roots(Star& star, const core::RootTower& tower) {
@@ -100,11 +118,7 @@ Roots find_roots(Star& star, const core::RootTower& tower) {
     const int order = order_at(star, square);
     is_halved = is_halved || order % 2 != 0;
     star.roots.insert(star.roots.end(), static_cast<std::size_t>(order / 2), static_cast<int>(j));
-    if (square.is_constant()) continue;
-    const std::vector<int> origin(square.variables, 0);
-    if (square.terms.back().exponents == origin && square.terms.back().coefficient < 0 &&
-        std::none_of(square.terms.begin(), square.terms.end(), has_roots))
-      return Roots::absent;
+    if (!square.is_constant() && is_negative_at(star, tower, square)) return Roots::absent;
   }
   return is_halved ? Roots::halved : Roots::smooth;
 }
@@ -119,14 +133,27 @@ std::vector<Star> cones(const core::RootTower& tower) {
     Star star;
     star.x = (*place)[0];
     star.y = (*place)[1];
-    Roots found = find_roots(star, tower);
-    if (found == Roots::halved && !star.roots.empty()) {
-      star.shape = Star::Shape::corner;
-      found = find_roots(star, tower);
-    }
-    if (found != Roots::absent && !star.roots.empty()) add(result, std::move(star));
+    if (settle_roots(star, tower) && !star.roots.empty()) add(result, std::move(star));
   }
   return result;
+}
+
+bool settle_roots(Star& star, const core::RootTower& tower) {
+  Roots found = find_roots(star, tower);
+  if (found == Roots::halved && (star.no_length || !star.roots.empty())) {
+    if (star.is_sheared()) return false;
+    star.shape = Star::Shape::corner;
+    found = find_roots(star, tower);
+  }
+  return found != Roots::absent;
+}
+
+bool is_smooth_at(const Star& star, const Polynomial& function) {
+  if (std::any_of(star.roots.begin(), star.roots.end(), [&](int root) { return core::depends_on(function, 2 + root); }))
+    return false;
+  const Polynomial around_star = around(star, function);
+  return std::any_of(around_star.terms.begin(), around_star.terms.end(),
+                     [](const core::Term& term) { return term.exponents[0] + term.exponents[1] <= 1; });
 }
 
 namespace {
@@ -260,7 +287,7 @@ std::vector<Star> with_what_vanishes(std::vector<Star> stars) {
 std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
   for (Star& star : stars) {
     if (star.apex) {
-      Apex apex{star.apex->radius, {}};
+      Apex apex{star.apex->radius, {}, {}, star.apex->exact};
       for (const core::StraightLine& line : star.apex->vanishing) apex.vanishing.push_back(narrowed(line, part));
       for (const int root : part.kept) apex.roots.push_back(star.apex->roots[static_cast<std::size_t>(root)]);
       star.apex = std::move(apex);
@@ -289,7 +316,46 @@ std::vector<Star> on_rim(std::vector<Star> stars, int root) {
   return with_what_vanishes(std::move(stars));
 }
 
+namespace {
+
+/// p(x, y, roots...) at an algebraic point plus (X, Y), one coordinate after the other; alpha is the last variable.
+Polynomial around_algebraic(const AlgebraicPoint& point, const Polynomial& p) {
+  using Element = NumberField::Element;
+  std::map<std::vector<int>, Element, std::greater<>> moved;
+  for (const core::Term& term : p.terms) moved[term.exponents] = {term.coefficient};
+  for (const std::size_t c : {0, 1}) {
+    std::vector<Element> powers = {{1}};
+    for (int k = 0; k < core::degree_in(p, static_cast<int>(c)); ++k)
+      powers.push_back(point.field.product(powers.back(), c == 0 ? point.x : point.y));
+    std::map<std::vector<int>, Element, std::greater<>> next;
+    for (const auto& [exponents, coefficient] : moved) {
+      const int power = exponents[c];
+      std::vector<int> place = exponents;
+      Rational binomial = 1;
+      for (int k = 0; k <= power; ++k) {
+        place[c] = k;
+        Element& sum = next[place];
+        const Element part = point.field.product(coefficient, powers[static_cast<std::size_t>(power - k)]);
+        sum = point.field.sum(sum, point.field.times(part, binomial));
+        binomial = binomial * (power - k) / (k + 1);
+      }
+    }
+    moved = std::move(next);
+  }
+  Collected collected;
+  for (const auto& [exponents, coefficient] : moved)
+    for (std::size_t k = 0; k < coefficient.size(); ++k) {
+      std::vector<int> place = exponents;
+      place.push_back(static_cast<int>(k));
+      collected[place] = coefficient[k];
+    }
+  return as_polynomial(p.variables + 1, collected);
+}
+
+}  // namespace
+
 Polynomial around(const Star& star, const Polynomial& p) {
+  if (is_algebraic(star)) return around_algebraic(*star.apex->exact, p);
   Polynomial moved = shifted(shifted(p, 0, star.x), 1, star.y);
   if (!star.is_sheared() || star.slope == 0) return moved;
   // off = off' + slope along
@@ -337,7 +403,40 @@ bool vanishes_with(const Star& star, const core::RootTower& tower, const Polynom
   });
 }
 
+namespace {
+
+/// The same where coefficients are polynomials in alpha: each an enclosure.
+core::StraightLine polar_line_algebraic(const Star& star, const Polynomial& around_star, int order) {
+  std::map<std::vector<int>, NumberField::Element, std::greater<>> coefficients;
+  for (const core::Term& term : around_star.terms) {
+    std::vector<int> exponents = {order_of(star, term) - order};
+    exponents.insert(exponents.end(), term.exponents.begin(), term.exponents.end() - 1);
+    NumberField::Element& coefficient = coefficients[exponents];
+    coefficient.resize(std::max(coefficient.size(), static_cast<std::size_t>(term.exponents.back()) + 1));
+    coefficient[static_cast<std::size_t>(term.exponents.back())] = term.coefficient;
+  }
+  // Every coefficient is a variable of its own, which stands for a number.
+  const int count = static_cast<int>(coefficients.size());
+  core::StraightLineBuilder builder;
+  std::vector<int> variables;
+  Polynomial polar{count + around_star.variables, {}};
+  for (const auto& [exponents, coefficient] : coefficients) {
+    const MultiInterval value = star.apex->exact->field.enclosure(coefficient);
+    const Rational lower = value.lower_end(), upper = value.upper_end();
+    core::Term term{std::vector<int>(static_cast<std::size_t>(count), 0), 1};
+    term.exponents[variables.size()] = 1;
+    term.exponents.insert(term.exponents.end(), exponents.begin(), exponents.end());
+    variables.push_back(builder.constant((lower + upper) / 2, (upper - lower) / 2));
+    polar.terms.push_back(std::move(term));
+  }
+  for (int v = 0; v < around_star.variables; ++v) variables.push_back(builder.variable(v));
+  return builder.line(builder.polynomial(polar, variables));
+}
+
+}  // namespace
+
 core::StraightLine polar_line(const Star& star, const Polynomial& around_star, int order) {
+  if (is_algebraic(star)) return polar_line_algebraic(star, around_star, order);
   Polynomial polar{around_star.variables + 1, {}};
   for (const core::Term& term : around_star.terms) {
     core::Term moved = term;

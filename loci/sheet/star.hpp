@@ -15,14 +15,22 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/root_tower.hpp"
+#include "loci/numbers/numbers.hpp"
 #include "loci/sheet/boundary_curves.hpp"
 #include "loci/sheet/subtower.hpp"
 
 namespace clearloci::loci::sheet {
+
+/// A point whose coordinates are algebraic numbers.
+struct AlgebraicPoint {
+  NumberField field;
+  NumberField::Element x, y;
+};
 
 /// What is known of a star with irrational coordinates: an enclosure.
 struct Apex {
@@ -32,9 +40,12 @@ struct Apex {
     bool known = false;
   };
   std::vector<Value> roots;  ///< of the tower's roots there; 0 where they vanish
-  /// Functions that are known to vanish there: of a cone x and y of the way from end to end (core::DyadBase), of a node
-  /// the parts of the function (core::NodeForm).
+  /// Functions that are known to vanish there: of a cone x and y of the way from end to end (core::DyadBase), of a
+  /// node the parts of the function (core::NodeForm).
   std::vector<core::StraightLine> vanishing = {};
+  /// Where the coordinates are known as algebraic numbers: what vanishes there is told by the polynomials, as at a
+  /// rational point, and nothing by `roots` and `vanishing`.
+  std::shared_ptr<const AlgebraicPoint> exact = {};
 };
 
 struct Star {
@@ -52,6 +63,9 @@ struct Star {
   /// Of a touch or a corner: a branch of a direct singularity reaches it on the working mode's sheet.
   bool singular = false;
   std::optional<Apex> apex = {};  ///< of a cone at no rational point
+  /// A telescopic leg has no length there, and no direction, whether or not a root of the tower vanishes with it:
+  /// numerators and |A| vanish since the equations hold the leg's way as it is.
+  bool no_length = false;
   /// A rectangle around it reaches no farther: of a node, so that no workspace boundary passes through.
   double room = std::numeric_limits<double>::infinity();
 
@@ -69,6 +83,13 @@ struct Star {
 /// The double zeros of root squares at rational points of the plane where a denominator of the tower vanishes.
 std::vector<Star> cones(const core::RootTower& tower);
 
+/// Finds the roots that vanish at a star without length, and its shape where a workspace boundary passes through.
+/// False: none of its directions belongs to the workspace.
+bool settle_roots(Star& star, const core::RootTower& tower);
+
+/// Whether nothing is gained by writing a function around a star, for it has a gradient there.
+bool is_smooth_at(const Star& star, const core::Polynomial& function);
+
 /// The points at which the boundary curves (boundary_curves.hpp) of two roots touch.
 std::vector<Star> touches(const core::RootTower& tower);
 
@@ -85,7 +106,8 @@ std::vector<Star> on_rim(std::vector<Star> stars, int root);
 std::optional<std::array<core::Rational, 2>> double_point(const core::Polynomial& p);
 
 /// A polynomial in (x, y, roots...) written in the star's coordinates (X, Y, roots...): moved, and sheared where it is,
-/// so that one coordinate is the distance off the tangent along an axis.
+/// so that one coordinate is the distance off the tangent along an axis. Of an algebraic point in (X, Y, roots...,
+/// alpha).
 core::Polynomial around(const Star& star, const core::Polynomial& p);
 
 /// The lowest power of u in such a polynomial.

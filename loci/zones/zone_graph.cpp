@@ -315,6 +315,11 @@ class Builder {
       return true;
     }
     sheet::ZeroOptions effort = effort_;
+    // Where both have gradients a leg without length is a crossing like others.
+    std::erase_if(effort.special, [&](const sheet::Star& star) {
+      return star.no_length && !star.is_sheared() && sheet::is_smooth_at(star, first->sheet) &&
+             sheet::is_smooth_at(star, second->sheet);
+    });
     effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
     if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
     for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));

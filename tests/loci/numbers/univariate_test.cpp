@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "loci/numbers/number_field.hpp"
+
 namespace clearloci::loci {
 namespace {
 
@@ -80,6 +82,22 @@ TEST(Univariate, PartsPolynomialsByTheirRoots) {
     for (std::size_t k = 0; k < i; ++k) EXPECT_EQ(greatest_common_divisor(base[i], base[k]).size(), 1U);
   }
   EXPECT_EQ(degrees, 5U);  // 1, 2, 3 and both roots of 2
+}
+
+TEST(Univariate, FallsIntoItsIrreducibleFactors) {
+  const std::vector<Univariate> factors =
+      irreducible_factors(product(product(root_of_two, root_of_two), with_roots({3})));
+  ASSERT_EQ(factors.size(), 2U);
+  EXPECT_EQ(factors[0].size() + factors[1].size(), 5U);
+}
+
+TEST(NumberField, ComputesWithTheRootOfTwo) {
+  const sheet::NumberField field(real_roots(root_of_two, 0, 2).front());
+  const sheet::NumberField::Element a = {1, 1}, b = {-1, 1};  // sqrt(2) + 1 and sqrt(2) - 1
+  EXPECT_EQ(field.product(a, b), sheet::NumberField::Element{1});
+  EXPECT_EQ(field.inverse(a), b);
+  EXPECT_TRUE(field.sum(a, field.times(a, -1)).empty());
+  EXPECT_NEAR(field.enclosure(a).lower(), 1 + std::sqrt(2.0), 1e-15);
 }
 
 RC_GTEST_PROP(Univariate, FindsEveryRootThatItIsMadeOf, ()) {
