@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "loci/curves/bearing_cells.hpp"
 #include "loci/curves/edge_labels.hpp"
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/place_words.hpp"
@@ -88,10 +89,15 @@ bool is_nonzero(const core::LocusFactor& factor, const std::vector<MultiInterval
   return value && value->sign() != 0;
 }
 
+/// The point of a zero on the mode's sheet, enclosed; empty where it lies outside the workspace.
+std::vector<MultiInterval> at_zero(const LocusProblem& problem, const WorkingMode& mode, const sheet::SheetZero& zero) {
+  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
+  return on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+}
+
 /// Where |A| vanishes too the numerators say nothing about the reaction, 0/0: every joint's vanish there together.
 bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode, const sheet::SheetZero& zero) {
-  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
-  const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+  const std::vector<MultiInterval> at = at_zero(problem, mode, zero);
   return !at.empty() &&
          std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
            return factor.role == FactorRole::direct_singularity && !is_nonzero(factor, at);
@@ -232,6 +238,22 @@ class Doubts {
 
 using FactorPair = std::pair<const core::LocusFactor*, const core::LocusFactor*>;
 
+/// Whether the two factors are in the joint's force once, and no other one that may vanish at their zero.
+bool are_alone(const LocusProblem& problem, const WorkingMode& mode, const std::string& joint, const FactorPair& pair,
+               const sheet::SheetZero& zero) {
+  const std::vector<MultiInterval> at = at_zero(problem, mode, zero);
+  if (at.empty()) return false;
+  const std::vector<Quantity> components = core::force_components(problem, joint);
+  return std::all_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+    const int most = &factor == pair.first || &factor == pair.second ? 1 : 0;
+    return factor.role != FactorRole::reaction || is_nonzero(factor, at) ||
+           std::none_of(factor.vanishing.begin(), factor.vanishing.end(), [&](const core::Vanishing& v) {
+             return v.joint == joint && v.multiplicity > most &&
+                    std::find(components.begin(), components.end(), v.quantity) != components.end();
+           });
+  });
+}
+
 /// Factors of the one and the other component of a joint's force; three equations have no common zero in general.
 std::vector<FactorPair> components_of(const LocusProblem& problem, const std::string& joint) {
   std::vector<FactorPair> pairs;
@@ -272,6 +294,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         {.most_cells = most_cells, .special = cones, .stop = stop, .searches = known_searches});
   });
   Doubts doubts;
+  BearingCells bearing(problem, mode);
   for (const std::string& joint : problem.joints) {
     for (const FactorPair& pair : components_of(problem, joint)) {
       const auto& [fx, fy] = pair;
@@ -283,17 +306,24 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                   same_point * size);
         return true;
       };
-      // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
-      const auto add_without_limit = [&](const core::Point2& at) {
+      // Where |A| is zero too there is no limit.
+      const auto add_without_limit = [&](const core::Point2& at, bool certified) {
         if (!ends_on_singularity(map, mode, at, 1e-7 * size))
-          add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
+          add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
                     same_point * size);
+      };
+      // That it is, and not only to the last bit, is proven where no pose around leaves the force zero. Numerators that
+      // are independent there are no multiples of |A| then, to the first order.
+      const auto is_without_limit = [&](const sheet::SheetZero& zero) {
+        const core::Interval x(zero.x - zero.radius, zero.x + zero.radius),
+            y(zero.y - zero.radius, zero.y + zero.radius);
+        return zero.inside_workspace && bearing.bear(joint, {x, y}) && are_alone(problem, mode, joint, pair, zero);
       };
       for (const sheet::SheetZero& zero : found.zeros) {
         if (!on_direct_singularity(problem, mode, zero))
           add({zero.x, zero.y}, true);
         else
-          add_without_limit({zero.x, zero.y});
+          add_without_limit({zero.x, zero.y}, is_without_limit(zero));
       }
       if (stop && stop()) {
         map.out_of_time = true;
@@ -304,6 +334,13 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       sheet::PlaneCell hull;
       for (const sheet::PlaneCell& cell : found.undecided) {
         const core::Point2 centre = middle_of(cell);
+        const double radius = std::max(cell.x.width(), cell.y.width()) / 2;
+        if (bearing.bear(joint, cell)) {
+          if (radius <= multiple_zero * size &&
+              on_direct_singularity(problem, mode, {centre[0], centre[1], {}, radius}))
+            add_without_limit(centre, false);
+          continue;
+        }
         const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
         const auto at = newton(problem.tower, mode, fx->sheet, fy->sheet, centre, reach);
         // That it leads back to a proven point says nothing of the rest of the cell.

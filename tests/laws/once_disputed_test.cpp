@@ -395,5 +395,11 @@ TEST(OnceDisputed, ASingularBoundaryOverMotorAngles) {
   hold("loci/five_bar_angles_singular_boundary", true, request);
 }
 
+// Where |A| vanishes twice as fast, so do both numerators of a force: no enclosure of them told whether it is zero in
+// some pose around. The equilibrium tells that it is not.
+TEST(OnceDisputed, AForceThatIsNotZeroBesideASingularity) {
+  all_is_certified("loci/coupler_force_beside_two_singularities");
+}
+
 }  // namespace
 }  // namespace clearloci
