@@ -404,14 +404,5 @@ TEST(OnceDisputed, AForceThatIsNotZeroBesideASingularity) {
   all_is_certified("loci/coupler_force_beside_two_singularities");
 }
 
-// A locus leaves the boundary 80 nm beside the place where both leave the box: the boundary was taken to pass through
-// the locus' end, too, and circles around places so near to each other were too large to tell the order of curves.
-TEST(OnceDisputed, ALocusThatLeavesTheBoxBesideTheBoundary) {
-  ZoneRequest request;
-  request.loci.quantities = {core::Quantity::fx, core::Quantity::fy, core::Quantity::M};
-  request.loci.working_modes = {{1, 1, -1}, {-1, -1, 1}};  // left, left, right; right, right, left
-  all_zones_are_certified("loci/rrr_locus_leaves_the_box_beside_the_boundary", request);
-}
-
 }  // namespace
 }  // namespace clearloci
