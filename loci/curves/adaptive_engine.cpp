@@ -223,10 +223,19 @@ void take_points_and_notes(LocusMap& exact, LocusMap& map) {
     if (std::find(map.notes.begin(), map.notes.end(), note) == map.notes.end()) map.notes.push_back(std::move(note));
 }
 
+/// Whether a root is built on an angle, of which the exact engine's algebra knows nothing. Factors with an angle have
+/// no polynomials, and are beyond its reach anyway.
+bool stands_on_angle(const core::RootTower& tower) {
+  for (std::size_t j = 0; j < tower.roots.size(); ++j)
+    for (const core::Root& root : tower.roots)
+      if (tower.roots[j].is_angle() && core::depends_on(root.square, 2 + static_cast<int>(j))) return true;
+  return false;
+}
+
 /// The exact engine on what the adaptive one left open. Marks the shares that it settled.
 void settle_exactly(const LocusProblem& problem, const TraceOptions& options, std::vector<SheetShare>& shares,
                     LocusMap& map) {
-  if (core::has_angles(problem.tower)) return;  // its algebra knows roots of polynomials only
+  if (stands_on_angle(problem.tower)) return;
   for (const Group& open : arrangements_of(problem, bearable_open(problem, shares))) {
     if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
       throw core::LimitReached("the time limit was reached");

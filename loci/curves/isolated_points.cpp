@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "loci/curves/bearing_cells.hpp"
 #include "loci/curves/edge_labels.hpp"
 #include "loci/curves/force_zeros.hpp"
 #include "loci/curves/open_regions.hpp"
@@ -83,10 +84,15 @@ bool is_nonzero(const core::LocusFactor& factor, const std::vector<MultiInterval
   return value && value->sign() != 0;
 }
 
+/// The point of a zero on the mode's sheet, enclosed; empty where it lies outside the workspace.
+std::vector<MultiInterval> at_zero(const LocusProblem& problem, const WorkingMode& mode, const sheet::SheetZero& zero) {
+  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
+  return on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+}
+
 /// Where |A| vanishes too the numerators say nothing about the reaction, 0/0: every joint's vanish there together.
 bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode, const sheet::SheetZero& zero) {
-  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
-  const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+  const std::vector<MultiInterval> at = at_zero(problem, mode, zero);
   return !at.empty() &&
          std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
            return factor.role == FactorRole::direct_singularity && !is_nonzero(factor, at);
@@ -225,12 +231,27 @@ class Doubts {
   std::vector<std::pair<std::string, std::vector<std::string>>> all_;
 };
 
+/// Whether two factors are all, in the joint's force once, and no other one that may vanish at their zero.
+bool are_alone(const LocusProblem& problem, const WorkingMode& mode, const std::string& joint, const ForceZeros& zeros,
+               const sheet::SheetZero& zero) {
+  const std::vector<MultiInterval> at = at_zero(problem, mode, zero);
+  if (at.empty() || zeros.third != nullptr) return false;
+  const std::vector<Quantity> components = core::force_components(problem, joint);
+  return std::all_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+    const int most = &factor == zeros.system[0] || &factor == zeros.system[1] ? 1 : 0;
+    return factor.role != FactorRole::reaction || is_nonzero(factor, at) ||
+           std::none_of(factor.vanishing.begin(), factor.vanishing.end(), [&](const core::Vanishing& v) {
+             return v.joint == joint && v.multiplicity > most &&
+                    std::find(components.begin(), components.end(), v.quantity) != components.end();
+           });
+  });
+}
+
 /// Whether the force is proven to vanish at a proven zero of the first two factors; nothing where it is proven not to.
 std::optional<bool> vanishes_at(const LocusProblem& problem, const WorkingMode& mode, const ForceZeros& zeros,
                                 const sheet::SheetZero& zero) {
   if (zeros.third == nullptr) return true;
-  const core::Rational x(zero.x), y(zero.y), radius(std::max(zero.radius, 1e-15));
-  const auto at = on_sheet(problem.tower, mode, {{x - radius, y - radius}, {x + radius, y + radius}});
+  const std::vector<MultiInterval> at = at_zero(problem, mode, zero);
   if (at.empty()) return false;
   if (is_nonzero(*zeros.third, at)) return std::nullopt;
   return zeros.normal != nullptr && evaluate(*zeros.normal, at).sign() != 0;
@@ -273,6 +294,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                                    .searches = known_searches});
   });
   Doubts doubts;
+  BearingCells bearing(problem, mode);
   for (const auto& joint_and_factors : asked) {
     const std::string& joint = joint_and_factors.first;
     const ForceZeros& factors = joint_and_factors.second;
@@ -284,17 +306,23 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                 same_point * size);
       return true;
     };
-    // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
-    const auto add_without_limit = [&](const core::Point2& at) {
+    // Where |A| is zero too there is no limit.
+    const auto add_without_limit = [&](const core::Point2& at, bool certified) {
       if (!ends_on_singularity(map, mode, at, 1e-7 * size))
-        add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
+        add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
                   same_point * size);
+    };
+    // That it is, and not only to the last bit, is proven where no pose around leaves the force zero. Numerators that
+    // are independent there are no multiples of |A| then, to the first order.
+    const auto is_without_limit = [&](const sheet::SheetZero& zero) {
+      const core::Interval x(zero.x - zero.radius, zero.x + zero.radius), y(zero.y - zero.radius, zero.y + zero.radius);
+      return zero.inside_workspace && bearing.bear(joint, {x, y}) && are_alone(problem, mode, joint, factors, zero);
     };
     for (const sheet::SheetZero& zero : found.zeros) {
       const std::optional<bool> vanishes = vanishes_at(problem, mode, factors, zero);
       if (!vanishes) continue;
       if (on_direct_singularity(problem, mode, zero)) {
-        add_without_limit({zero.x, zero.y});
+        add_without_limit({zero.x, zero.y}, is_without_limit(zero));
         continue;
       }
       const bool added = add({zero.x, zero.y}, *vanishes);
@@ -311,6 +339,12 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     sheet::PlaneCell hull;
     for (const sheet::PlaneCell& cell : found.undecided) {
       const core::Point2 centre = middle_of(cell);
+      const double radius = std::max(cell.x.width(), cell.y.width()) / 2;
+      if (bearing.bear(joint, cell)) {
+        if (radius <= multiple_zero * size && on_direct_singularity(problem, mode, {centre[0], centre[1], {}, radius}))
+          add_without_limit(centre, false);
+        continue;
+      }
       const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
       const auto at = newton(problem.tower, mode, factors.system[0]->sheet, factors.system[1]->sheet, centre, reach);
       // That it leads back to a proven point says nothing of the rest of the cell.

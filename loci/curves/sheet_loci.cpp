@@ -259,9 +259,13 @@ class VanishesAlong {
 /// Collects the arcs of one mode into curves.
 class Gathering {
  public:
+  /// `shares`: of one mode, those that are settled too.
   Gathering(const LocusProblem& problem, const std::vector<const SheetShare*>& shares, const CurveAlgebras& algebras,
             LocusMap& map)
-      : problem_(problem), shares_(shares), algebras_(algebras), map_(map) {}
+      : problem_(problem), all_shares_(shares), algebras_(algebras), map_(map) {
+    for (const SheetShare* share : shares)
+      if (!share->settled) shares_.push_back(share);
+  }
 
   void run() {
     for (const SheetShare* share : shares_) {
@@ -365,8 +369,8 @@ class Gathering {
     if (curve->is_zero()) return unknown_label();
     const ReactionOrders orders = orders_along(share, traced, *curve, [](ArcOrders&) {});
     if (!orders.decided) return unknown_label();
-    const bool is_told_before = std::any_of(shares_.begin(), shares_.end(), [&](const SheetShare* other) {
-      return other->factor < share.factor && factor(*other).role == FactorRole::reaction &&
+    const bool is_told_before = std::any_of(all_shares_.begin(), all_shares_.end(), [&](const SheetShare* other) {
+      return (other->factor < share.factor || other->settled) && factor(*other).role == FactorRole::reaction &&
              std::find(orders.vanishes.begin(), orders.vanishes.end(), other->factor) != orders.vanishes.end();
     });
     if (is_told_before) return std::nullopt;
@@ -485,7 +489,8 @@ class Gathering {
   }
 
   const LocusProblem& problem_;
-  const std::vector<const SheetShare*>& shares_;
+  const std::vector<const SheetShare*>& all_shares_;
+  std::vector<const SheetShare*> shares_;
   const CurveAlgebras& algebras_;
   LocusMap& map_;
   std::vector<LocusCurve> curves_;
@@ -569,7 +574,7 @@ void add_sheet_loci(const LocusProblem& problem, const std::vector<SheetShare>& 
   for (std::size_t m = 0; m < problem.modes.size(); ++m) {
     std::vector<const SheetShare*> sheet_shares;
     for (const SheetShare& share : shares)
-      if (share.mode == static_cast<int>(m) && !share.settled) sheet_shares.push_back(&share);
+      if (share.mode == static_cast<int>(m)) sheet_shares.push_back(&share);
     Gathering(problem, sheet_shares, algebras, map).run();
   }
 }

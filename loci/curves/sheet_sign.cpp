@@ -14,6 +14,7 @@ using sheet::MultiInterval;
 
 constexpr signed char unknown = 2;
 constexpr int attempts = 8;
+constexpr int no_square = -1;  // of an angle, which is above 0 as a root
 
 Interval enclose(const core::Rational& lower, const core::Rational& upper) {
   // get_d truncates towards zero by less than one unit in the last place.
@@ -41,7 +42,7 @@ Number evaluate(const Polynomial& p, const std::vector<Number>& coefficients, co
 
 SheetSigns::SheetSigns(const core::RootTower& tower, const CurveArrangement& arrangement)
     : tower_(tower), arrangement_(arrangement) {
-  for (const core::Root& root : tower.roots) squares_.push_back(add(root.square));
+  for (const core::Root& root : tower.roots) squares_.push_back(root.is_angle() ? no_square : add(root.square));
 }
 
 int SheetSigns::add(const Polynomial& sheet) { return build(sheet); }
@@ -78,7 +79,8 @@ std::optional<int> SheetSigns::sign(int sheet, const core::WorkingMode& mode, in
 }
 
 std::optional<int> SheetSigns::square_sign(int root, const core::WorkingMode& mode, int edge) {
-  return sign(squares_[static_cast<std::size_t>(root)], mode, edge);
+  const int square = squares_[static_cast<std::size_t>(root)];
+  return square == no_square ? 1 : sign(square, mode, edge);
 }
 
 std::optional<int> SheetSigns::root_sign(int root, const core::WorkingMode& mode, int edge, int attempt) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 
 namespace clearloci::loci {
@@ -68,6 +69,16 @@ Polynomial norm(Polynomial p, const core::RootTower& tower) {
     if (!p.is_zero()) p = core::primitive_part(p);
   }
   return core::with_variables(p, static_cast<int>(tower.coordinates.size()));
+}
+
+std::optional<Polynomial> quotient(Polynomial p, Polynomial divisor, const core::RootTower& tower) {
+  for (int root = top_root(divisor, tower); root >= 0; root = top_root(divisor, tower)) {
+    const auto [a, b] = split(divisor, static_cast<int>(tower.coordinates.size()) + root);
+    p = reduce(p * (a + a - divisor), tower);
+    divisor = conjugate_product(divisor, root, tower);
+    core::ensure(!divisor.is_zero(), "an element has an inverse");
+  }
+  return core::exact_quotient(p, divisor);
 }
 
 double norm_degree(const Polynomial& p, const core::RootTower& tower) {

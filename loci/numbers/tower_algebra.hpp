@@ -1,6 +1,7 @@
 // Arithmetic of polynomials in the roots of a tower: N = a + b s, s^2 = Q.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "core/root_tower.hpp"
@@ -24,6 +25,10 @@ core::Polynomial conjugate_product(const core::Polynomial& p, int root, const co
 
 /// Every root eliminated: in the coordinates alone, zero wherever p is. Required: no angle.
 core::Polynomial norm(core::Polynomial p, const core::RootTower& tower);
+
+/// p over a divisor, where that has polynomials in the coordinates for coefficients; nothing else. Required: no angle,
+/// the divisor is not zero.
+std::optional<core::Polynomial> quotient(core::Polynomial p, core::Polynomial divisor, const core::RootTower& tower);
 
 /// A bound on the degree of an element's norm, before anything is divided out.
 double norm_degree(const core::Polynomial& p, const core::RootTower& tower);

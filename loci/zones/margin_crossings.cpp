@@ -81,6 +81,9 @@ constexpr double highest_norm_degree = 64;
 /// Numbers that are tried for one of which terms cancel.
 constexpr std::size_t most_ratios = 12;
 
+/// How often a factor of |A| is looked for: the squares of forces and of |A| hold it twice.
+constexpr int most_divisions = 2;
+
 /// The polynomial on a line y = const.
 Polynomial on_line(const Polynomial& p, const Rational& y) {
   std::map<std::vector<int>, Rational, std::greater<>> terms;
@@ -179,7 +182,8 @@ Ratios ratios_to_try(const core::RootTower& tower, const core::LocusFactor& firs
   if (first.nodes && second.nodes) {
     if (first.nodes->parts.back().sheet != second.nodes->parts.back().sheet) return {};
     const Rational above = multiple_of_bound(first, p, tower), below = multiple_of_bound(second, q, tower);
-    return above == 0 || below == 0 ? Ratios{} : Ratios{above / below};
+    // Denominators of the tower may have been divided out of the sum of the squares.
+    return above == 0 || below == 0 ? ratios_of_terms(p, q) : Ratios{above / below};
   }
   Ratios ratios = ratios_of_terms(p, q);
   if (const Polynomial common = cleared(first, tower); common == cleared(second, tower))
@@ -217,6 +221,21 @@ Polynomial with_most_cancelled(const Polynomial& p, const Polynomial& q, const c
   return best;
 }
 
+/// What is left of an element without a factor of |A|, however often it holds it. Denominators of the tower may have
+/// been divided out, and are multiplied with: their zeros are those of the element besides.
+Polynomial without_singular(Polynomial apart, const Polynomial& singular, const core::RootTower& tower) {
+  Polynomial denominators = core::constant_polynomial(tower.variables(), 1);
+  for (const Polynomial& denominator : tower.denominators)
+    denominators = denominators * core::with_variables(denominator, tower.variables());
+  for (int times = 0; times < most_divisions; ++times) {
+    std::optional<Polynomial> rest = quotient(apart, singular, tower);
+    if (!rest) rest = quotient(reduce(apart * denominators, tower), singular, tower);
+    if (!rest) break;
+    apart = std::move(*rest);
+  }
+  return apart;
+}
+
 }  // namespace
 
 core::StraightLine difference_of_margins(const core::LocusFactor& first, const core::LocusFactor& second) {
@@ -234,17 +253,27 @@ core::StraightLine difference_of_margins(const core::LocusFactor& first, const c
   return builder.line(builder.subtract(sum_of_squares(*first.nodes), sum_of_squares(*second.nodes)));
 }
 
+Polynomial margins_apart(const core::LocusProblem& problem, const core::LocusFactor& first,
+                         const core::LocusFactor& second) {
+  const core::RootTower& tower = problem.tower;
+  const auto widened = [&](const Polynomial& p) { return core::with_variables(p, tower.variables()); };
+  const Polynomial none = widened({0, {}}), p = widened(first.sheet), q = widened(second.sheet);
+  if (has_angle(p, tower) || has_angle(q, tower) ||
+      std::max(norm_degree(p, tower), norm_degree(q, tower)) > highest_norm_degree)
+    return none;
+  const Ratios ratios = ratios_to_try(tower, first, second, p, q);
+  Polynomial apart = with_most_cancelled(p, q, tower, ratios);
+  if (apart.is_zero()) return none;
+  for (const core::LocusFactor& factor : problem.factors)
+    if (factor.role == core::FactorRole::direct_singularity && !has_angle(factor.sheet, tower))
+      apart = without_singular(std::move(apart), widened(factor.sheet), tower);
+  return core::scaled_for_doubles(apart);
+}
+
 std::optional<Polynomial> curve_through_crossings(const core::LocusProblem& problem, const core::LocusFactor& first,
                                                   const core::LocusFactor& second) {
   const core::RootTower& tower = problem.tower;
-  const auto widened = [&](const Polynomial& p) { return core::with_variables(p, tower.variables()); };
-  const Polynomial p = widened(first.sheet), q = widened(second.sheet);
-  if (has_angle(p, tower) || has_angle(q, tower) ||
-      std::max(norm_degree(p, tower), norm_degree(q, tower)) > highest_norm_degree)
-    return std::nullopt;
-  const Ratios ratios = ratios_to_try(tower, first, second, p, q);
-  if (ratios.empty()) return std::nullopt;
-  const Polynomial apart = with_most_cancelled(p, q, tower, ratios);
+  const Polynomial apart = margins_apart(problem, first, second);
   if (apart.is_zero()) return std::nullopt;
   const Polynomial conjugates = norm(apart, tower);
   if (conjugates.is_zero()) return std::nullopt;
@@ -257,6 +286,10 @@ std::optional<Polynomial> curve_through_crossings(const core::LocusProblem& prob
       // With roots the polynomial is zero, too, where |A| vanishes on other sheets alone.
       if (factor.role == core::FactorRole::direct_singularity && is_of_plane(factor.sheet))
         curve = core::exact_quotient(curve, singular).value_or(curve);
+  // No pose is there.
+  for (const Polynomial& denominator : tower.denominators)
+    if (is_of_plane(denominator))
+      curve = core::exact_quotient(curve, core::primitive_part(core::with_variables(denominator, 2))).value_or(curve);
   return curve;
 }
 

@@ -12,12 +12,18 @@ namespace clearloci::loci {
 /// where the curves cross. Empty: they are not such functions, or not with one f |A|.
 core::StraightLine difference_of_margins(const core::LocusFactor& first, const core::LocusFactor& second);
 
+/// With a number c, p = q = 0 where p and p - c q are zero: that element, over the tower, with the c for which f |A| or
+/// its square cancels, which the two have in common. What it holds of |A| is left out: forces of links that bear known
+/// loads differ by multiples of |A|, and no margin curve goes on beyond |A| = 0. Zero: none is known, or its norm is
+/// too large.
+core::Polynomial margins_apart(const core::LocusProblem& problem, const core::LocusFactor& first,
+                               const core::LocusFactor& second);
+
 /// A polynomial in the coordinates, without squares, on the curve of which every common zero of the two functions is,
-/// on whatever sheet, but for those on |A| = 0, which no margin curve goes on beyond. With a number c, p = q = 0 where
-/// p and p - c q are zero; c is chosen such that what the two have in common, f |A| or its square, cancels. It is the
-/// norm of p - c q over the tower, each factor once, however often it vanishes there: a force and its part along a
-/// guide are equal where the other part vanishes, to the second order, so that their margin curves touch and do not
-/// cross, but cross that curve. Nothing: they have a curve in common, or the norm is too large.
+/// on whatever sheet, but for those on |A| = 0. It is the norm of margins_apart, each factor once, however often it
+/// vanishes there: a force and its part along a guide are equal where the other part vanishes, to the second order, so
+/// that their margin curves touch and do not cross, but cross that curve. Nothing: they have a curve in common, or
+/// nothing is known of how they differ.
 std::optional<core::Polynomial> curve_through_crossings(const core::LocusProblem& problem,
                                                         const core::LocusFactor& first,
                                                         const core::LocusFactor& second);

@@ -342,24 +342,30 @@ class Builder {
     return add_zeros(found);
   }
 
-  /// Of margins that touch or run side by side: on a curve that neither does so with. False: there may be more.
+  /// Of margins that touch or run side by side: where either crosses what they differ in, or a curve that holds all of
+  /// that and that it does not touch. False: there may be more.
   bool add_margin_crossings(int a, int b, const std::vector<core::Rational>& lower,
                             const std::vector<core::Rational>& upper, const sheet::ZeroOptions& effort) {
     if (curve(a).kind != LocusKind::margin || curve(b).kind != LocusKind::margin) return false;
     const core::LocusFactor &first = *factor_of(problem_, curve(a)), &second = *factor_of(problem_, curve(b));
-    const auto [known, is_new] = through_crossings_.try_emplace({&first, &second});
-    if (is_new) known->second = curve_through_crossings(problem_, first, second);
-    if (!known->second) return false;
-    const core::Polynomial through = core::with_variables(*known->second, problem_.tower.variables());
+    const auto [known, is_new] = apart_.try_emplace({&first, &second});
+    Apart& apart = known->second;
+    if (is_new) apart.on_sheet = margins_apart(problem_, first, second);
     const auto is_passed = [&](const Point2& at) { return passed_by(a, at) && passed_by(b, at); };
-    const auto crosses_all = [&](const core::LocusFactor& margin) {
+    const auto crosses_all = [&](const core::LocusFactor& margin, const core::Polynomial& other) {
+      if (other.is_zero()) return false;
       sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, {margin.sheet, margin.line},
-                                                   sheet::SheetFunction{through}, lower, upper, effort);
+                                                   sheet::SheetFunction{other}, lower, upper, effort);
       std::erase_if(found.zeros, [&](const sheet::SheetZero& zero) { return !is_passed({zero.x, zero.y}); });
-      settle_touches(margin.sheet, through, found);
+      settle_touches(margin.sheet, other, found);
       return add_zeros(found);
     };
-    return crosses_all(first) || crosses_all(second);
+    if (crosses_all(first, apart.on_sheet) || crosses_all(second, apart.on_sheet)) return true;
+    if (!apart.in_plane)
+      apart.in_plane =
+          core::with_variables(curve_through_crossings(problem_, first, second).value_or(core::Polynomial{2, {}}),
+                               problem_.tower.variables());
+    return crosses_all(first, *apart.in_plane) || crosses_all(second, *apart.in_plane);
   }
 
   /// Takes away what is undecided of two functions where their curves are proven to touch within what counts as one
@@ -762,8 +768,12 @@ class Builder {
   CurveProjections& projections_;
   std::vector<const core::LocusFactor*> factors_of_curves_;
   std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, bool> sharing_;
-  std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, std::optional<core::Polynomial>>
-      through_crossings_;
+  /// Of two margins: functions that vanish where both do; zero: none is known.
+  struct Apart {
+    core::Polynomial on_sheet;
+    std::optional<core::Polynomial> in_plane;  ///< made where the other one does not tell
+  };
+  std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, Apart> apart_;
   std::unique_ptr<MarginNodes> margin_nodes_;     // made where two curves may meet
   std::unique_ptr<sheet::SheetProgram> factors_;  // made where a curve touches a side
   ZoneGraph result_;

@@ -96,6 +96,9 @@ TEST(OnceDisputed, ReactionsThatAreFiniteOnTheSingularity) {
       is_singularity_traced = is_singularity_traced || is_along;
     }
   EXPECT_TRUE(is_singularity_traced);
+  // On the lower half |A| is zero to the second order. It has a polynomial, though other factors have the angle.
+  for (const core::LocusCurve& curve : map.curves)
+    EXPECT_TRUE(curve.certified || curve.kind != core::LocusKind::direct_singularity) << curve.id;
 }
 
 // Its curve ends in a node on the workspace boundary: the end alone fails the last check, not the arcs that lead there.
@@ -393,6 +396,12 @@ TEST(OnceDisputed, ASingularBoundaryOverMotorAngles) {
   LociRequest request;
   request.all_working_modes = true;
   hold("loci/five_bar_angles_singular_boundary", true, request);
+}
+
+// Where |A| vanishes twice as fast, so do both numerators of a force: no enclosure of them told whether it is zero in
+// some pose around. The equilibrium tells that it is not.
+TEST(OnceDisputed, AForceThatIsNotZeroBesideASingularity) {
+  all_is_certified("loci/coupler_force_beside_two_singularities");
 }
 
 }  // namespace

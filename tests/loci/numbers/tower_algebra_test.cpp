@@ -57,6 +57,15 @@ TEST(TowerAlgebra, KnowsTheLastRootOfAnElement) {
   EXPECT_EQ(top_root(r.x(), tower()), -1);
 }
 
+TEST(TowerAlgebra, DividesByAnElement) {
+  const Polynomial other = r.x() * r.s(1) + r.y() * r.s(2) - r(2);
+  const std::optional<Polynomial> rest = quotient(reduce(element * other, tower()), other, tower());
+  ASSERT_TRUE(rest.has_value());
+  EXPECT_TRUE((*rest - reduce(element, tower())).is_zero());
+  EXPECT_FALSE(quotient(reduce(element * other, tower()) + r(1), other, tower()).has_value());
+  EXPECT_FALSE(quotient(element, r.s(1), tower()).has_value());
+}
+
 TEST(TowerAlgebra, TheNormIsZeroWhereTheElementIs) {
   const RootTower root_tower = tower();
   const Polynomial all = norm(element, root_tower);

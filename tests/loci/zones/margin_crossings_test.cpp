@@ -14,7 +14,9 @@ using core::Polynomial;
 
 core::NodeForm::Part part_of(const Polynomial& p) {
   core::StraightLineBuilder builder;
-  return {p, builder.line(builder.polynomial(p, {builder.variable(0), builder.variable(1)}))};
+  std::vector<int> variables;
+  for (int v = 0; v < p.variables; ++v) variables.push_back(builder.variable(v));
+  return {p, builder.line(builder.polynomial(p, variables))};
 }
 
 /// first^2 + second^2 - bound^2.
@@ -64,6 +66,7 @@ TEST(MarginCrossings, OfAForceAndOfItsPartAreOnTheOtherPart) {
   // What is a curve of |A| = 0 bounds both; what is a curve of one of them cannot tell them apart.
   core::LocusFactor singular;
   singular.role = core::FactorRole::direct_singularity;
+  singular.sheet = force;
   singular.implicit = {core::primitive_part(in_plane(force))};
   problem.factors = {singular};
   EXPECT_EQ(curve_through_crossings(problem, whole, part), core::primitive_part(in_plane(other)));
@@ -85,11 +88,33 @@ TEST(MarginCrossings, OfSquaredForcesThatDifferByAMultipleOfTheDeterminant) {
   problem.tower = sheet::testing::plane();
   core::LocusFactor singular;
   singular.role = core::FactorRole::direct_singularity;
+  singular.sheet = determinant;
   singular.implicit = {core::primitive_part(determinant)};
   problem.factors = {singular};
   EXPECT_EQ(
       curve_through_crossings(problem, squared(along, across, 1), squared(along + ring(2) * determinant, across, 5)),
       core::primitive_part(along + determinant));
+}
+
+/// The same where A is a root, and zero along the boundary: the norm of the difference held the boundary, on which both
+/// margins end.
+TEST(MarginCrossings, OfSquaredForcesThatDifferByAMultipleOfARoot) {
+  const sheet::testing::Ring ring{3};
+  const Polynomial x = ring.x(), y = ring.y(), determinant = ring.s(1), square = ring(9) - x * x - y * y;
+  const Polynomial along = x + ring(3), across = x * y + ring(1);
+  core::LocusProblem problem;
+  problem.tower = sheet::testing::one_root(square);
+  core::LocusFactor singular;
+  singular.role = core::FactorRole::direct_singularity;
+  singular.sheet = determinant;
+  problem.factors = {singular};
+  const auto squared = [&](const Polynomial& first, const Polynomial& second) {
+    core::LocusFactor margin = margin_of(first, second, determinant);
+    margin.sheet = reduce(first * first + second * second - ring(9) * determinant * determinant, problem.tower);
+    return margin;
+  };
+  EXPECT_EQ(curve_through_crossings(problem, squared(along, across), squared(along + ring(2) * determinant, across)),
+            core::primitive_part(core::with_variables(along * along - square, 2)));
 }
 
 }  // namespace
