@@ -1,6 +1,7 @@
 #include "symbolic/factor_emission.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/append_roots.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -12,6 +13,43 @@ using core::FactorRole;
 using core::LocusFactor;
 using core::Quantity;
 using core::Vanishing;
+
+namespace {
+
+/// Numbers n with n . f = 0 in every pose, by the coefficients of the numerators: where all moves and is loaded in one
+/// plane, n is across it.
+std::optional<std::array<core::Rational, 3>> constant_normal(const Ring& ring, const std::vector<Reaction>& reactions,
+                                                             const std::string& joint) {
+  std::vector<FactoredPoly> force;
+  for (const Quantity part : {Quantity::fx, Quantity::fy, Quantity::fz})
+    for (const Reaction& reaction : reactions)
+      if (reaction.joint == joint && reaction.quantity == part && !reaction.numerator.is_zero())
+        force.push_back(reaction.numerator);
+  if (force.size() != 3) return std::nullopt;
+  std::map<std::vector<int>, std::array<core::Rational, 3>> coefficients;
+  const FactoredPoly shared = shared_factors(force);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (const core::Term& term : without(force[c], shared, ring).plain().terms)
+      coefficients[term.exponents][c] = term.coefficient;
+  std::vector<std::array<core::Rational, 3>> across = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const auto& [exponents, row] : coefficients) {
+    const auto along = [&row](const std::array<core::Rational, 3>& n) -> core::Rational {
+      return n[0] * row[0] + n[1] * row[1] + n[2] * row[2];
+    };
+    const auto pivot = std::find_if(across.begin(), across.end(), [&](const auto& n) { return along(n) != 0; });
+    if (pivot == across.end()) continue;
+    const std::array<core::Rational, 3> taken = *pivot;
+    across.erase(pivot);
+    if (across.empty()) return std::nullopt;
+    for (std::array<core::Rational, 3>& n : across) {
+      const core::Rational times = along(n) / along(taken);
+      for (std::size_t c = 0; c < 3; ++c) n[c] -= times * taken[c];
+    }
+  }
+  return across.front();
+}
+
+}  // namespace
 
 void FactorEmission::add(FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit,
                          LocusFactor common) {
@@ -205,9 +243,13 @@ void FactorEmission::undirected() {
 void FactorEmission::force_planes() {
   for (const mechanism::Joint& joint : d_.mechanism.joints) {
     if (!d_.selected(joint.name) || core::force_components(d_.result.problem, joint.name).size() != 3) continue;
-    const auto known = mechanism::normal_of_force(d_.mechanism, joint);
-    if (!known) continue;
-    const std::vector<GiNaC::ex> normal = d_.geometry.vector(*known);
+    std::vector<GiNaC::ex> normal;
+    if (const auto known = mechanism::normal_of_force(d_.mechanism, joint))
+      normal = d_.geometry.vector(*known);
+    else if (const auto constant = constant_normal(d_.geometry.ring(), d_.reactions, joint.name))
+      for (const core::Rational& part : *constant)
+        normal.push_back(d_.geometry.expression(core::Expression::number(part)));
+    if (normal.empty()) continue;
     core::ForcePlane plane{joint.name, {}};
     for (std::size_t i = 0; i < 3; ++i)
       plane.normal[i] = core::scaled_for_doubles(

@@ -429,11 +429,32 @@ void check_drawing(const Drawing& d) {
   }
 }
 
+namespace {
+
+/// Balls at both ends leave a rod to turn about the line between them: idle, if nothing acts beside that line.
+std::vector<const Joint*> balls_of_rod(const Drawing& d, LinkIndex link) {
+  std::vector<const Joint*> joints;
+  for (const Joint& joint : d.mechanism.joints)
+    if (joint.from == link || joint.to == link) joints.push_back(&joint);
+  const bool is_rod = joints.size() == 2 && std::all_of(joints.begin(), joints.end(), [](const Joint* joint) {
+                        return joint->type == JointType::spherical;
+                      });
+  return is_rod ? joints : std::vector<const Joint*>{};
+}
+
+}  // namespace
+
 void refuse_rest(const Drawing& d, const std::vector<LinkIndex>& open) {
+  if (open.size() == 1)
+    if (const std::vector<const Joint*> balls = balls_of_rod(d, open.front()); !balls.empty())
+      throw InputError(place_of(d, open),
+                       link_words(d, open) + " turns about the line of its balls " + balls[0]->name + " and " +
+                           balls[1]->name + ", and a weight or load acts beside that line",
+                       "let it act on the line, or make one of the two a universal joint");
   throw InputError(
       place_of(d, open),
-      link_words(d, open) +
-          " have positions that follow only from common equations, and no construction of such a group is known here",
+      link_words(d, open) + (open.size() == 1 ? " has a position that follows" : " have positions that follow") +
+          " only from common equations, and no construction of such a group is known here",
       "name a coordinate of one of them under workspace, such as {angle: [0, 360 deg], of: " + d.name_of(open.front()) +
           "}, or give one of their points a construction under points");
 }

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "analysis/loci.hpp"
@@ -17,6 +18,7 @@
 #include "tests/laws/judged.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
+#include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
@@ -279,6 +281,30 @@ TEST(BallsInSpace, ContactIsLostAtPointsOfASlice) {
   }
   EXPECT_GT(points, 3);
   EXPECT_GT(cells, 2);
+}
+
+/// Of a file: by joint, the places where it alone loses its contact.
+std::multimap<std::string, core::Point2> lost_in(const std::string& file) {
+  std::multimap<std::string, core::Point2> lost;
+  for (const core::IsolatedPoint& point :
+       trace_loci(mechanism::read_mechanism(source_dir() + "/" + file), {}).isolated_points) {
+    EXPECT_TRUE(point.certified) << file;
+    for (const core::Vanishing& v : point.vanishing)
+      if (v.quantity == core::Quantity::f) lost.emplace(v.joint, core::Point2{point.at[0], point.at[1]});
+  }
+  return lost;
+}
+
+TEST(BallsInSpace, ATiltedPlaneIsAPlane) {
+  const auto plane = lost_in("examples/five_bar_isolated.yaml");
+  const auto tilted = lost_in("tests/corpus/loci/five_bar_in_tilted_plane.yaml");
+  ASSERT_EQ(plane.size(), tilted.size());
+  for (const auto& [joint, at] : plane) {
+    const auto [first, last] = tilted.equal_range(joint);
+    EXPECT_TRUE(std::any_of(first, last, [&at = at](const auto& other) {
+      return std::hypot(other.second[0] - at[0], other.second[1] - at[1]) < 1e-9;
+    })) << joint;
+  }
 }
 
 /// The first point of a slice at which a pin alone loses its contact, and the file that has it.

@@ -107,6 +107,34 @@ TEST(Advice, NamesRodsThatAreTooMany) {
   EXPECT_TRUE(says(said, "strut")) << said;
 }
 
+TEST(Advice, SaysThatAWeightBesideARodsLineTurnsIt) {
+  const std::string text = R"(
+format: 1
+space: spatial
+workspace: {theta: {angle: [-40 deg, 40 deg], of: crank}}
+drawn:
+  A: [0, 0, 0]
+  B: [0, 0.03, 0.04]
+  D: [0.2, 0, 0]
+  C: [0.2, 0.06, 0.02]
+  G: [0.1, 0.06, 0.03]
+links:
+  crank: {points: [A, B]}
+  rod: {points: [B, C, G], mass: 0.5, com: G, inertia: 0.001}
+  rocker: {points: [D, C]}
+joints:
+  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}
+  B: {spherical: [crank, rod], at: B}
+  D: {revolute: [ground, rocker], at: D, axis: [0, 0, 1]}
+  C: {spherical: [rod, rocker], at: C}
+end_effector: {link: rocker, at: C}
+gravity: [0, 0, -9.81]
+)";
+  const std::string said = refusal(text);
+  EXPECT_TRUE(says(said, "link rod turns about the line of its balls B and C")) << said;
+  EXPECT_EQ(refusal(with(text, "0.06, 0.03]", "0.045, 0.03]")), "") << "the middle of the rod";
+}
+
 TEST(Advice, NamesTheLinksThatAMissingMotorLetsGo) {
   const std::string said = refusal(with(five_bar_text, "at: A2, actuated: true", "at: A2"));
   EXPECT_TRUE(says(said, "under-actuated by 1: links B1P, PB2, B2A2 move although every motor stands still")) << said;
