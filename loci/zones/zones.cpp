@@ -263,21 +263,20 @@ class ModeZones {
     std::size_t edges = face.walks.outer.size();
     for (const auto& walk : face.walks.inner) edges += walk.size();
     for (int round = 0; round < most_refinements && face.error > area_accuracy * face.area; ++round) {
-      if (std::abs(face.area) <= clear_of_rounding * area_of_roundings(face)) return;
+      if (!cut_.certified && is_no_zone(face)) return;
       const double share = area_accuracy * face.area / static_cast<double>(edges);
       if (!halve(face, [&](std::size_t e) { return !(beside_[e].error <= share); })) return;
       face = measured(std::move(face.walks));
     }
   }
 
-  /// What a face's area is not known better than, since its vertices are doubles: all that is left between curves that
-  /// meet all along.
-  double area_of_roundings(const Face& face) const {
-    double farthest = 0, outline = length_of(face.outer);
-    for (const auto* corner : {&map_.lower, &map_.upper})
-      for (const core::Rational& at : *corner) farthest = std::max(farthest, std::abs(core::to_double(at)));
+  /// Inside out, where the order of curves is wrong, or as thin as vertices are off their curves, where curves meet all
+  /// along: no more vertices make a zone of it.
+  bool is_no_zone(const Face& face) const {
+    constexpr double vertex_accuracy = 1e-12;  // relative to the box
+    double outline = length_of(face.outer);
     for (const Polyline& hole : face.holes) outline += length_of(hole);
-    return std::numeric_limits<double>::epsilon() * farthest * outline;
+    return face.area < -face.error || std::abs(face.area) <= vertex_accuracy * std::sqrt(box_size()) * outline;
   }
 
   /// The chords of the edges of a face that `wanted` is true for. False: of none.
@@ -508,7 +507,6 @@ class ModeZones {
   static constexpr double area_accuracy = 1e-7;  ///< relative; a tenth of what is promised, since it is an estimate
   /// Tolerances, so that a point amid a span this wide is on the side of every curve that its chords tell.
   static constexpr double clear_of_chords = 8;
-  static constexpr double clear_of_rounding = 64;
   static constexpr int most_refinements = 8;
   static constexpr std::size_t most_of_coarse = 4000;  ///< vertices; a face of more has no coarse chords
   static constexpr double most_sites = 4000, most_sites_of_a_sketch = 250;  ///< on a zone's border
