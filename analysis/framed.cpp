@@ -124,8 +124,8 @@ class Outward {
     return result + rest;
   }
 
-  /// p with (v - from) / scale in the place of v, times a positive number: in whole numbers, for fractions would be
-  /// reduced at every step.
+  /// p with (v - from) / scale in the place of v, up to a factor: in whole numbers, for fractions would be reduced at
+  /// every step.
   core::Polynomial substituted(const core::Polynomial& p, int v, const Rational& from) const {
     using core::Integer;
     const auto at = static_cast<std::size_t>(v), degree = static_cast<std::size_t>(core::degree_in(p, v));

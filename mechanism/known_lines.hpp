@@ -1,5 +1,6 @@
 // Contact forces along a line or in a plane that the posture alone tells. A force along a line is one number, and where
-// it has opposite signs in two poses it vanishes on every way between them; one in a plane vanishes where two numbers do.
+// it has opposite signs in two poses it vanishes on every way between them; one in a plane vanishes where two numbers
+// do.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 #include "symbolic/factor_emission.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/append_roots.hpp"
@@ -25,14 +26,24 @@ std::optional<std::array<core::Rational, 3>> constant_normal(const Ring& ring, c
     for (const Reaction& reaction : reactions)
       if (reaction.joint == joint && reaction.quantity == part && !reaction.numerator.is_zero())
         force.push_back(reaction.numerator);
-  if (force.size() != 3) return std::nullopt;
+  const auto terms_of = [](const FactoredPoly& product) {
+    double terms = 1;
+    for (const PolyFactor& factor : product.factors)
+      terms *= std::pow(static_cast<double>(factor.poly.plain().terms.size()), factor.multiplicity);
+    return terms;
+  };
+  constexpr double most_terms = 5000;  // before they are multiplied out
+  if (force.size() != 3 ||
+      std::any_of(force.begin(), force.end(), [&](const FactoredPoly& part) { return terms_of(part) > most_terms; }))
+    return std::nullopt;
   std::map<std::vector<int>, std::array<core::Rational, 3>> coefficients;
   const FactoredPoly shared = shared_factors(force);
   for (std::size_t c = 0; c < 3; ++c)
     for (const core::Term& term : without(force[c], shared, ring).plain().terms)
       coefficients[term.exponents][c] = term.coefficient;
   std::vector<std::array<core::Rational, 3>> across = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const auto& [exponents, row] : coefficients) {
+  for (const auto& coefficient : coefficients) {
+    const std::array<core::Rational, 3>& row = coefficient.second;
     const auto along = [&row](const std::array<core::Rational, 3>& n) -> core::Rational {
       return n[0] * row[0] + n[1] * row[1] + n[2] * row[2];
     };
@@ -241,6 +252,7 @@ void FactorEmission::undirected() {
 }
 
 void FactorEmission::force_planes() {
+  if (!d_.wanted(Quantity::f) || d_.result.problem.tower.coordinates.size() < 2) return;
   for (const mechanism::Joint& joint : d_.mechanism.joints) {
     if (!d_.selected(joint.name) || core::force_components(d_.result.problem, joint.name).size() != 3) continue;
     std::vector<GiNaC::ex> normal;

@@ -20,7 +20,8 @@ class BearingCells {
   /// Nothing is computed before it is asked for.
   BearingCells(const core::LocusProblem& problem, const core::WorkingMode& mode) : problem_(problem), mode_(mode) {}
 
-  /// Whether it is proven that in no pose of the cell the joint's force is zero, nor tends to zero where |A| is.
+  /// Whether it is proven that in no pose of the cell the joint's force is zero, nor tends to zero where |A| is. Of a
+  /// cell without poses this is true.
   bool bear(const std::string& joint, const sheet::PlaneCell& cell);
 
  private:

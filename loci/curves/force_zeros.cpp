@@ -77,7 +77,7 @@ std::vector<ForceZeros> zeros_of_force(const LocusProblem& problem, const std::s
   };
   std::vector<ForceZeros> all;
   for (const FactorSet& set : sets) {
-    if (set.size() < 2 || set.size() > 3 || holds_another(set)) continue;
+    if (set.size() < 2 || holds_another(set)) continue;
     std::vector<const LocusFactor*> factors;
     for (const std::size_t f : set) factors.push_back(&problem.factors[f]);
     all.push_back(ordered(problem, joint, factors));

@@ -21,13 +21,9 @@ struct ForceZeros {
   const core::Polynomial* normal = nullptr;
 
   std::vector<const core::LocusFactor*> factors() const;
-  friend bool operator==(const ForceZeros& a, const ForceZeros& b) {
-    return a.system == b.system && a.third == b.third;
-  }
 };
 
-/// The least such sets: none holds another, or a factor that is of all components. Without those that would take more
-/// than three factors.
+/// The least such sets: none holds another, or a factor that is of all components.
 std::vector<ForceZeros> zeros_of_force(const core::LocusProblem& problem, const std::string& joint);
 
 }  // namespace clearloci::loci

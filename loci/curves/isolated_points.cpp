@@ -315,7 +315,8 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     // That it is, and not only to the last bit, is proven where no pose around leaves the force zero. Numerators that
     // are independent there are no multiples of |A| then, to the first order.
     const auto is_without_limit = [&](const sheet::SheetZero& zero) {
-      const core::Interval x(zero.x - zero.radius, zero.x + zero.radius), y(zero.y - zero.radius, zero.y + zero.radius);
+      const core::Interval round(-std::max(zero.radius, 1e-15), std::max(zero.radius, 1e-15));
+      const core::Interval x = core::Interval(zero.x) + round, y = core::Interval(zero.y) + round;
       return zero.inside_workspace && bearing.bear(joint, {x, y}) && are_alone(problem, mode, joint, factors, zero);
     };
     for (const sheet::SheetZero& zero : found.zeros) {
@@ -341,12 +342,15 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       const core::Point2 centre = middle_of(cell);
       const double radius = std::max(cell.x.width(), cell.y.width()) / 2;
       if (bearing.bear(joint, cell)) {
-        if (radius <= multiple_zero * size && on_direct_singularity(problem, mode, {centre[0], centre[1], {}, radius}))
-          add_without_limit(centre, false);
+        const bool is_singular = on_direct_singularity(problem, mode, {centre[0], centre[1], {}, radius});
+        // Too wide for a point: that there is no pose without a limit is not proven.
+        if (is_singular && radius > multiple_zero * size) leave_point_open(joint, mode, box_of(cell), map);
+        if (is_singular && radius <= multiple_zero * size) add_without_limit(centre, false);
         continue;
       }
       const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
-      const auto at = newton(problem.tower, mode, factors.system[0]->sheet, factors.system[1]->sheet, centre, reach);
+      auto at = newton(problem.tower, mode, factors.system[0]->sheet, factors.system[1]->sheet, centre, reach);
+      if (at && !vanishes_at(problem, mode, factors, {(*at)[0], (*at)[1], {}, multiple_zero * size})) at.reset();
       // That it leads back to a proven point says nothing of the rest of the cell.
       const bool is_proven = at && is_proven_at(map, mode, joint, *at, same_point * size);
       if (at && !is_proven && !on_direct_singularity(problem, mode, {(*at)[0], (*at)[1], {}, multiple_zero * size})) {
@@ -366,14 +370,14 @@ namespace {
 
 /// |A| vanishes at a star of the box; added where no curve of the map with |A| = 0 passes within `reach` in the mode.
 void add_singular_point(const LocusProblem& problem, const WorkingMode& mode, const sheet::Star& star, double reach,
-                        LocusMap& map) {
+                        bool certified, LocusMap& map) {
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
   const core::Point2 at = {core::to_double(star.x), core::to_double(star.y)};
   const bool reached = std::any_of(map.curves.begin(), map.curves.end(), [&](const core::LocusCurve& curve) {
     return curve.mode == mode && curve.kind == LocusKind::direct_singularity && passes(curve, at, reach);
   });
-  if (!reached) add_point(map, 0, {LocusKind::direct_singularity, {}, {at[0], at[1]}, mode, true}, 1e-9 * size);
+  if (!reached) add_point(map, 0, {LocusKind::direct_singularity, {}, {at[0], at[1]}, mode, certified}, 1e-9 * size);
 }
 
 }  // namespace
@@ -381,12 +385,13 @@ void add_singular_point(const LocusProblem& problem, const WorkingMode& mode, co
 void add_singular_points(const LocusProblem& problem, const WorkingMode& mode, LocusMap& map) {
   const double size = std::max(core::to_double(problem.upper[0] - problem.lower[0]),
                                core::to_double(problem.upper[1] - problem.lower[1]));
-  const auto is_pose = [&](const sheet::Star& star) {
+  // Empty: no pose of the box.
+  const auto pose_of = [&](const sheet::Star& star) -> std::vector<MultiInterval> {
     const core::Rational r = star.apex ? star.apex->radius : core::Rational(0);
     const PointEnclosure at = {{star.x - r, star.y - r}, {star.x + r, star.y + r}};
     for (std::size_t c = 0; c < 2; ++c)
-      if (at.lower[c] < problem.lower[c] || problem.upper[c] < at.upper[c]) return false;
-    return !on_sheet(problem.tower, mode, at).empty();
+      if (at.lower[c] < problem.lower[c] || problem.upper[c] < at.upper[c]) return {};
+    return on_sheet(problem.tower, mode, at);
   };
   for (const sheet::Star& touch : sheet::touches(problem.tower)) {
     std::vector<core::Rational> exact(static_cast<std::size_t>(problem.tower.variables()), core::Rational(0));
@@ -402,11 +407,21 @@ void add_singular_points(const LocusProblem& problem, const WorkingMode& mode, L
         std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
           return factor.role == FactorRole::direct_singularity && vanishes(factor.sheet);
         });
-    if (singular && is_pose(touch)) add_singular_point(problem, mode, touch, 1e-9 * size, map);
+    if (singular && !pose_of(touch).empty()) add_singular_point(problem, mode, touch, 1e-9 * size, true, map);
   }
-  for (const sheet::Star& star : sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper))
-    if (star.no_length && is_pose(star))  // where a curve is smooth it need have no vertex
-      add_singular_point(problem, mode, star, 2 * problem.tolerance, map);
+  for (const sheet::Star& star : sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper)) {
+    if (!star.no_length) continue;
+    const std::vector<MultiInterval> at = pose_of(star);
+    const auto may_vanish = [&](FactorRole role) {
+      return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
+        return factor.role == role && !is_nonzero(factor, at);
+      });
+    };
+    // All of |A| vanishes there exactly; which part of it does not, where efforts are free. Where a curve is smooth it
+    // need have no vertex.
+    if (!at.empty() && may_vanish(FactorRole::direct_singularity))
+      add_singular_point(problem, mode, star, 2 * problem.tolerance, !may_vanish(FactorRole::preload), map);
+  }
 }
 
 void drop_points_on_curves(LocusMap& map) {

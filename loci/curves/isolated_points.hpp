@@ -17,10 +17,11 @@ inline bool is_undirected_pin(const core::LocusFactor& factor, const std::string
          factor.vanishing.front().joint == joint;
 }
 
-/// Isolated contact-loss points of one mode: the common zeros of fx and fy that lie on no contact-loss curve of the
-/// map. Appended to the map; what stays undecided becomes a point that is not certified.
+/// Isolated contact-loss points of one mode: the common zeros of a force's components (force_zeros.hpp) that lie on no
+/// contact-loss curve of the map. Appended to the map; what stays undecided is left open, with a point that is not
+/// certified where one is found.
 /// `stop`: asked now and then, may be empty; true: what is found by then is added and the map marked incomplete.
-/// `most_cells`: live ones at a time (sheet::ZeroOptions). `known`: as there.
+/// `most_cells`: live ones at a time (sheet::ZeroOptions). `searches`: as there.
 void add_contact_loss_points(const core::LocusProblem& problem, const core::WorkingMode& mode, core::LocusMap& map,
                              const std::function<bool()>& stop, int most_cells, sheet::KnownSearches* searches);
 

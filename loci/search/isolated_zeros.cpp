@@ -111,8 +111,10 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   KnownSearches::Key key =
       KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper, options.special);
   key.numbers.push_back(options.most_cells);
+  key.numbers.push_back(options.smallest);
   key.polynomials.push_back(first.polynomial);
   key.polynomials.push_back(second.polynomial);
+  key.numbers.push_back(static_cast<double>(options.also.size()));
   for (const SheetFunction& function : options.also) key.polynomials.push_back(function.polynomial);
   return *options.searches->get<ZeroSet>(key, [&] {
     return std::make_shared<const ZeroSet>(found_zeros(tower, mode, first, second, lower, upper, options));

@@ -259,8 +259,15 @@ class ModeCurves {
     std::vector<std::pair<std::size_t, ForceZeros>> tasks;  // chart, factors
     for (std::size_t c = 0; c < charts_.size(); ++c)
       for (const std::string& joint : charts_[c]->joints)
-        for (const ForceZeros& zeros : zeros_of_force(*charts_[c], joint))
-          if (std::find(tasks.begin(), tasks.end(), std::pair(c, zeros)) == tasks.end()) tasks.emplace_back(c, zeros);
+        for (const ForceZeros& zeros : zeros_of_force(*charts_[c], joint)) {
+          const auto known = std::find_if(tasks.begin(), tasks.end(), [&](const auto& task) {
+            return task.first == c && task.second.factors() == zeros.factors();
+          });
+          if (known == tasks.end())
+            tasks.emplace_back(c, zeros);
+          else if (known->second.normal == nullptr)
+            known->second = zeros;
+        }
     std::vector<Found> found(tasks.size());
     run_in_order(tasks.size(),
                  [&](std::size_t t) { found[t] = search(*charts_[tasks[t].first], mode_, tasks[t].second, stop_); });

@@ -221,8 +221,8 @@ Polynomial with_most_cancelled(const Polynomial& p, const Polynomial& q, const c
   return best;
 }
 
-/// What is left of an element without a factor of |A|, however often it holds it. Denominators of the tower may have
-/// been divided out, and are multiplied with: their zeros are those of the element besides.
+/// What is left of an element without a factor of |A|, which squares of forces and of |A| hold twice. Denominators of
+/// the tower may have been divided out, and are multiplied with: their zeros are those of the element besides.
 Polynomial without_singular(Polynomial apart, const Polynomial& singular, const core::RootTower& tower) {
   Polynomial denominators = core::constant_polynomial(tower.variables(), 1);
   for (const Polynomial& denominator : tower.denominators)
@@ -265,7 +265,8 @@ Polynomial margins_apart(const core::LocusProblem& problem, const core::LocusFac
   Polynomial apart = with_most_cancelled(p, q, tower, ratios);
   if (apart.is_zero()) return none;
   for (const core::LocusFactor& factor : problem.factors)
-    if (factor.role == core::FactorRole::direct_singularity && !has_angle(factor.sheet, tower))
+    if (factor.role == core::FactorRole::direct_singularity && !has_angle(factor.sheet, tower) &&
+        norm_degree(widened(factor.sheet), tower) <= highest_norm_degree)
       apart = without_singular(std::move(apart), widened(factor.sheet), tower);
   return core::scaled_for_doubles(apart);
 }

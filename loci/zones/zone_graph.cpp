@@ -170,15 +170,26 @@ class Builder {
     return static_cast<int>(nodes.size()) - 1;
   }
 
+  std::size_t vertices_at(const Point2& place) const {
+    std::size_t count = 0;
+    for (const Strand& strand : strands_)
+      if (strand.owner != box_owner)
+        count +=
+            static_cast<std::size_t>(std::count_if(strand.points.begin(), strand.points.end(), [&](const Point2& at) {
+              return distance(at, place) <= same_place * size_;
+            }));
+    return count;
+  }
+
   /// Where the sheet is not smooth branches of curves arrive and leave side by side, of one curve or of several that
-  /// have no isolated zero in common there. Such a place has a vertex of each; where several arrive it is a node.
+  /// have no isolated zero in common there. Such a place has a vertex of each; where several arrive it is a node. A
+  /// curve that is smooth where a leg has no length passes there without one: a single vertex of another one will do.
   void add_stars() {
-    for (const Point2& star : stars_) {
-      std::size_t arriving = 0;
-      for (const Strand& strand : strands_)
-        if (strand.owner != box_owner)
-          for (const Point2& at : strand.points) arriving += distance(at, star) <= same_place * size_ ? 1 : 0;
-      if (arriving > 1) node_at(star);
+    for (const Point2& star : stars_)
+      if (vertices_at(star) > 1) node_at(star);
+    for (const sheet::Star& star : effort_.special) {
+      const Point2 at = {core::to_double(star.x), core::to_double(star.y)};
+      if (star.no_length && vertices_at(at) > 0) node_at(at);
     }
   }
 

@@ -449,8 +449,8 @@ void refuse_rest(const Drawing& d, const std::vector<LinkIndex>& open) {
     if (const std::vector<const Joint*> balls = balls_of_rod(d, open.front()); !balls.empty())
       throw InputError(place_of(d, open),
                        link_words(d, open) + " turns about the line of its balls " + balls[0]->name + " and " +
-                           balls[1]->name + ", and a weight or load acts beside that line",
-                       "let it act on the line, or make one of the two a universal joint");
+                           balls[1]->name + ", and what acts on it may do so beside that line",
+                       "let weights, loads and springs act on the line, or make one of the two a universal joint");
   throw InputError(
       place_of(d, open),
       link_words(d, open) + (open.size() == 1 ? " has a position that follows" : " have positions that follow") +

@@ -13,6 +13,7 @@
 #include "analysis/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/verify.hpp"
+#include "mechanism/known_lines.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
 #include "tests/laws/judged.hpp"
@@ -281,6 +282,22 @@ TEST(BallsInSpace, ContactIsLostAtPointsOfASlice) {
   }
   EXPECT_GT(points, 3);
   EXPECT_GT(cells, 2);
+}
+
+TEST(BallsInSpace, APlaneIsKnownWhereTheLegIsFreeAndBearsNothingElse) {
+  const std::string text = two_legs_in_a_plane(0, true);
+  const auto has_normal = [](const std::string& file, const std::string& joint) {
+    const Mechanism m = mechanism::parse_mechanism(file, "legs.yaml");
+    return mechanism::normal_of_force(m, m.joints[index_of(m, joint)]).has_value();
+  };
+  EXPECT_TRUE(has_normal(text, "B1"));
+  EXPECT_FALSE(has_normal(text, "A1")) << "a pin bears a couple";
+  EXPECT_FALSE(has_normal(text + "  - {link: rod1, at: B1, force: [1, 0, 0]}\n", "B1"));
+  EXPECT_FALSE(has_normal(text + "  - {link: cylinder1, at: A1, force: [1, 0, 0]}\n", "B1"));
+  EXPECT_TRUE(has_normal(text + "  - {link: cylinder1, at: A1, force: [1, 0, 0]}\n", "B2"));
+  std::string driven = text;
+  driven.insert(driven.find(", axis: [-4/5"), ", actuated: {effort: 2}");
+  EXPECT_FALSE(has_normal(driven, "B1")) << "the motor's couple is about the axis";
 }
 
 /// Of a file: by joint, the places where it alone loses its contact.
