@@ -1,6 +1,8 @@
 #include "loci/search/isolated_zeros.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -111,10 +113,10 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   KnownSearches::Key key =
       KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper, options.special);
   key.numbers.push_back(options.most_cells);
-  key.numbers.push_back(options.smallest);
+  for (const int half : std::bit_cast<std::array<int, 2>>(options.smallest)) key.numbers.push_back(half);
   key.polynomials.push_back(first.polynomial);
   key.polynomials.push_back(second.polynomial);
-  key.numbers.push_back(static_cast<double>(options.also.size()));
+  key.numbers.push_back(static_cast<int>(options.also.size()));
   for (const SheetFunction& function : options.also) key.polynomials.push_back(function.polynomial);
   return *options.searches->get<ZeroSet>(key, [&] {
     return std::make_shared<const ZeroSet>(found_zeros(tower, mode, first, second, lower, upper, options));
