@@ -257,7 +257,8 @@ Polynomial margins_apart(const core::LocusProblem& problem, const core::LocusFac
                          const core::LocusFactor& second) {
   const core::RootTower& tower = problem.tower;
   const auto widened = [&](const Polynomial& p) { return core::with_variables(p, tower.variables()); };
-  const Polynomial none = widened({0, {}}), p = widened(first.sheet), q = widened(second.sheet);
+  Polynomial none = widened({0, {}});
+  const Polynomial p = widened(first.sheet), q = widened(second.sheet);
   if (has_angle(p, tower) || has_angle(q, tower) ||
       std::max(norm_degree(p, tower), norm_degree(q, tower)) > highest_norm_degree)
     return none;
