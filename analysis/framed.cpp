@@ -130,7 +130,8 @@ class Outward {
     using core::Integer;
     const auto at = static_cast<std::size_t>(v), degree = static_cast<std::size_t>(core::degree_in(p, v));
     // (b v - a) n / d to the power of k, times d to the degree.
-    const Integer a = from.get_num(), b = from.get_den(), n = frame_.scale.get_den(), d = b * frame_.scale.get_num();
+    const Integer &a = from.get_num(), &b = from.get_den(), &n = frame_.scale.get_den();
+    const Integer d = b * frame_.scale.get_num();
     const core::WholeTerms whole = core::whole_terms(p);
     std::map<std::vector<int>, std::vector<Integer>> rows;  // by the exponents of the other variables
     for (std::size_t i = 0; i < p.terms.size(); ++i) {
