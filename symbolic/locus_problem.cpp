@@ -91,7 +91,9 @@ void emit_equilibrium(Derivation& d) {
   const auto add = [&](unsigned row, unsigned column, const GiNaC::ex& entry) {
     const Poly natural = d.geometry.poly(entry);
     if (!natural.is_zero())
-      problem.equilibrium.entries.push_back({static_cast<int>(row), static_cast<int>(column), d.lines.of(natural)});
+      // As they are: entries of one matrix bear no factors of their own.
+      problem.equilibrium.entries.push_back(
+          {static_cast<int>(row), static_cast<int>(column), d.lines.of(1, {{natural, 1}})});
   };
   const unsigned unknowns = equations.matrix.cols();
   for (unsigned row = 0; row < equations.matrix.rows(); ++row) {
