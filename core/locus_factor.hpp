@@ -75,16 +75,6 @@ struct ForcePlane {
   std::array<Polynomial, 3> normal;  ///< over the tower, up to positive factors
 };
 
-/// The equilibrium A w = b over the tower, entry by entry, for what the numerators and |A| alone do not tell.
-struct Equilibrium {
-  struct Entry {
-    int row = 0, column = 0;  ///< the column after those of all unknowns is b
-    StraightLine line;
-  };
-  std::vector<Entry> entries;       ///< the others are zero
-  std::vector<Vanishing> unknowns;  ///< one a column
-};
-
 /// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the
 /// polynomials, of the box and of `tower.coordinates` is the t of its chart, and the problem covers that chart alone.
 struct LocusProblem {
@@ -103,8 +93,7 @@ struct LocusProblem {
   std::vector<ForcePlane> force_planes;  ///< of joints whose force has three components
   std::vector<Vanishing> always_zero;    ///< components that vanish in every pose
   std::vector<Vanishing> reactions;      ///< every other scalar reaction of the mechanism
-  Equilibrium equilibrium;  ///< where forces of two components are asked for over two coordinates, else empty
-  double tolerance = 1e-5;  ///< chord deviation, m
+  double tolerance = 1e-5;               ///< chord deviation, m
 };
 
 /// The components of a joint's f.

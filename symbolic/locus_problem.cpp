@@ -81,30 +81,6 @@ void emit_factors(Derivation& d) {
   emission.append_roots();
 }
 
-/// Of the plane, without free efforts.
-void emit_equilibrium(Derivation& d) {
-  core::LocusProblem& problem = d.result.problem;
-  const NewtonEulerEquations& equations = d.determinants.equations;
-  if (problem.tower.coordinates.size() != 2 || d.mechanism.space != mechanism::Space::planar ||
-      !d.wanted(core::Quantity::f) || !equations.free_joints.empty())
-    return;
-  const auto add = [&](unsigned row, unsigned column, const GiNaC::ex& entry) {
-    const Poly natural = d.geometry.poly(entry);
-    if (!natural.is_zero())
-      // As they are: entries of one matrix bear no factors of their own.
-      problem.equilibrium.entries.push_back(
-          {static_cast<int>(row), static_cast<int>(column), d.lines.of(1, {{natural, 1}})});
-  };
-  const unsigned unknowns = equations.matrix.cols();
-  for (unsigned row = 0; row < equations.matrix.rows(); ++row) {
-    for (unsigned column = 0; column < unknowns; ++column) add(row, column, equations.matrix(row, column));
-    add(row, unknowns, equations.loads(row, 0));
-  }
-  for (const mechanism::Unknown& unknown : equations.unknowns)
-    problem.equilibrium.unknowns.push_back(
-        {d.mechanism.joints[static_cast<std::size_t>(unknown.joint)].name, unknown.quantity, 1});
-}
-
 DerivedProblem derived(Derivation& d) {
   const auto start = Clock::now();
   FactorSelection selection(d);
@@ -115,7 +91,6 @@ DerivedProblem derived(Derivation& d) {
   take_determinant_apart(d);
   selection.by_order();
   emit_factors(d);
-  emit_equilibrium(d);
   d.result.elimination_seconds = seconds_since(elimination_start);
   d.result.in_file = d.words.take();
   return std::move(d.result);

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 
-#include "loci/curves/bearing_cells.hpp"
 #include "loci/curves/edge_labels.hpp"
 #include "loci/curves/force_zeros.hpp"
 #include "loci/curves/open_regions.hpp"
@@ -231,22 +230,6 @@ class Doubts {
   std::vector<std::pair<std::string, std::vector<std::string>>> all_;
 };
 
-/// Whether two factors are all, in the joint's force once, and no other one that may vanish at their zero.
-bool are_alone(const LocusProblem& problem, const WorkingMode& mode, const std::string& joint, const ForceZeros& zeros,
-               const sheet::SheetZero& zero) {
-  const std::vector<MultiInterval> at = at_zero(problem, mode, zero);
-  if (at.empty() || zeros.third != nullptr) return false;
-  const std::vector<Quantity> components = core::force_components(problem, joint);
-  return std::all_of(problem.factors.begin(), problem.factors.end(), [&](const core::LocusFactor& factor) {
-    const int most = &factor == zeros.system[0] || &factor == zeros.system[1] ? 1 : 0;
-    return factor.role != FactorRole::reaction || is_nonzero(factor, at) ||
-           std::none_of(factor.vanishing.begin(), factor.vanishing.end(), [&](const core::Vanishing& v) {
-             return v.joint == joint && v.multiplicity > most &&
-                    std::find(components.begin(), components.end(), v.quantity) != components.end();
-           });
-  });
-}
-
 /// Whether the force is proven to vanish at a proven zero of the first two factors; nothing where it is proven not to.
 std::optional<bool> vanishes_at(const LocusProblem& problem, const WorkingMode& mode, const ForceZeros& zeros,
                                 const sheet::SheetZero& zero) {
@@ -294,7 +277,6 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                                    .searches = known_searches});
   });
   Doubts doubts;
-  BearingCells bearing(problem, mode);
   for (const auto& joint_and_factors : asked) {
     const std::string& joint = joint_and_factors.first;
     const ForceZeros& factors = joint_and_factors.second;
@@ -306,24 +288,17 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                 same_point * size);
       return true;
     };
-    // Where |A| is zero too there is no limit.
-    const auto add_without_limit = [&](const core::Point2& at, bool certified) {
+    // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
+    const auto add_without_limit = [&](const core::Point2& at) {
       if (!ends_on_singularity(map, mode, at, 1e-7 * size))
-        add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, certified},
+        add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
                   same_point * size);
-    };
-    // That it is, and not only to the last bit, is proven where no pose around leaves the force zero. Numerators that
-    // are independent there are no multiples of |A| then, to the first order.
-    const auto is_without_limit = [&](const sheet::SheetZero& zero) {
-      const core::Interval round(-std::max(zero.radius, 1e-15), std::max(zero.radius, 1e-15));
-      const core::Interval x = core::Interval(zero.x) + round, y = core::Interval(zero.y) + round;
-      return zero.inside_workspace && bearing.bear(joint, {x, y}) && are_alone(problem, mode, joint, factors, zero);
     };
     for (const sheet::SheetZero& zero : found.zeros) {
       const std::optional<bool> vanishes = vanishes_at(problem, mode, factors, zero);
       if (!vanishes) continue;
       if (on_direct_singularity(problem, mode, zero)) {
-        add_without_limit({zero.x, zero.y}, is_without_limit(zero));
+        add_without_limit({zero.x, zero.y});
         continue;
       }
       const bool added = add({zero.x, zero.y}, *vanishes);
@@ -340,14 +315,6 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     sheet::PlaneCell hull;
     for (const sheet::PlaneCell& cell : found.undecided) {
       const core::Point2 centre = middle_of(cell);
-      const double radius = std::max(cell.x.width(), cell.y.width()) / 2;
-      if (bearing.bear(joint, cell)) {
-        const bool is_singular = on_direct_singularity(problem, mode, {centre[0], centre[1], {}, radius});
-        // Too wide for a point: that there is no pose without a limit is not proven.
-        if (is_singular && radius > multiple_zero * size) leave_point_open(joint, mode, box_of(cell), map);
-        if (is_singular && radius <= multiple_zero * size) add_without_limit(centre, false);
-        continue;
-      }
       const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
       auto at = newton(problem.tower, mode, factors.system[0]->sheet, factors.system[1]->sheet, centre, reach);
       if (at && !vanishes_at(problem, mode, factors, {(*at)[0], (*at)[1], {}, multiple_zero * size})) at.reset();

@@ -87,7 +87,8 @@ std::vector<Star> cones(const core::RootTower& tower);
 /// False: none of its directions belongs to the workspace.
 bool settle_roots(Star& star, const core::RootTower& tower);
 
-/// Whether nothing is gained by writing a function around a star, for it has a gradient there.
+/// Whether nothing is gained by writing a function around a star: it holds no root that vanishes there, and has terms
+/// of the first order, so that it has a gradient there unless these cancel.
 bool is_smooth_at(const Star& star, const core::Polynomial& function);
 
 /// The points at which the boundary curves (boundary_curves.hpp) of two roots touch.

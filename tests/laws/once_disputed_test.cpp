@@ -9,8 +9,6 @@
 #include "analysis/zones.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
-#include "loci/curves/bearing_cells.hpp"
-#include "symbolic/locus_problem.hpp"
 #include "tests/source_dir.hpp"
 
 namespace clearloci {
@@ -398,29 +396,6 @@ TEST(OnceDisputed, ASingularBoundaryOverMotorAngles) {
   LociRequest request;
   request.all_working_modes = true;
   hold("loci/five_bar_angles_singular_boundary", true, request);
-}
-
-// Where |A| vanishes twice as fast, so do both numerators of a force: no enclosure of them told whether it is zero in
-// some pose around. The equilibrium tells that it is not.
-TEST(OnceDisputed, AForceThatIsNotZeroBesideASingularity) {
-  all_is_certified("loci/coupler_force_beside_two_singularities");
-}
-
-TEST(OnceDisputed, TheEquilibriumDoesNotDenyAContactLoss) {
-  const mechanism::Mechanism m = mechanism::read_mechanism(source_dir() + "/examples/five_bar_isolated.yaml");
-  const core::LocusProblem problem = symbolic::locus_problem(m, {}).problem;
-  const core::LocusMap map = trace_loci(m, {});
-  ASSERT_GT(map.isolated_points.size(), 3U);
-  loci::BearingCells bearing(problem, problem.modes.front());
-  for (const core::IsolatedPoint& point : map.isolated_points) {
-    const std::string& joint = point.vanishing.front().joint;
-    const auto around = [&](double x, double y, double half) {
-      return loci::sheet::PlaneCell{{x - half, x + half}, {y - half, y + half}};
-    };
-    for (const double half : {1e-9, 1e-5, 1e-2})
-      EXPECT_FALSE(bearing.bear(joint, around(point.at[0], point.at[1], half)));
-    EXPECT_TRUE(bearing.bear(joint, around(point.at[0] + 0.01, point.at[1], 1e-4))) << joint;
-  }
 }
 
 }  // namespace
