@@ -6,6 +6,8 @@
 // mpfi_io.h is not needed: nothing is printed.
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "core/rational.hpp"
 
@@ -14,22 +16,59 @@ namespace clearloci::check {
 /// Precisions, in bits: of cells, where 128 leave rounding out of account, and of the tests of identities.
 inline constexpr mpfr_prec_t cell_bits = 128, identity_bits = 1024;
 
+/// Numbers of cells are made and dropped by the million: what is dropped is kept for the next one, thread by thread.
+class CellNumbers {
+ public:
+  ~CellNumbers() {
+    for (__mpfi_struct& number : kept_) mpfi_clear(&number);
+  }
+  static void init(mpfi_ptr number, mpfr_prec_t bits) {
+    if (bits != cell_bits || mine().kept_.empty()) return mpfi_init2(number, bits), void();
+    *number = mine().kept_.back();
+    mine().kept_.pop_back();
+  }
+  static void drop(mpfi_ptr number) {
+    if (mpfi_get_prec(number) == cell_bits && mine().kept_.size() < 4096)
+      mine().kept_.push_back(*number);
+    else
+      mpfi_clear(number);
+  }
+
+ private:
+  static CellNumbers& mine() {
+    static thread_local CellNumbers numbers;
+    return numbers;
+  }
+  std::vector<__mpfi_struct> kept_;
+};
+
 class Interval {
  public:
-  explicit Interval(mpfr_prec_t bits = cell_bits) { mpfi_init2(value_, bits), mpfi_set_ui(value_, 0); }
-  Interval(double value, mpfr_prec_t bits) { mpfi_init2(value_, bits), mpfi_set_d(value_, value); }
-  Interval(double lower, double upper, mpfr_prec_t bits) {
-    mpfi_init2(value_, bits), mpfi_interv_d(value_, lower, upper);
+  explicit Interval(mpfr_prec_t bits = cell_bits) : Interval(Uninitialised{bits}) { mpfi_set_ui(value_, 0); }
+  Interval(double value, mpfr_prec_t bits) : Interval(Uninitialised{bits}) { mpfi_set_d(value_, value); }
+  Interval(double lower, double upper, mpfr_prec_t bits) : Interval(Uninitialised{bits}) {
+    mpfi_interv_d(value_, lower, upper);
   }
-  Interval(const core::Rational& value, mpfr_prec_t bits) {
-    mpfi_init2(value_, bits), mpfi_set_q(value_, value.get_mpq_t());
+  Interval(const core::Rational& value, mpfr_prec_t bits) : Interval(Uninitialised{bits}) {
+    mpfi_set_q(value_, value.get_mpq_t());
   }
-  Interval(const Interval& other) { mpfi_init2(value_, other.bits()), mpfi_set(value_, other.value_); }
+  Interval(const Interval& other) : Interval(Uninitialised{other.bits()}) { mpfi_set(value_, other.value_); }
+  /// What is moved from may only be assigned to or destroyed.
+  Interval(Interval&& other) noexcept : value_{*other.value_} { other.owns_ = false; }
   Interval& operator=(const Interval& other) {
-    if (this != &other) mpfi_set_prec(value_, other.bits()), mpfi_set(value_, other.value_);
+    if (this == &other) return *this;
+    if (!owns_ || bits() != other.bits()) return *this = Interval(other);
+    mpfi_set(value_, other.value_);
     return *this;
   }
-  ~Interval() { mpfi_clear(value_); }
+  Interval& operator=(Interval&& other) noexcept {
+    std::swap(*value_, *other.value_);
+    std::swap(owns_, other.owns_);
+    return *this;
+  }
+  ~Interval() {
+    if (owns_) CellNumbers::drop(value_);
+  }
 
   mpfr_prec_t bits() const { return mpfi_get_prec(value_); }
   mpfi_ptr get() { return value_; }
@@ -52,7 +91,13 @@ class Interval {
   bool below() const { return mpfi_nan_p(value_) == 0 && mpfr_sgn(&value_->right) < 0; }
 
  private:
+  struct Uninitialised {
+    mpfr_prec_t bits;
+  };
+  explicit Interval(Uninitialised u) { CellNumbers::init(value_, u.bits); }
+
   mpfi_t value_;
+  bool owns_ = true;
 };
 
 inline mpfr_prec_t finer_bits(const Interval& a, const Interval& b) { return std::max(a.bits(), b.bits()); }

@@ -26,8 +26,8 @@ class Jet {
     slopes_[c] = Interval(1.0, over.bits());
   }
   /// A function that is known by these; it is at most as wide as they are.
-  Jet(const Interval& value, const Interval& middle, std::vector<Interval> slopes, const Offsets& offsets)
-      : value_(value), middle_(middle), slopes_(std::move(slopes)), offsets_(&offsets) {
+  Jet(Interval value, Interval middle, std::vector<Interval> slopes, const Offsets& offsets)
+      : value_(std::move(value)), middle_(std::move(middle)), slopes_(std::move(slopes)), offsets_(&offsets) {
     met();
   }
   /// The same over a cell of more coordinates, on those behind its own of which it does not depend.
@@ -96,18 +96,19 @@ class Jet {
   }
 
  private:
-  Jet(const Interval& value, const Interval& middle) : value_(value), middle_(middle) {}
+  Jet(Interval value, Interval middle) : value_(std::move(value)), middle_(std::move(middle)) {}
 
   /// A function of two with slopes made of theirs; a null pointer stands for 0, not both are.
   template <class Slope>
-  static Jet combined(const Jet& a, const Jet& b, const Interval& value, const Interval& middle, const Slope& slope) {
-    Jet result(value, middle);
+  static Jet combined(const Jet& a, const Jet& b, Interval value, Interval middle, const Slope& slope) {
+    const mpfr_prec_t bits = value.bits();
+    Jet result(std::move(value), std::move(middle));
     const Jet& longer = a.is_constant() ? b : a;
     result.offsets_ = longer.offsets_;
     result.slopes_.reserve(longer.slopes_.size());
     for (std::size_t c = 0; c < longer.slopes_.size(); ++c) {
       const Interval *const p = slope_of(a, c), *const q = slope_of(b, c);
-      result.slopes_.push_back(p == nullptr && q == nullptr ? Interval(value.bits()) : slope(p, q));
+      result.slopes_.push_back(p == nullptr && q == nullptr ? Interval(bits) : slope(p, q));
     }
     return result.met();
   }
@@ -117,9 +118,10 @@ class Jet {
     return a.is_constant() || a.slopes_[c].is_zero() ? nullptr : &a.slopes_[c];
   }
 
-  Jet through(const Interval& value, const Interval& middle, const Interval& slope) const {
-    Jet result(value, middle);
+  Jet through(Interval value, Interval middle, const Interval& slope) const {
+    Jet result(std::move(value), std::move(middle));
     result.offsets_ = offsets_;
+    result.slopes_.reserve(slopes_.size());
     for (const Interval& interval : slopes_) result.slopes_.push_back(interval.is_zero() ? interval : interval * slope);
     return result.met();
   }

@@ -21,7 +21,7 @@ function(clearloci_test name)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${arg_LIBS} test_source_dir GTest::gtest_main GTest::gmock rapidcheck Threads::Threads)
   clearloci_warnings(${name})
-  clearloci_known_leaks(${name})
+  clearloci_program(${name})
   # What is tested is compiled as users get it; the tests themselves compile a third faster so.
   clearloci_quickly_compiled(${name})
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${CLEARLOCI_UNITY})
