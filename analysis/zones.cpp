@@ -120,6 +120,7 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave, const loci::ZoneLa
     core::Zones& zones = cut.map;
     all.finer_may_tell = all.finer_may_tell && cut.finer_may_tell;
     const std::vector<core::LocusCurve> curves = zones.loci.curves;
+    const core::TowerNames tower = zones.loci.tower;
     loci::drop_own_roots(zones.loci);
     for (core::Zone& zone : zones.zones) {
       for (core::ZoneBorder& border : zone.borders) {
@@ -138,11 +139,11 @@ loci::CutZones zones_of(TracedProblem traced, bool may_leave, const loci::ZoneLa
       for (int& point : zone.isolated_points)
         point = loci::place_in(traced.map, zones.loci.isolated_points[static_cast<std::size_t>(point)]);
       std::erase(zone.isolated_points, -1);
-      zone.mode.resize(traced.map.tower.roots.size(), 1);
+      loci::drop_own_roots(tower, zone.mode);
       joined.zones.push_back(std::move(zone));
     }
     for (core::ZonedMode& area : zones.modes) {
-      area.mode.resize(traced.map.tower.roots.size(), 1);
+      loci::drop_own_roots(tower, area.mode);
       const auto found = std::find_if(joined.modes.begin(), joined.modes.end(),
                                       [&](const core::ZonedMode& other) { return other.mode == area.mode; });
       if (found == joined.modes.end()) {

@@ -14,6 +14,14 @@ bool vanishes_everywhere(const FactoredPoly& p, const Elimination& elimination) 
          });
 }
 
+/// " where x > 0"; empty where nothing folds.
+std::string side_of_folds(const Derivation& d) {
+  std::string words;
+  for (const Fold& fold : d.geometry.folds())
+    words += (words.empty() ? " where " : " and ") + d.words.of(fold.where) + " > 0";
+  return words;
+}
+
 }  // namespace
 
 void collect_factors(Derivation& d) {
@@ -22,7 +30,7 @@ void collect_factors(Derivation& d) {
     const FactoredPoly& numerator = reaction.numerator;
     if (vanishes_everywhere(numerator, d.elimination)) {
       if (d.selected(joint) && d.is_asked_for(joint, reaction.quantity)) {
-        d.result.notes.push_back(reaction.name + " is zero in every pose under these loads");
+        d.result.notes.push_back(reaction.name + " is zero in every pose" + side_of_folds(d) + " under these loads");
       }
       d.result.problem.always_zero.push_back({joint, reaction.quantity});
       continue;

@@ -95,6 +95,18 @@ void Geometry::place_length(InverseLength& length) {
   const bool fixed = d.divides(w, constant) && std::none_of(free.begin(), free.end(), [&](int variable) {
                        return constant.depends_on(variable);
                      });
+  if (fixed && constant.is_zero()) {  // on this side of a fold
+    bool of_limit = false;
+    for (std::size_t i = 0; i < mechanism_->limits.size(); ++i)
+      of_limit = of_limit || length.name == arm_name(i, false) || length.name == arm_name(i, true);
+    if (!of_limit)
+      throw core::InputError({mechanism_->file},
+                             "the ends of a spring, or of an arm of one, coincide in every pose on one side of the "
+                             "poses in which the mechanism folds",
+                             "move one of its ends by a little");
+    length.natural = 0;  // bounding no angle: limits.hpp
+    return;
+  }
   if (fixed && constant.is_constant()) {
     const Rational inverse = mechanism::value_of(
         Expression::apply(Expression::Kind::divide,

@@ -37,6 +37,10 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
       return geometry.poly(geometry.inverse_length(Geometry::arm_name(i, second)).natural);
     };
     const auto& p = limit.points;
+    if (limit.is_angle() && (inverse(false).is_zero() || inverse(true).is_zero())) {  // there is no such angle
+      all.push_back({Poly(geometry.ring(), -1), mechanism::words_of(m, limit, true), limit.where, {}, i});
+      continue;
+    }
     if (limit.is_angle()) {
       const Poly cosine =
           dot(components(geometry, p[1], p[0]), components(geometry, p[1], p[2])) * inverse(false) * inverse(true);
@@ -99,6 +103,11 @@ std::vector<LimitCondition> bounding_limits(const Geometry& geometry, const Elim
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (const auto left = elimination.constant_over_tower(all[i].natural)) {
       if (*left >= 0) continue;
+      if (!geometry.folds().empty()) {  // there may be poses on the other sides
+        all[i].natural = Poly(geometry.ring(), -1);
+        bounding.push_back(std::move(all[i]));
+        continue;
+      }
       throw core::InputError(all[i].where, "every pose is beyond the limit of the " + all[i].words, "widen the limit");
     }
     if (all[i].limit < idle.size() && idle[all[i].limit] && !geometry.has_dependent_roots() &&

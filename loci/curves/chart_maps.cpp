@@ -341,7 +341,7 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
   const std::vector<LocusMap> traced = maps;
   if (charts.size() > 1) {
     for (LocusMap& map : maps) drop_own_roots(map);
-    for (core::WorkingMode& mode : modes) mode.resize(maps.front().tower.roots.size(), 1);
+    for (core::WorkingMode& mode : modes) drop_own_roots(traced.front().tower, mode);
   }
   if (charts.front()->tower.coordinates.size() == 1) return join_point_charts(charts, maps, modes);
   core::ensure(charts.front()->charts.size() == 2, "two free coordinates, some of them angles");

@@ -80,9 +80,14 @@ LocusMap join_point_charts(const std::vector<const LocusProblem*>& charts, const
     for (ReachableInterval& interval : reachable_of(charts, maps, mode))
       joined.reachable.push_back(std::move(interval));
   }
-  for (const LocusMap& map : maps) {
-    joined.complete = joined.complete && map.complete;
-    joined.out_of_time = joined.out_of_time || map.out_of_time;
+  joined.open.clear();
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    joined.complete = joined.complete && maps[i].complete;
+    joined.out_of_time = joined.out_of_time || maps[i].out_of_time;
+    for (core::OpenRegion region : maps[i].open) {
+      for (std::vector<double>* side : {&region.lower, &region.upper}) side->front() = value(*charts[i], side->front());
+      joined.open.push_back(std::move(region));
+    }
   }
   return joined;
 }

@@ -21,8 +21,9 @@ using core::LocusMap;
 using core::LocusProblem;
 using core::Root;
 
-/// Of folds and margins: they place no point.
-bool is_own(const core::RootNames& root) { return root.point.empty(); }
+/// A sheet's own is what places no point: roots of folds and margins, and of lengths, such as those of springs, which
+/// may be numbers on another sheet.
+bool is_own(const core::RootNames& root) { return root.role != core::RootRole::working_mode; }
 
 /// Whether a factor is of the f of a fold.
 bool is_fold(const LocusFactor& factor, const LocusProblem& problem) {
@@ -79,17 +80,25 @@ double box_size(const LocusMap& map) {
 
 }  // namespace
 
+void drop_own_roots(const core::TowerNames& tower, core::WorkingMode& mode) {
+  core::WorkingMode kept;
+  for (std::size_t j = 0; j < tower.roots.size() && j < mode.size(); ++j)
+    if (!is_own(tower.roots[j])) kept.push_back(mode[j]);
+  mode = std::move(kept);
+}
+
 void drop_own_roots(LocusMap& map) {
-  const auto first_own = std::find_if(map.tower.roots.begin(), map.tower.roots.end(), is_own);
-  const auto kept = static_cast<std::size_t>(first_own - map.tower.roots.begin());
-  map.tower.roots.erase(first_own, map.tower.roots.end());
-  for (LocusCurve& curve : map.curves) curve.mode.resize(kept, 1);
-  for (core::LocusSurface& surface : map.surfaces) surface.mode.resize(kept, 1);
-  for (core::SpaceCurve& curve : map.space_curves) curve.mode.resize(kept, 1);
-  for (core::IsolatedPoint& point : map.isolated_points) point.mode.resize(kept, 1);
-  for (core::OpenRegion& region : map.open) region.mode.resize(kept, 1);
-  for (core::WorkspaceRegion& region : map.workspace) region.mode.resize(kept, 1);
-  for (core::ReachableInterval& interval : map.reachable) interval.mode.resize(kept, 1);
+  const auto drop = [&](auto& list) {
+    for (auto& one : list) drop_own_roots(map.tower, one.mode);
+  };
+  drop(map.curves);
+  drop(map.surfaces);
+  drop(map.space_curves);
+  drop(map.isolated_points);
+  drop(map.open);
+  drop(map.workspace);
+  drop(map.reachable);
+  std::erase_if(map.tower.roots, is_own);
 }
 
 void append_sheets(LocusMap& joined, LocusMap map) {
@@ -122,15 +131,13 @@ LocusMap join_sheets(const std::vector<const LocusProblem*>& problems, std::vect
   if (maps.size() == 1) return std::move(maps.front());
   LocusMap joined;
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    std::vector<LocusCurve> curves = std::exchange(maps[m].curves, {});
     drop_own_roots(maps[m]);
-    const std::size_t kept = maps[m].tower.roots.size();
+    std::vector<LocusCurve> curves = std::exchange(maps[m].curves, {});
     if (m == 0)
       joined = std::move(maps[m]);
     else
       append_sheets(joined, std::move(maps[m]));
     for (LocusCurve& curve : curves) {
-      curve.mode.resize(kept, 1);
       const bool twice = may_be_on_fold(curve, *problems[m]);
       auto found = std::find_if(joined.curves.begin(), joined.curves.end(),
                                 [&](const LocusCurve& other) { return is_same(other, curve); });
@@ -152,7 +159,7 @@ LocusMap join_sheets(const std::vector<const LocusProblem*>& problems, std::vect
     }
   }
   std::vector<core::WorkingMode> order = modes;
-  for (core::WorkingMode& mode : order) mode.resize(joined.tower.roots.size(), 1);
+  for (core::WorkingMode& mode : order) drop_own_roots(names_of(problems.front()->tower), mode);
   std::stable_sort(joined.workspace.begin(), joined.workspace.end(), [&](const auto& a, const auto& b) {
     return std::find(order.begin(), order.end(), a.mode) < std::find(order.begin(), order.end(), b.mode);
   });

@@ -10,13 +10,14 @@
 
 namespace clearloci::loci {
 
-/// The modes of a problem's map without the signs of roots that only this problem has (of folds and margins): what the
-/// maps of several problems name alike.
+/// The modes of a problem's map without the signs of roots that only this problem may have (of folds, margins and
+/// lengths): what the maps of several problems name alike. Of a single mode with the roots that `tower` names.
 void drop_own_roots(core::LocusMap& map);
+void drop_own_roots(const core::TowerNames& tower, core::WorkingMode& mode);
 
 /// `maps`: of `problems`, which cut one box into sheets; two lengths. Curves that run on over a fold are one with arcs
 /// on both sides; the fold itself, which both sides have found, is there once. Modes and curves are in the order of
-/// `modes`, which may be longer than those of the map.
+/// `modes`, which are those of the first problem.
 core::LocusMap join_sheets(const std::vector<const core::LocusProblem*>& problems, std::vector<core::LocusMap> maps,
                            const std::vector<core::WorkingMode>& modes);
 

@@ -58,6 +58,10 @@ bool has_angle(const Polynomial& p, const core::RootTower& tower) {
   return false;
 }
 
+bool is_root_of_angle(const core::RootTower& tower, std::size_t j) {
+  return !tower.roots[j].is_angle() && has_angle(tower.roots[j].square, tower);
+}
+
 Polynomial conjugate_product(const Polynomial& p, int root, const core::RootTower& tower) {
   const auto [a, b] = split(p, static_cast<int>(tower.coordinates.size()) + root);
   return reduce(a * a - b * b * tower.roots[static_cast<std::size_t>(root)].square, tower);

@@ -19,6 +19,8 @@ int top_root(const core::Polynomial& p, const core::RootTower& tower);
 
 /// Whether an element holds an angle: then it is no algebraic number, and has no norm.
 bool has_angle(const core::Polynomial& p, const core::RootTower& tower);
+/// Whether root j is no angle itself, and its square holds one: no polynomial tells where it vanishes.
+bool is_root_of_angle(const core::RootTower& tower, std::size_t j);
 
 /// Product of an element with its conjugates under the sign of root `root`: a^2 - b^2 Q.
 core::Polynomial conjugate_product(const core::Polynomial& p, int root, const core::RootTower& tower);

@@ -1,8 +1,10 @@
 #include "loci/points/points.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
+#include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
 #include "loci/numbers/numbers.hpp"
@@ -37,35 +39,22 @@ struct NotTold {};
 class RootPlace {
  public:
   RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root)
-      : RootPlace(tower, mode, root.lower, root.upper, &root) {}
-  /// Where no polynomial is known: signs are told by intervals, or throw NotTold.
-  RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, const SheetRoot& root)
-      : RootPlace(tower, mode, root.lower, root.upper, nullptr) {}
-
- private:
-  RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, const Rational& lower, const Rational& upper,
-            RealRoot* root)
-      : tower_(tower), root_(root) {
-    values_.emplace_back(lower, upper);
-    for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-      if (tower.roots[j].is_angle()) {
-        place_angle(tower.roots[j]);
-        continue;
-      }
-      const int square = sign(tower.roots[j].square);
-      if (square < 0) {
-        reachable_ = false;
-        return;
-      }
-      const MultiInterval s = square == 0 ? MultiInterval(0.0) : square_root(evaluate(tower.roots[j].square, values_));
-      values_.push_back(mode[j] > 0 ? s : -s);
-      signs_.push_back(square == 0 ? 0 : mode[j]);
-    }
+      : RootPlace(tower, mode, root, tower.roots.size()) {}
+  /// Of the roots whose squares hold an angle those before `first_unplaced` alone.
+  RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, RealRoot& root, std::size_t first_unplaced)
+      : tower_(tower), root_(&root) {
+    place_roots(mode, {root.lower, root.upper}, {}, first_unplaced);
+  }
+  /// Where no polynomial is known: signs are told by intervals, or throw NotTold. `vanishing`: a root that is zero
+  /// there.
+  RootPlace(const core::RootTower& tower, const core::WorkingMode& mode, const SheetRoot& root,
+            std::optional<std::size_t> vanishing)
+      : tower_(tower), root_(nullptr) {
+    place_roots(mode, {root.lower, root.upper}, vanishing, tower.roots.size());
   }
 
- public:
   bool reachable() const { return reachable_; }
-  /// One a root; required: reachable().
+  /// One a root; required: reachable(). What holds an angle counts where it is not told from zero.
   std::vector<bool> vanishing_roots() const {
     std::vector<bool> list;
     for (const int sign : signs_) list.push_back(sign == 0);
@@ -99,6 +88,26 @@ class RootPlace {
   }
 
  private:
+  void place_roots(const core::WorkingMode& mode, const MultiInterval& at, std::optional<std::size_t> vanishing,
+                   std::size_t first_unplaced) {
+    values_.push_back(at);
+    for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
+      if (tower_.roots[j].is_angle()) {
+        place_angle(tower_.roots[j]);
+        continue;
+      }
+      const bool unplaced = j >= first_unplaced && is_root_of_angle(tower_, j);
+      const int square = unplaced ? 1 : j == vanishing ? 0 : sign(tower_.roots[j].square);
+      if (square < 0) {
+        reachable_ = false;
+        return;
+      }
+      const MultiInterval s =
+          square == 0 || unplaced ? MultiInterval(0.0) : square_root(evaluate(tower_.roots[j].square, values_));
+      values_.push_back(mode[j] > 0 ? s : -s);
+      signs_.push_back(square == 0 ? 0 : mode[j]);
+    }
+  }
   void place_angle(const core::Root& root) {
     const std::size_t placed = values_.size();
     values_.resize(static_cast<std::size_t>(tower_.variables()), MultiInterval(0.0));
@@ -118,8 +127,8 @@ class RootPlace {
   bool reachable_ = true;
 };
 
-/// How the zeros of a factor are found. `open`: it holds an angle, and enclosures have not told its zeros.
-enum class Search { by_polynomial, on_sheet, open };
+/// How the zeros of a factor are found. `with_its_root`: it bounds the workspace with an angle.
+enum class Search { by_polynomial, on_sheet, with_its_root };
 
 /// Every value of the coordinate where some factor may vanish, ascending, but for those that are looked for on sheets.
 std::vector<RealRoot> candidates(const LocusProblem& problem, const std::vector<Search>& searches) {
@@ -172,8 +181,9 @@ CoordinateGerm germs_at(RealRoot& root) {
 
 Search search_of(const LocusFactor& factor, const core::RootTower& tower) {
   if (factor.role == FactorRole::construction || !factor.implicit.empty()) return Search::by_polynomial;
-  if (has_angle(factor.sheet, tower)) return Search::on_sheet;
-  const bool heavy = factor.role != FactorRole::workspace_boundary && norm_degree(factor.sheet, tower) > heavy_degree;
+  const bool bounds = factor.role == FactorRole::workspace_boundary;
+  if (has_angle(factor.sheet, tower)) return bounds ? Search::with_its_root : Search::on_sheet;
+  const bool heavy = !bounds && norm_degree(factor.sheet, tower) > heavy_degree;
   return heavy ? Search::on_sheet : Search::by_polynomial;
 }
 
@@ -245,175 +255,369 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::Workin
   return labels;
 }
 
-/// The same at a simple zero of one factor where nothing else vanishes. Where something else may, throws NotTold; with
-/// an angle, which polynomials would tell nothing of, it is not proven.
+/// The same at a simple zero of one factor where nothing else vanishes, but for its multiples. Where something else
+/// may, throws NotTold; with an angle, which polynomials would tell nothing of, it is not proven.
 std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor, RootPlace& place) {
+  const LocusFactor& own = problem.factors[factor];
   std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
-  const bool own_angle = has_angle(problem.factors[factor].sheet, problem.tower);
+  std::vector<const LocusFactor*> perhaps;  // reactions, with that which is zero for certain
+  const bool own_angle = has_angle(own.sheet, problem.tower);
   bool proven = true;
-  const auto look_at = [&](const Polynomial& other) {
+  int compared = is_of_determinants(own.role) ? static_cast<int>(factor) : -1;
+  const auto is_told = [&](const Polynomial& other) {
     try {
       place.sign(other);
     } catch (const NotTold&) {
       if (!own_angle && !has_angle(other, problem.tower)) throw;
-      proven = false;
+      return false;
     }
+    return true;
   };
-  for (std::size_t f = 0; f < problem.factors.size(); ++f)
-    if (f != factor && problem.factors[f].role != FactorRole::construction) look_at(problem.factors[f].sheet);
-  for (const auto& [sheet, power] : problem.factors[factor].cleared) look_at(sheet);
-  vanishing[factor] = true;
-  margins[factor] = problem.factors[factor].role == FactorRole::margin;
-  const bool compared = is_of_determinants(problem.factors[factor].role);
-  const ReactionOrders orders = compared ? orders_at_simple_zero(problem, static_cast<int>(factor)) : ReactionOrders{};
+  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
+    const LocusFactor& other = problem.factors[f];
+    if (other.role == FactorRole::construction) continue;
+    vanishing[f] = f == factor || (own_angle && other.sheet == own.sheet);
+    margins[f] = vanishing[f] && other.role == FactorRole::margin;
+    if (vanishing[f] && is_of_determinants(other.role)) compared = static_cast<int>(f);
+    const bool told = vanishing[f] || is_told(other.sheet);
+    proven = proven && told;
+    if (other.role == FactorRole::reaction && (vanishing[f] || !told)) perhaps.push_back(&other);
+  }
+  for (const auto& [sheet, power] : own.cleared) proven = is_told(sheet) && proven;
+  const ReactionOrders orders = compared >= 0 ? orders_at_simple_zero(problem, compared) : ReactionOrders{};
   std::vector<EdgeLabel> labels = labels_from(problem, orders, vanishing, margins);
+  if (!proven && !orders.singular) {  // what one factor does not let vanish two may
+    EdgeLabel label = reaction_label(problem, perhaps);
+    const bool known = std::any_of(labels.begin(), labels.end(), [&](const EdgeLabel& one) {
+      return one.kind == label.kind && one.vanishing == label.vanishing;
+    });
+    if (!label.vanishing.empty() && !known) labels.insert(labels.begin(), std::move(label));
+  }
   for (EdgeLabel& label : labels) label.proven = proven;
   return labels;
-}
-
-/// Whether a mode reaches the open interval between two neighbouring candidates.
-bool reaches(const LocusProblem& problem, const core::WorkingMode& mode, const Rational& from, const Rational& to) {
-  const Rational at = (from + to) / 2;
-  RealRoot sample = {{-at.get_num(), at.get_den()}, at, at};
-  return RootPlace(problem.tower, mode, sample).reachable();
 }
 
 /// A point of a mode before it is one of the map's: an exact one, or a zero of one factor on the sheet.
 struct Event {
   RealRoot* exact = nullptr;
-  SheetRoot zero;
+  SheetRoot zero = {};
   std::size_t factor = 0;
+  std::optional<std::size_t> root = {};  ///< of the tower, which holds an angle and ends the reach in `zero`
+  bool open = false;                     ///< it may do so in `zero`, or not
 
   const Rational& lower() const { return exact != nullptr ? exact->lower : zero.lower; }
   const Rational& upper() const { return exact != nullptr ? exact->upper : zero.upper; }
 };
 
-/// The zeros on a mode's sheet of the factors that are looked for there; `refused`: the first for which that failed.
-std::optional<std::vector<Event>> zeros_on_sheet(const LocusProblem& problem, const core::WorkingMode& mode,
-                                                 std::vector<RealRoot>& roots, const std::vector<Search>& searches,
-                                                 std::size_t& refused) {
-  std::vector<Event> events;
-  if (std::find(searches.begin(), searches.end(), Search::on_sheet) == searches.end()) return events;
-  struct End {
-    StretchEnd place;
-    std::optional<RootPlace> at;
-  };
-  std::vector<RealRoot> box;
-  for (const Rational& side : {problem.lower[0], problem.upper[0]})
-    box.push_back({{-side.get_num(), side.get_den()}, side, side});
-  std::vector<RealRoot*> sides = {&box[0]};
-  for (RealRoot& root : roots)
-    if (root.lower > problem.lower[0] && root.upper < problem.upper[0]) sides.push_back(&root);
-  sides.push_back(&box[1]);
-  std::vector<End> ends;
-  for (RealRoot* side : sides) {
-    End& end = ends.emplace_back(End{{side->lower, side->upper, {}, false}, RootPlace(problem.tower, mode, *side)});
-    if (end.at->reachable()) end.place.vanishing = end.at->vanishing_roots();
+bool is_before(const Event& a, const Event& b) { return a.lower() < b.lower(); }
+
+/// The sheet of a mode over the range, cut where polynomials tell that something vanishes, and where roots that hold
+/// angles do: between neighbouring cuts it is reached all along, or nowhere, or that is open.
+class SheetLine {
+ public:
+  /// `roots` outlive this.
+  SheetLine(const LocusProblem& problem, const core::WorkingMode& mode, std::vector<RealRoot>& roots)
+      : problem_(problem), mode_(mode) {
+    const Rational range = problem.upper[0] - problem.lower[0];
+    width_ = range / Rational(core::Integer(1) << halvings);
+    enough_ = range / Rational(core::Integer(1) << least_halvings);
+    for (const Rational& side : {problem.lower[0], problem.upper[0]}) sides_.push_back(number(side));
+    std::vector<Event> cuts = {{&sides_[0]}};
+    for (RealRoot& root : roots)
+      if (root.lower > problem.lower[0] && root.upper < problem.upper[0]) cuts.push_back({&root});
+    cuts.push_back({&sides_[1]});
+    for (std::size_t j = 0; j < problem.tower.roots.size(); ++j) {
+      if (!is_root_of_angle(problem.tower, j)) continue;
+      cuts_ = placed(cuts, j);
+      LocusFactor square;
+      square.sheet = problem.tower.roots[j].square;
+      square.line = problem.tower.roots[j].line;
+      const StretchZeros found = zeros(square, j);
+      for (const SheetRoot& zero : found.zeros) ends_of_reach_.push_back({nullptr, zero, 0, j});
+      for (const SheetRoot& place : found.open) ends_of_reach_.push_back({nullptr, place, 0, j, true});
+      const std::size_t added = found.zeros.size() + found.open.size();
+      cuts.insert(cuts.end(), ends_of_reach_.end() - static_cast<std::ptrdiff_t>(added), ends_of_reach_.end());
+      std::sort(cuts.begin(), cuts.end(), is_before);
+    }
+    cuts_ = placed(cuts, problem.tower.roots.size());
   }
-  const Rational range = problem.upper[0] - problem.lower[0];
-  const Rational width = range / Rational(core::Integer(1) << halvings),
-                 enough = range / Rational(core::Integer(1) << least_halvings);
-  for (std::size_t f = 0; f < problem.factors.size(); ++f) {
-    if (searches[f] != Search::on_sheet) continue;
-    refused = f;
-    SheetRoots search(problem.tower, mode, problem.factors[f]);
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      if (!reaches(problem, mode, ends[i].place.upper, ends[i + 1].place.lower)) continue;
-      if (!ends[i].at->reachable() || !ends[i + 1].at->reachable()) return std::nullopt;
-      for (const std::size_t side : {i, i + 1})
-        ends[side].place.function_is_zero = ends[side].at->sign(problem.factors[f].sheet) == 0;
-      // At a side of the box a zero is a point itself.
-      if ((i == 0 && ends[i].place.function_is_zero) || (i + 2 == ends.size() && ends[i + 1].place.function_is_zero))
-        return std::nullopt;
-      std::optional<std::vector<SheetRoot>> found = search.between(ends[i].place, ends[i + 1].place, width, enough);
-      if (!found) return std::nullopt;
-      for (SheetRoot& zero : *found) events.push_back({nullptr, std::move(zero), f});
+  SheetLine(const SheetLine&) = delete;
+  SheetLine& operator=(const SheetLine&) = delete;
+
+  /// Where roots that hold angles end the reach, or may.
+  const std::vector<Event>& ends_of_reach() const { return ends_of_reach_; }
+
+  /// Whether the mode reaches what is between two neighbouring places.
+  bool reaches(const Rational& from, const Rational& to) const {
+    return reaches(from, to, problem_.tower.roots.size());
+  }
+
+  /// Of a function on the sheet, where it is reached; all of them where it holds an angle, else up to the first place
+  /// that is open.
+  StretchZeros zeros(const LocusFactor& function) { return zeros(function, problem_.tower.roots.size()); }
+
+ private:
+  struct Cut {
+    StretchEnd place;
+    std::optional<RootPlace> at;  ///< nothing: not told
+    bool open;                    ///< what is in the place itself, which is a range
+  };
+
+  static RealRoot number(const Rational& at) { return {{-at.get_num(), at.get_den()}, at, at}; }
+
+  std::vector<Cut> placed(const std::vector<Event>& cuts, std::size_t first_unplaced) const {
+    std::vector<Cut> list;
+    for (const Event& cut : cuts) {
+      Cut& added = list.emplace_back(Cut{{cut.lower(), cut.upper(), {}, false}, {}, cut.open});
+      if (cut.open) continue;
+      try {
+        if (cut.exact != nullptr)
+          added.at.emplace(problem_.tower, mode_, *cut.exact, first_unplaced);
+        else
+          added.at.emplace(problem_.tower, mode_, cut.zero, cut.root);
+      } catch (const NotTold&) {
+        continue;
+      }
+      if (added.at->reachable()) added.place.vanishing = added.at->vanishing_roots();
+    }
+    return list;
+  }
+
+  bool reaches(const Rational& from, const Rational& to, std::size_t first_unplaced) const {
+    for (const int part :
+         {8, 7, 11}) {  // where one number is next to a zero of what holds an angle, another one is not
+      const Rational at = from + (to - from) * Rational(part, 16);
+      RealRoot sample = number(at);
+      const RootPlace place(problem_.tower, mode_, sample, first_unplaced);
+      if (!place.reachable()) return false;
+      const std::vector<bool> vanishing = place.vanishing_roots();
+      if (std::find(vanishing.begin(), vanishing.end(), true) == vanishing.end()) return true;
+    }
+    return true;
+  }
+
+  /// Whether the function is zero at a cut; what holds an angle counts where it is not told from zero. Nothing: not
+  /// told.
+  std::optional<bool> is_zero_at(Cut& cut, const LocusFactor& function) const {
+    if (!cut.at || !cut.at->reachable()) return std::nullopt;
+    try {
+      return cut.at->sign(function.sheet) == 0;
+    } catch (const NotTold&) {
+      return has_angle(function.sheet, problem_.tower) ? std::optional(true) : std::nullopt;
     }
   }
-  return events;
-}
 
-/// Adds the points of a mode. False: they are not all told, and the factor `refused` is to be eliminated.
-bool add_mode(const LocusProblem& problem, const core::WorkingMode& mode, std::vector<RealRoot>& roots,
-              const std::vector<Search>& searches, LocusMap& map, std::size_t& refused) {
-  std::optional<std::vector<Event>> events = zeros_on_sheet(problem, mode, roots, searches, refused);
-  if (!events) return false;
-  for (RealRoot& root : roots) events->push_back({&root, {}, 0});
-  std::sort(events->begin(), events->end(), [](const Event& a, const Event& b) { return a.lower() < b.lower(); });
-  for (std::size_t i = 0; i + 1 < events->size(); ++i) {
-    const Event &a = (*events)[i], &b = (*events)[i + 1];
-    if (a.upper() < b.lower() || (a.exact != nullptr && b.exact != nullptr)) continue;
-    const auto holds_angle = [&](const Event& event) {
-      return event.exact == nullptr && has_angle(problem.factors[event.factor].sheet, problem.tower);
-    };
-    if (holds_angle(a) || holds_angle(b)) continue;      // perhaps one point: labels say that it is not proven
-    refused = a.exact == nullptr ? a.factor : b.factor;  // only polynomials can tell
-    return false;
+  StretchZeros zeros(const LocusFactor& function, std::size_t first_unplaced) {
+    const bool all = has_angle(function.sheet, problem_.tower);
+    SheetRoots search(problem_.tower, mode_, function, all);
+    StretchZeros result;
+    for (std::size_t i = 0; i + 1 < cuts_.size() && (all || result.open.empty()); ++i) {
+      Cut &from = cuts_[i], &to = cuts_[i + 1];
+      const Rational &lower = from.place.upper, &upper = to.place.lower;
+      if (lower >= upper || !reaches(lower, upper, first_unplaced)) continue;
+      // What is beside an open place ends at a number there.
+      const auto end_at = [&](Cut& cut, const Rational& side) -> std::optional<StretchEnd> {
+        if (cut.open) return StretchEnd{side, side, {}, false};
+        const std::optional<bool> is_zero = is_zero_at(cut, function);
+        if (!is_zero) return std::nullopt;
+        StretchEnd end = cut.place;
+        end.function_is_zero = *is_zero;
+        return end;
+      };
+      const std::optional<StretchEnd> first = end_at(from, lower), last = end_at(to, upper);
+      // At a side of the box a zero is a point itself.
+      if (!first || !last || (i == 0 && first->function_is_zero) || (i + 2 == cuts_.size() && last->function_is_zero)) {
+        result.open.push_back({lower, upper});
+        continue;
+      }
+      StretchZeros found = search.between(*first, *last, width_, enough_);
+      std::move(found.zeros.begin(), found.zeros.end(), std::back_inserter(result.zeros));
+      std::move(found.open.begin(), found.open.end(), std::back_inserter(result.open));
+    }
+    return result;
   }
-  std::vector<core::IsolatedPoint> points;
-  std::vector<core::ReachableInterval> intervals;
-  Rational from = problem.lower[0];
-  double start = core::to_double(from);
-  bool joined = false;  // the point before the cell is reachable, and so is the cell before it
-  const auto cell = [&](const Rational& to, double end, bool end_reachable) {
-    const bool reached = from < to && reaches(problem, mode, from, to);
-    if (reached && joined && !intervals.empty())
-      intervals.back().to = end;
+
+  const LocusProblem& problem_;
+  const core::WorkingMode& mode_;
+  std::vector<RealRoot> sides_;
+  std::vector<Event> ends_of_reach_;
+  std::vector<Cut> cuts_;
+  Rational width_, enough_;
+};
+
+/// A place where zeros of a factor may be.
+struct OpenZeros {
+  std::size_t factor;
+  SheetRoot place;
+};
+
+bool overlap(const SheetRoot& a, const SheetRoot& b) { return a.lower <= b.upper && b.lower <= a.upper; }
+
+/// The points and intervals of one mode.
+class ModePoints {
+ public:
+  ModePoints(const LocusProblem& problem, const core::WorkingMode& mode, const std::vector<Search>& searches,
+             std::vector<RealRoot>& roots)
+      : problem_(problem), mode_(mode), searches_(searches), line_(problem, mode, roots) {
+    for (RealRoot& root : roots) events_.push_back({&root});
+    for (const Event& end : line_.ends_of_reach()) {
+      events_.push_back(end);
+      events_.back().factor = factor_of(*end.root);
+    }
+  }
+
+  /// The factor that is to be eliminated for the points to be told; nothing: they are the map's now.
+  std::optional<std::size_t> add_to(LocusMap& map) {
+    if (const auto refused = search_on_sheet()) return refused;
+    std::sort(events_.begin(), events_.end(), is_before);
+    if (const auto refused = unordered()) return refused;
+    for (std::size_t i = 0; i < events_.size(); ++i)
+      if (const auto refused = add(events_[i], i + 1 < events_.size() ? events_[i + 1].lower() : problem_.upper[0]))
+        return refused;
+    end_cell(problem_.upper[0], core::to_double(problem_.upper[0]), false);
+    for (const OpenZeros& open : open_) leave_open(open);
+    std::move(points_.begin(), points_.end(), std::back_inserter(map.isolated_points));
+    std::move(intervals_.begin(), intervals_.end(), std::back_inserter(map.reachable));
+    std::move(regions_.begin(), regions_.end(), std::back_inserter(map.open));
+    return std::nullopt;
+  }
+
+ private:
+  bool holds_angle(std::size_t factor) const { return has_angle(problem_.factors[factor].sheet, problem_.tower); }
+
+  /// That bounds the workspace where a root vanishes that holds an angle.
+  std::size_t factor_of(std::size_t root) const {
+    std::optional<std::size_t> first;
+    for (std::size_t f = 0; f < problem_.factors.size(); ++f) {
+      if (searches_[f] != Search::with_its_root) continue;
+      if (core::exact_quotient(problem_.tower.roots[root].square, problem_.factors[f].sheet)) return f;
+      if (!first) first = f;
+    }
+    core::ensure(first.has_value(), "a root that holds an angle has a factor that does");
+    return *first;
+  }
+
+  std::optional<std::size_t> search_on_sheet() {
+    for (std::size_t f = 0; f < problem_.factors.size(); ++f) {
+      if (searches_[f] != Search::on_sheet) continue;
+      StretchZeros found = line_.zeros(problem_.factors[f]);
+      if (!found.open.empty() && !holds_angle(f)) return f;
+      for (SheetRoot& zero : found.zeros) events_.push_back({nullptr, std::move(zero), f});
+      for (SheetRoot& place : found.open) open_.push_back({f, std::move(place)});
+    }
+    return std::nullopt;
+  }
+
+  /// Of two events whose order is not known, unless both hold angles: then they may be one, and labels say so.
+  std::optional<std::size_t> unordered() const {
+    for (std::size_t i = 0; i + 1 < events_.size(); ++i) {
+      const Event &a = events_[i], &b = events_[i + 1];
+      if (a.upper() < b.lower() || (a.exact != nullptr && b.exact != nullptr)) continue;
+      if ((a.exact == nullptr && holds_angle(a.factor)) || (b.exact == nullptr && holds_angle(b.factor))) continue;
+      return a.exact == nullptr ? a.factor : b.factor;  // only polynomials can tell
+    }
+    return std::nullopt;
+  }
+
+  /// Up to the next event, at `to`, which is drawn at `end`. Whether the cell is reached.
+  bool end_cell(const Rational& to, double end, bool end_reachable) {
+    const bool reached = from_ < to && line_.reaches(from_, to);
+    if (reached && joined_ && !intervals_.empty())
+      intervals_.back().to = end;
     else if (reached)
-      intervals.push_back({mode, start, end});
-    joined = end_reachable && (reached || from >= to);
-    start = end;
-  };
-  for (const Event& event : *events) {
-    refused = event.factor;
+      intervals_.push_back({mode_, start_, end});
+    joined_ = end_reachable && (reached || from_ >= to);
+    start_ = end;
+    return reached;
+  }
+
+  /// `next`: where the cell behind the event ends.
+  std::optional<std::size_t> add(const Event& event, const Rational& next) {
+    if (event.open) {
+      end_cell(event.lower(), core::to_double(event.lower()), false);
+      open_.push_back({event.factor, event.zero});
+      from_ = event.upper();
+      start_ = core::to_double(from_);
+      return std::nullopt;
+    }
     const double at = core::to_double((event.lower() + event.upper()) / 2);
     std::vector<EdgeLabel> labels;
     try {
-      RootPlace place = event.exact != nullptr ? RootPlace(problem.tower, mode, *event.exact)
-                                               : RootPlace(problem.tower, mode, event.zero);
-      cell(event.lower(), at, place.reachable());
-      from = event.upper();
-      if (!place.reachable()) continue;
-      const bool undefined = std::any_of(problem.tower.denominators.begin(), problem.tower.denominators.end(),
+      RootPlace place = event.exact != nullptr ? RootPlace(problem_.tower, mode_, *event.exact)
+                                               : RootPlace(problem_.tower, mode_, event.zero, event.root);
+      const bool reached = end_cell(event.lower(), at, place.reachable());
+      from_ = event.upper();
+      if (!place.reachable()) return std::nullopt;
+      const bool undefined = std::any_of(problem_.tower.denominators.begin(), problem_.tower.denominators.end(),
                                          [&](const Polynomial& denominator) { return place.sign(denominator) == 0; });
-      if (undefined) continue;
-      labels = event.exact != nullptr ? labels_at(problem, mode, *event.exact, place)
-                                      : labels_at(problem, event.factor, place);
+      if (undefined) return std::nullopt;
+      labels = event.exact != nullptr ? labels_at(problem_, mode_, *event.exact, place)
+                                      : labels_at(problem_, event.factor, place);
+      // What a force must do is a condition on its numerator times |A|, which tells nothing where |A| is zero.
+      const bool singular = std::any_of(labels.begin(), labels.end(), [](const EdgeLabel& label) {
+        return label.kind == LocusKind::direct_singularity;
+      });
+      if (singular && !reached && from_ < next && !line_.reaches(from_, next)) return std::nullopt;
     } catch (const NotTold&) {
-      return false;
+      if (!holds_angle(event.factor)) return event.factor;
+      open_.push_back({event.factor, event.zero});
+      return std::nullopt;
     }
     for (EdgeLabel& label : labels) {
       core::IsolatedPoint point;
       point.kind = label.kind;
       point.vanishing = std::move(label.vanishing);
       point.at = {at};
-      point.mode = mode;
+      point.mode = mode_;
       point.certified = label.proven;
       point.factor = std::move(label.factor);
       point.cause = std::move(label.cause);
       point.excited = label.excited;
-      points.push_back(std::move(point));
+      points_.push_back(std::move(point));
     }
+    return std::nullopt;
   }
-  cell(problem.upper[0], core::to_double(problem.upper[0]), false);
-  map.isolated_points.insert(map.isolated_points.end(), points.begin(), points.end());
-  map.reachable.insert(map.reachable.end(), intervals.begin(), intervals.end());
-  return true;
-}
 
-}  // namespace
+  /// Where a component alone is no locus, with the others that may vanish there.
+  void leave_open(const OpenZeros& open) {
+    EdgeLabel label = label_of(problem_, {static_cast<int>(open.factor)});
+    if (problem_.factors[open.factor].role == FactorRole::reaction) {
+      std::vector<const LocusFactor*> together = {&problem_.factors[open.factor]};
+      const auto also = [&](std::size_t factor, const SheetRoot& place) {
+        const LocusFactor* other = &problem_.factors[factor];
+        if (other->role == FactorRole::reaction && overlap(place, open.place) &&
+            std::find(together.begin(), together.end(), other) == together.end())
+          together.push_back(other);
+      };
+      for (const OpenZeros& other : open_) also(other.factor, other.place);
+      for (const Event& event : events_)
+        if (event.exact == nullptr) also(event.factor, event.zero);
+      label = reaction_label(problem_, together);
+      if (label.vanishing.empty()) return;
+    }
+    regions_.push_back({label.kind,
+                        label.vanishing,
+                        label.factor,
+                        label.cause,
+                        mode_,
+                        {core::to_double(open.place.lower)},
+                        {core::to_double(open.place.upper)}});
+  }
 
-namespace {
-
-/// What a factor makes vanish, in a line: formulas of it may fill pages.
-std::string words_of(const LocusFactor& factor) {
-  if (!factor.cause.empty()) return factor.cause;
-  if (factor.role == FactorRole::direct_singularity) return "|A|";
-  std::string names;
-  for (const Vanishing& vanishing : factor.vanishing)
-    names += (names.empty() ? "" : ", ") + core::to_string(vanishing.quantity) + " of " + vanishing.joint;
-  return names.empty() ? "a factor" : names;
-}
+  const LocusProblem& problem_;
+  const core::WorkingMode& mode_;
+  const std::vector<Search>& searches_;
+  SheetLine line_;
+  std::vector<Event> events_;
+  std::vector<OpenZeros> open_;
+  std::vector<core::IsolatedPoint> points_;
+  std::vector<core::ReachableInterval> intervals_;
+  std::vector<core::OpenRegion> regions_;
+  // The cell behind the last event.
+  Rational from_ = problem_.lower[0];
+  double start_ = core::to_double(from_);
+  bool joined_ = false;  ///< the last event is reachable, and so is the cell before it
+};
 
 }  // namespace
 
@@ -424,19 +628,13 @@ void add_points_of_one_coordinate(const LocusProblem& problem, const TraceOption
   std::vector<RealRoot> roots = candidates(problem, searches);
   for (std::size_t m = 0; m < problem.modes.size(); ++m) {
     if (options.progress) options.progress(static_cast<double>(m) / static_cast<double>(problem.modes.size()), "roots");
-    for (std::size_t refused = 0;;) {
+    while (true) {
       if (options.deadline && std::chrono::steady_clock::now() > *options.deadline)
         throw core::LimitReached("the time limit was reached");
-      if (add_mode(problem, problem.modes[m], roots, searches, map, refused)) break;
-      const LocusFactor& factor = problem.factors[refused];
-      if (has_angle(factor.sheet, problem.tower)) {
-        searches[refused] = Search::open;
-        map.notes.push_back("undecided: zeros of " + words_of(factor) +
-                            ", with an angle that enclosures do not tell from its zeros");
-      } else {
-        searches[refused] = Search::by_polynomial;
-        roots = candidates(problem, searches);
-      }
+      const auto refused = ModePoints(problem, problem.modes[m], searches, roots).add_to(map);
+      if (!refused) break;
+      searches[*refused] = Search::by_polynomial;
+      roots = candidates(problem, searches);
     }
   }
 }

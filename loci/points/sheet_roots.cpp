@@ -33,19 +33,25 @@ struct SheetRoots::Search {
   const StretchEnd& to;
 };
 
-SheetRoots::SheetRoots(const core::RootTower& tower, const core::WorkingMode& mode, const core::LocusFactor& factor)
+SheetRoots::SheetRoots(const core::RootTower& tower, const core::WorkingMode& mode, const core::LocusFactor& factor,
+                       bool keeps_open)
     : mode_(mode),
+      keeps_open_(keeps_open),
       program_(tower, {factor.sheet}, lines_of(factor)),
       jets_(program_.registers<Jet>()),
       intervals_(program_.registers<Interval>()),
       exact_(program_.registers<MultiInterval>()) {
   core::ensure(program_.coordinates() == 1, "one free coordinate");
+  const std::vector<std::size_t> held = core::roots_under(factor.sheet, tower);
+  for (std::size_t j = 0; j < tower.roots.size(); ++j)
+    is_held_.push_back(!is_root_of_angle(tower, j) || std::find(held.begin(), held.end(), j) != held.end());
 }
 
 bool SheetRoots::excluded(const StretchCell& cell) {
   jets_.set(0, Jet(Interval(cell.lower, cell.upper), 0));
   for (int j = 0; j < program_.roots(); ++j) {
     jets_.run_square(j);
+    if (!is_held(j)) continue;
     const Jet& square = jets_.square(j);
     if (!square.bounded || square.value.upper() < 0) return false;
     // A root that may be zero is a number of which its enclosure alone is known.
@@ -58,8 +64,10 @@ bool SheetRoots::excluded(const StretchCell& cell) {
 
 int SheetRoots::slope_sign(const StretchCell& cell, const Search& search) {
   const auto roots = static_cast<std::size_t>(program_.roots());
-  const auto is_rooted = [](const StretchEnd& end) {
-    return std::find(end.vanishing.begin(), end.vanishing.end(), true) != end.vanishing.end();
+  const auto is_rooted = [this](const StretchEnd& end) {
+    for (std::size_t j = 0; j < end.vanishing.size(); ++j)
+      if (end.vanishing[j] && is_held_[j]) return true;
+    return false;
   };
   const bool at_from = cell.first && is_rooted(search.from), at_to = cell.last && is_rooted(search.to);
   if (at_from && at_to) return 0;
@@ -82,6 +90,7 @@ int SheetRoots::slope_sign(const StretchCell& cell, const Search& search) {
     const int root = static_cast<int>(j);
     jets_.run_square(root);
     intervals_.run_square(root);
+    if (!is_held(root)) continue;
     if (!jets_.square(root).bounded) return 0;
     const Interval square = meet(jets_.square(root).value, intervals_.square(root));
     const bool is_zero_at_end = blown_up && vanishing[j];
@@ -97,6 +106,7 @@ int SheetRoots::slope_sign(const StretchCell& cell, const Search& search) {
   intervals_.run_gradients();
   for (std::size_t j = 0; j < roots; ++j) {
     const int root = static_cast<int>(j);
+    if (!is_held(root)) continue;
     Interval by_t = intervals_.square_partial(root, 0), by_u = by_t * dt_du;
     bool in_t = true;
     for (std::size_t k = 0; k < j; ++k) {
@@ -129,6 +139,7 @@ int SheetRoots::sign_at(const Rational& lower, const Rational& upper, const std:
   exact_.set(0, MultiInterval(lower, upper));
   for (int j = 0; j < program_.roots(); ++j) {
     exact_.run_square(j);
+    if (!is_held(j)) continue;
     MultiInterval root(0.0);
     if (vanishing.empty() || !vanishing[static_cast<std::size_t>(j)]) {
       if (exact_.square(j).sign() <= 0) return 0;
@@ -157,8 +168,8 @@ bool SheetRoots::narrow(SheetRoot& root, int sign_below, const Rational& width, 
   return true;
 }
 
-std::optional<std::vector<SheetRoot>> SheetRoots::between(const StretchEnd& from, const StretchEnd& to,
-                                                          const Rational& width, const Rational& enough) {
+StretchZeros SheetRoots::between(const StretchEnd& from, const StretchEnd& to, const Rational& width,
+                                 const Rational& enough) {
   const Search search{from, to};
   // One end has a sign, or is a zero of the function, which the monotone cells next to it have no other of.
   const auto end_sign = [&](const StretchEnd& end) -> std::optional<int> {
@@ -170,25 +181,42 @@ std::optional<std::vector<SheetRoot>> SheetRoots::between(const StretchEnd& from
     const int sign = sign_at(Rational(at), Rational(at), {});
     return sign == 0 ? std::nullopt : std::optional<int>(sign);
   };
-  std::vector<SheetRoot> found;
+  StretchZeros found;
+  const auto range = [&](const StretchCell& cell) {
+    return SheetRoot{cell.first ? from.upper : Rational(cell.lower), cell.last ? to.lower : Rational(cell.upper)};
+  };
+  const auto leave_open = [&](const StretchCell& cell) {
+    const SheetRoot place = range(cell);
+    if (!found.open.empty() && found.open.back().upper == place.lower)
+      found.open.back().upper = place.upper;
+    else
+      found.open.push_back(place);
+  };
   const double whole = core::to_double(to.upper - from.lower);
   std::vector<StretchCell> pending = {{below(from.lower), above(to.upper), true, true}};
-  for (int cells = 0; !pending.empty(); ++cells) {
+  for (int cells = 0; !pending.empty() && (keeps_open_ || found.open.empty()); ++cells) {
     const StretchCell cell = pending.back();
     pending.pop_back();
-    if (cells > most_cells) return std::nullopt;
     if (excluded(cell)) continue;
     if (slope_sign(cell, search) != 0) {
       const std::optional<int> before = cell.first ? end_sign(from) : inner_sign(cell.lower),
                                behind = cell.last ? end_sign(to) : inner_sign(cell.upper);
-      if (!before || !behind) return std::nullopt;
+      if (!before || !behind) {
+        leave_open(cell);
+        continue;
+      }
       if (*before * *behind >= 0) continue;
-      SheetRoot root{cell.first ? from.upper : Rational(cell.lower), cell.last ? to.lower : Rational(cell.upper)};
-      if (root.lower >= root.upper || !narrow(root, *before, width, enough)) return std::nullopt;
-      found.push_back(std::move(root));
+      SheetRoot root = range(cell);
+      if (root.lower >= root.upper || !narrow(root, *before, width, enough))
+        leave_open(cell);
+      else
+        found.zeros.push_back(std::move(root));
       continue;
     }
-    if (cell.upper - cell.lower < least_width * whole) return std::nullopt;
+    if (cells > most_cells || cell.upper - cell.lower < least_width * whole) {
+      leave_open(cell);
+      continue;
+    }
     const double cut = cut_of(cell.lower, cell.upper);
     pending.push_back({cut, cell.upper, false, cell.last});
     pending.push_back({cell.lower, cut, cell.first, false});

@@ -23,16 +23,24 @@ struct StretchEnd {
   bool function_is_zero = false;  ///< exactly
 };
 
+/// What is known of the zeros between two ends, ascending.
+struct StretchZeros {
+  std::vector<SheetRoot> zeros;
+  std::vector<SheetRoot> open;  ///< there may be others in these
+};
+
 class SheetRoots {
  public:
-  /// The tower outlives this. Required: one coordinate.
-  SheetRoots(const core::RootTower& tower, const core::WorkingMode& mode, const core::LocusFactor& factor);
+  /// The tower outlives this. Required: one coordinate. `keeps_open`: after the first place that is not decided the
+  /// others are searched, too.
+  SheetRoots(const core::RootTower& tower, const core::WorkingMode& mode, const core::LocusFactor& factor,
+             bool keeps_open = false);
 
-  /// The zeros strictly between two ends, ascending, narrowed to `width`, or to `enough` where signs are not told
-  /// beyond. Required: no root is zero between them, and the mode reaches all of it. Nothing: not decided, as at a zero
-  /// of higher order.
-  std::optional<std::vector<SheetRoot>> between(const StretchEnd& from, const StretchEnd& to,
-                                                const core::Rational& width, const core::Rational& enough);
+  /// The zeros strictly between two ends, narrowed to `width`, or to `enough` where signs are not told beyond.
+  /// Required: no root that the function holds is zero between them, and the mode reaches all of it, as far as these
+  /// tell. Places are not decided at a zero of higher order, for example.
+  StretchZeros between(const StretchEnd& from, const StretchEnd& to, const core::Rational& width,
+                       const core::Rational& enough);
 
  private:
   struct StretchCell {
@@ -41,6 +49,8 @@ class SheetRoots {
   };
   struct Search;
 
+  /// Squares of others are computed, since what they share with the function is, and are not asked for.
+  bool is_held(int root) const { return is_held_[static_cast<std::size_t>(root)]; }
   bool excluded(const StretchCell& cell);
   /// Sign of the function's derivative all over the cell; 0: not told.
   int slope_sign(const StretchCell& cell, const Search& search);
@@ -49,7 +59,9 @@ class SheetRoots {
   bool narrow(SheetRoot& root, int sign_below, const core::Rational& width, const core::Rational& enough);
 
   core::WorkingMode mode_;
+  bool keeps_open_;
   sheet::SheetProgram program_;
+  std::vector<bool> is_held_;  ///< of every root: the function may hold it
   sheet::SheetProgram::Registers<sheet::Jet> jets_;
   sheet::SheetProgram::Registers<core::Interval> intervals_;
   sheet::SheetProgram::Registers<sheet::MultiInterval> exact_;

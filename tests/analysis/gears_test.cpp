@@ -1,4 +1,5 @@
 // Gears and belts: reactions against statics by hand, wheel by wheel; the flank that bears, and where it changes.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -14,6 +15,7 @@
 #include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 #include "tests/analysis/by_hand.hpp"
+#include "tests/source_dir.hpp"
 #include "tests/texts.hpp"
 
 namespace clearloci {
@@ -407,6 +409,26 @@ TEST(GearedFiveBar, ZonesAreThoseInWhichTheTeethPush) {
     push += by_hand.on_second() / moment(Vector2d(0.04, 0) - by_hand.O2, by_hand.line(-1, 20 * degree)) <= 0;
   }
   EXPECT_NEAR(size, 360 * degree * push / steps, 1e-2);
+}
+
+// The flank that bears holds the angle of the spring, so that no polynomial tells where it changes. Against a separate
+// closure and statics.
+TEST(GearedFiveBar, FlankWithATorsionSpringEndsTheReach) {
+  const Model model = Model::read(source_dir() + "/tests/corpus/loci/geared_five_bar_with_torsion_spring.yaml");
+  const core::LocusMap map = trace_loci(model);
+  EXPECT_TRUE(map.complete);
+  std::vector<double> ends, losses;
+  for (const core::ReachableInterval& interval : map.reachable) {
+    ends.push_back(interval.from / degree);
+    ends.push_back(interval.to / degree);
+  }
+  for (const core::IsolatedPoint& point : map.isolated_points) {
+    EXPECT_TRUE(point.certified);
+    if (point.kind == core::LocusKind::backlash && point.vanishing.front().joint == "O1")
+      losses.push_back(point.at.front() / degree);
+  }
+  EXPECT_THAT(ends, testing::Pointwise(testing::DoubleNear(0.005), {70.42, 189.97, 197.71, 222.61}));
+  EXPECT_THAT(losses, testing::Pointwise(testing::DoubleNear(0.005), {91.19, 157.77, 167.94, 184.91, 202.98}));
 }
 
 TEST(BeltOverACycle, IsVerifiedWithinTheSlackOfItsSpans) {

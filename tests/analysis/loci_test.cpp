@@ -98,5 +98,34 @@ TEST(SpacePointsOfAModel, HaveAJointWithoutForce) {
   }
 }
 
+/// From and to of the only mode, deg.
+std::vector<double> reach_of(const std::string& name) {
+  const LocusMap map = trace_loci(Model::read(source_dir() + "/tests/corpus/loci/" + name + ".yaml"));
+  EXPECT_TRUE(map.complete);
+  std::vector<double> ends;
+  for (const ReachableInterval& interval : map.reachable)
+    for (const double end : {interval.from, interval.to}) ends.push_back(end * 57.29577951308232);
+  return ends;
+}
+
+// On one side of the fold C is at A: there a length is a number, or zero, and the limit keeps no pose. Against a
+// separate closure.
+TEST(FoldedFourBar, IsReachedOnTheSideOnWhichItsLimitHolds) {
+  const auto near = testing::DoubleNear(1e-4);
+  EXPECT_THAT(reach_of("kite_four_bar_with_limit"),
+              testing::Pointwise(near, {2.4005639, 18.5903779, 101.4096221, 168.0390518}));
+  EXPECT_THAT(reach_of("slider_on_its_crank"), testing::Pointwise(near, {113.1301024, 143.1301024}));
+}
+
+// The spring's length is a root on one side of the fold and a number on the other.
+TEST(FoldedFourBar, HasTheLociOfBothSidesBesideASpring) {
+  const LocusMap map = trace_loci(Model::read(source_dir() + "/tests/corpus/loci/kite_four_bar_with_spring.yaml"));
+  ASSERT_EQ(map.reachable.size(), 1U);
+  std::vector<double> losses;
+  for (const IsolatedPoint& point : map.isolated_points)
+    if (point.kind == LocusKind::contact_loss) losses.push_back(point.at[0] * 57.29577951308232);
+  EXPECT_THAT(losses, testing::Pointwise(testing::DoubleNear(1e-4), {-122.178143, 27.2006346}));
+}
+
 }  // namespace
 }  // namespace clearloci

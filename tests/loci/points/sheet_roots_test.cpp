@@ -29,7 +29,9 @@ struct Arch {
     factor.sheet = function;
     SheetRoots search(tower, {side}, factor);
     const Rational width("1/1000000000000");
-    return search.between({-1, -1, {true}, at_ends}, {1, 1, {true}, at_ends}, width, width);
+    StretchZeros found = search.between({-1, -1, {true}, at_ends}, {1, 1, {true}, at_ends}, width, width);
+    if (!found.open.empty()) return std::nullopt;
+    return std::move(found.zeros);
   }
 };
 
