@@ -69,10 +69,10 @@ void FactorEmission::add(FactorRole role, const Poly* natural, const Poly& sheet
   std::vector<Poly> without_zeros;
   const std::vector<SheetFactor> parts = d_.elimination.sheet_factors(sheet, with_implicit, &without_zeros);
   if (role == FactorRole::reaction) d_.keep_without_zeros(role, common.expression, without_zeros);
-  // Where the sheet splits, the natural form has the zeros of all parts.
-  if (natural != nullptr && parts.size() == 1 && parts.front().multiplicity == 1) common.line = d_.lines.of(*natural);
-  for (const SheetFactor& part : parts) {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const SheetFactor& part = parts[p];
     LocusFactor factor = common;
+    if (natural != nullptr) factor.line = line_of(*natural, parts, p);
     for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
     if (role == FactorRole::reaction) {
       factor.vanishing = without_determinant(part.sheet, std::move(factor.vanishing));
@@ -82,6 +82,16 @@ void FactorEmission::add(FactorRole role, const Poly* natural, const Poly& sheet
     put_implicit(part, factor);
     d_.result.problem.factors.push_back(std::move(factor));
   }
+}
+
+core::StraightLine FactorEmission::line_of(const Poly& natural, const std::vector<SheetFactor>& parts,
+                                           std::size_t part) {
+  if (parts[part].multiplicity != 1) return {};
+  if (parts.size() == 1) return d_.lines.of(natural);
+  // Where the sheet splits, the natural form has the zeros of all parts.
+  if (parts.size() != 2) return {};
+  const SheetFactor& other = parts[1 - part];
+  return fold_quotients_.of(natural, {other.sheet, other.multiplicity});
 }
 
 void FactorEmission::put_implicit(const SheetFactor& part, LocusFactor& factor) const {

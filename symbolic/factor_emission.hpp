@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "symbolic/derivation.hpp"
+#include "symbolic/fold_quotient.hpp"
 #include "symbolic/limits.hpp"
 #include "symbolic/margin_nodes.hpp"
 #include "symbolic/margins.hpp"
@@ -39,6 +40,9 @@ class FactorEmission {
   /// `natural`: the polynomial that gave the sheet; null where there is none.
   void add(core::FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit, core::LocusFactor common);
   void put_implicit(const SheetFactor& part, core::LocusFactor& factor) const;
+  /// How the `part` of a natural polynomial is computed whose other parts are elements of folds; empty where it is not
+  /// known.
+  core::StraightLine line_of(const Poly& natural, const std::vector<SheetFactor>& parts, std::size_t part);
   /// Takes what divides |A| too out of what vanishes on a factor over the tower: reactions are quotients.
   std::vector<core::Vanishing> without_determinant(const Poly& sheet, std::vector<core::Vanishing> vanishing);
   /// Of the factors from `first` on those with the curves of |A| or of a reaction before.
@@ -88,6 +92,7 @@ class FactorEmission {
   void add_squared_margin(const Margin& margin, const Poly& sheet, const core::LocusFactor& factor);
 
   Derivation& d_;
+  FoldQuotients fold_quotients_{d_.geometry, d_.elimination, d_.lines};
   MarginNodes margin_nodes_{d_.geometry, d_.elimination, d_.lines};
   std::vector<core::Root> more_roots_;  ///< written in the coordinates and the roots of the geometry
 };

@@ -27,6 +27,21 @@ void StraightLines::know(const std::vector<DeterminantForm>& forms) {
 
 StraightLine StraightLines::of(const Poly& natural) { return builder_.line(scaled_value(natural, 0)); }
 
+StraightLine StraightLines::of(const Poly& natural, mechanism::PointIndex dyad_point, const Rational& above) {
+  const std::optional<Dyad> ends = dyad(dyad_point);
+  if (!ends) return {};
+  const int variable = geometry_->auxiliary();
+  const auto before = known_.find(variable);
+  const std::optional<int> kept = before == known_.end() ? std::nullopt : std::optional(before->second);
+  known_[variable] = builder_.multiply(builder_.constant(above), builder_.inverse(ends->distance2));
+  StraightLine line = of(natural);
+  if (kept)
+    known_[variable] = *kept;
+  else
+    known_.erase(variable);
+  return line;
+}
+
 /// With coefficients in the range of doubles, times 2^exponent.
 int StraightLines::scaled_value(const Poly& natural, long exponent) {
   const Polynomial plain = natural.plain();

@@ -26,6 +26,9 @@ class StraightLines {
   /// The value of a natural polynomial; the roots are those of the tower.
   core::StraightLine of(const Poly& natural);
 
+  /// The same with `above` over the squared distance of a dyad's ends in the place of the auxiliary variable.
+  core::StraightLine of(const Poly& natural, mechanism::PointIndex dyad, const core::Rational& above);
+
   /// The value of a product, as it is.
   core::StraightLine of(const core::Rational& constant, const std::vector<PolyFactor>& factors);
 

@@ -1,5 +1,5 @@
-// Enclosures of functions over a box of up to seven coordinates, to first order or, in the first three, to second: with
-// every coordinate of the box a noise e_i in [-1, 1],
+// Enclosures of functions over a box, to first order over up to eight coordinates or, over up to four, in the first
+// three to second: with every coordinate of the box a noise e_i in [-1, 1],
 //     f(x) in c + sum a_i e_i + sum b_ij e_i e_j + [-r, r]
 // for every x of the box. What is linear in the coordinates, and quadratic in the first three, stays so through sums
 // and differences: terms cancel before they are bounded. r shrinks with the cube of a box of three coordinates, else
@@ -18,8 +18,9 @@ namespace clearloci::loci::pose {
 /// `second_order`: with products of the first three noises. They cost more than half as much again as what is linear.
 template <bool second_order>
 struct AffineForm {
-  /// Coordinates of a box: six of a pose and the way along a path; one more makes the number even.
-  static constexpr std::size_t noises = 8;
+  /// Coordinates of a box at most, an even number: those of a pose, six or as many as have products, and the way along
+  /// a path.
+  static constexpr std::size_t noises = second_order ? 4 : 8;
   /// The first of them have squares and products.
   static constexpr std::size_t curved = second_order ? 3 : 0, products = second_order ? 6 : 0;
 
@@ -44,6 +45,8 @@ struct AffineForm {
     for (const double noise : b) sum += std::abs(noise);
     return sum;
   }
+  /// What its roundings are parts of.
+  double size() const { return std::abs(c) + linear() + quadratic(); }
   /// Largest difference from c.
   double radius() const { return (linear() + quadratic() + r) * (1 + 0x1p-48); }
   double lower() const { return down(c - below(1)); }
@@ -258,11 +261,12 @@ std::optional<AffineForm<k>> angle_of(const AffineForm<k>& y, const AffineForm<k
 template <class Form>
 class SumOf {
  public:
-  void add(double factor, const Form& x) {
+  void add(double factor, const Form& x) { add(factor, x, x.size()); }
+  /// Of a form that is in many sums: with its size, found once.
+  void add(double factor, const Form& x, double size) {
     sum_.c += factor * x.c;
     for (std::size_t i = 0; i < Form::noises; ++i) sum_.a[i] += factor * x.a[i];
     for (std::size_t i = 0; i < Form::products; ++i) sum_.b[i] += factor * x.b[i];
-    const double size = std::abs(x.c) + x.linear() + x.quadratic();
     sum_.r += std::abs(factor) * x.r;
     size_ += std::abs(factor) * size;
     ++terms_;

@@ -44,6 +44,18 @@ std::vector<double> nearest_to_origin(const std::vector<double>& a, const std::v
   return point;
 }
 
+/// The same forces, as at both ends of a rod without weight.
+bool are_alike(const core::PoseDemand& a, const core::PoseDemand& b) {
+  const auto same_term = [](const core::LinearRow::Term& s, const core::LinearRow::Term& t) {
+    return s.unknown == t.unknown && s.step == t.step;
+  };
+  const auto same_row = [&](const core::LinearRow& s, const core::LinearRow& t) {
+    return s.free == t.free && std::equal(s.terms.begin(), s.terms.end(), t.terms.begin(), t.terms.end(), same_term);
+  };
+  return a.demand.least == b.demand.least && a.demand.bound.has_value() == b.demand.bound.has_value() &&
+         std::equal(a.components.begin(), a.components.end(), b.components.begin(), b.components.end(), same_row);
+}
+
 double length_of(const std::vector<double>& v) {
   double square = 0;
   for (const double component : v) square += component * component;
@@ -62,6 +74,17 @@ PoseCellOf<Form>::PoseCellOf(const core::PoseStatics& statics)
   for (std::size_t row = 0; row < n_; ++row)
     for (const core::LinearRow::Term& term : statics.equations[row].terms)
       columns_[static_cast<std::size_t>(term.unknown)].push_back({static_cast<int>(row), term.step});
+  sizes_.resize(statics.program.steps.size());
+  const auto list_steps = [this](const core::LinearRow& row) {
+    for (const core::LinearRow::Term& term : row.terms) varying_.push_back(term.step);
+    varying_.insert(varying_.end(), row.free.begin(), row.free.end());
+  };
+  for (const core::LinearRow& row : statics.equations) list_steps(row);
+  for (const core::PoseDemand& demand : statics.demands)
+    for (const core::LinearRow& row : demand.components) list_steps(row);
+  std::sort(varying_.begin(), varying_.end());
+  varying_.erase(std::unique(varying_.begin(), varying_.end()), varying_.end());
+  std::erase_if(varying_, [this](int index) { return !forms_.varies(index); });
   for (const core::PoseDemand& demand : statics.demands)
     leasts_.push_back(std::nextafter(core::to_double(demand.demand.least), demand.demand.least > 0 ? 1e300 : 0.0));
   for (const core::PoseProgram::Step& step : statics.program.steps)
@@ -74,6 +97,13 @@ PoseCellOf<Form>::PoseCellOf(const core::PoseStatics& statics)
   rest_.assign(statics.loads, std::vector<double>(n_));
   least_.resize(statics.demands.size());
   kept_.resize(statics.demands.size());
+  judged_.resize(statics.demands.size());
+  by_load_.resize(statics.demands.size());
+  for (auto demand = statics.demands.begin(); demand != statics.demands.end(); ++demand)
+    alike_.push_back(
+        static_cast<int>(std::find_if(statics.demands.begin(), demand,
+                                      [&](const core::PoseDemand& other) { return are_alike(other, *demand); }) -
+                         statics.demands.begin()));
 }
 
 template <class Form>
@@ -125,6 +155,8 @@ CellAnswers::State PoseCellOf<Form>::run(const PoseChart& chart, const PoseBox& 
       return in_doubt(Doubt::workspace, step(positive_step));
     boundaries->push_back(step(positive_step));
   }
+  std::fill(judged_.begin(), judged_.end(), Judged::not_yet);
+  for (const int index : varying_) sizes_[static_cast<std::size_t>(index)] = step(index).size();
   return State::proven;
 }
 
@@ -197,12 +229,14 @@ void PoseCellOf<Form>::solve(std::size_t load) {
       add_step(sum, -w[static_cast<std::size_t>(term.unknown)], term.step);
     residual.push_back(sum.result());
   }
+  std::vector<double> sizes;
+  for (const Form& form : residual) sizes.push_back(form.size());
   std::vector<Form>& moved = moved_[load];
   std::vector<double>& rest = rest_[load];
   double largest = 0;
   for (std::size_t i = 0; i < n_; ++i) {
     Sum sum;
-    for (std::size_t j = 0; j < n_; ++j) sum.add(inverse_at(i, j), residual[j]);
+    for (std::size_t j = 0; j < n_; ++j) sum.add(inverse_at(i, j), residual[j], sizes[j]);
     moved[i] = sum.result();
     largest = std::max(largest, moved[i].magnitude() / weights_[i]);
   }
@@ -245,6 +279,31 @@ Form PoseCellOf<Form>::sum_of(const core::LinearRow& row, std::size_t load) cons
 
 template <class Form>
 bool PoseCellOf<Form>::keeps(int index) {
+  const auto demand = static_cast<std::size_t>(index);
+  const int alike = alike_[demand];
+  const auto first = static_cast<std::size_t>(alike);
+  const bool is_known = judged_[first] != Judged::not_yet;
+  if (!is_known) judged_[first] = judge(alike) ? Judged::kept : Judged::open;
+  const bool kept = judged_[first] == Judged::kept;
+  if (is_known && kept)
+    for (const Form& value : by_load_[first]) add_spreads(value);
+  if (!kept) demand_ = index;
+  if (alike != index) {
+    least_[demand] = least_[first];
+    kept_[demand] = kept_[first];
+    kept_[demand].demand = index;
+  }
+  return kept;
+}
+
+template <class Form>
+void PoseCellOf<Form>::add_spreads(const Form& value) {
+  const double usual = std::abs(value.c) + 0x1p-1000;
+  for (std::size_t p = 0; p < Form::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
+}
+
+template <class Form>
+bool PoseCellOf<Form>::judge(int index) {
   const core::PoseDemand& demand = statics_->demands[static_cast<std::size_t>(index)];
   const std::vector<double> first = component_values(demand, 0), last = component_values(demand, statics_->loads - 1);
   std::vector<double> n = nearest_to_origin(first, last);
@@ -273,6 +332,8 @@ bool PoseCellOf<Form>::keeps(int index) {
   double& kept = least_[static_cast<std::size_t>(index)];
   kept = std::numeric_limits<double>::infinity();
   const double least = leasts_[static_cast<std::size_t>(index)];
+  std::vector<Form>& values = by_load_[static_cast<std::size_t>(index)];
+  values.clear();
   bool enough = true;
   for (std::size_t load = 0; load < statics_->loads; ++load) {
     Sum sum;
@@ -293,8 +354,8 @@ bool PoseCellOf<Form>::keeps(int index) {
     open = {value, least, index, n.size() != 1 ? 0 : n[0] > 0 ? 1 : -1};
     open.form.r = (open.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Form::slack(std::abs(value.c));
     if (low > least) {
-      const double usual = std::abs(value.c) + 0x1p-1000;
-      for (std::size_t p = 0; enough && p < Form::noises; ++p) spreads_[p] += std::abs(value.a[p]) / usual;
+      if (enough) add_spreads(value);
+      values.push_back(value);
       continue;
     }
     if (enough) in_doubt(Doubt::demand, value, index);
@@ -315,7 +376,7 @@ bool PoseCellOf<Form>::is_beyond_bound(int demand) const {
 
 template <class Form>
 CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox& box) {
-  core::ensure(box.size() < Form::noises, "a cell has seven parameters at most");
+  core::ensure(box.size() <= Form::noises, "a cell has no more parameters than forms have noises");
   chart_ = &chart;
   box_ = &box;
   doubt_ = Doubt::none;

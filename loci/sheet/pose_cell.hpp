@@ -19,6 +19,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -98,13 +99,17 @@ class PoseCellOf : public CellAnswers {
   bool invert();
   bool is_regular();
   void solve(std::size_t load);
+  /// Judges each demand of a cell once, and those that are alike together.
   bool keeps(int demand);
+  bool judge(int demand);
+  /// Adds how far each parameter moves what a demand is kept from zero by.
+  void add_spreads(const Form& value);
   bool is_beyond_bound(int demand) const;
   void drop_parts_beyond_bounds(Known& sides_known) const;
-  /// Most entries of A are numbers, which move with no coordinate.
+  /// Of a step of a row. Most entries of A are numbers, which move with no coordinate.
   void add_step(Sum& sum, double factor, int index) const {
     if (forms_.varies(index))
-      sum.add(factor, forms_[index]);
+      sum.add(factor, forms_[index], sizes_[static_cast<std::size_t>(index)]);
     else
       sum.add_number(factor, forms_[index]);
   }
@@ -130,6 +135,8 @@ class PoseCellOf : public CellAnswers {
   const PoseBox* box_ = nullptr;
   std::size_t n_;
   std::vector<std::vector<Entry>> columns_;    ///< of A
+  std::vector<int> varying_;                   ///< steps of rows that do with the pose
+  std::vector<double> sizes_;                  ///< of those, by step
   std::vector<double> leasts_;                 ///< asked of every demand, rounded up
   std::vector<double> inverse_;                ///< C
   std::vector<double> error_;                  ///< |E|
@@ -141,7 +148,11 @@ class PoseCellOf : public CellAnswers {
   std::vector<std::vector<Form>> moved_;       ///< C r
   std::vector<std::vector<double>> rest_;      ///< what w - w_m differs from that at most
   std::vector<double> least_;
-  std::vector<Open> kept_;  ///< a demand each, as it was kept from zero last
+  enum class Judged : std::uint8_t { not_yet, kept, open };
+  std::vector<int> alike_;                  ///< of every demand the first one of the same rows and size
+  std::vector<Judged> judged_;              ///< in this cell, of the first ones
+  std::vector<std::vector<Form>> by_load_;  ///< likewise, of a demand that is kept
+  std::vector<Open> kept_;                  ///< a demand each, as it was kept from zero last
   Doubt doubt_ = Doubt::none;
   int demand_ = -1, first_ = 0;
   std::array<double, Form::noises> spreads_{};

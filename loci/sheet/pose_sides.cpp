@@ -275,20 +275,22 @@ void PoseCell::know_near_singularity(Known& sides_known) {
   // M = X A Y.
   std::vector<std::vector<Affine>> M(n_, std::vector<Affine>(n_));
   std::vector<Affine> row(n_);
+  std::vector<double> sizes(n_);
   double contraction = 0;
   for (std::size_t i = 0; i < n_; ++i) {
     for (std::size_t l = 0; l < n_; ++l) {
       AffineSum sum;
       for (const Entry& entry : columns_[l])
         if (const double factor = X[i][static_cast<std::size_t>(entry.row)]; factor != 0)
-          sum.add(factor, step(entry.step));
+          add_step(sum, factor, entry.step);
       row[l] = sum.result();
+      sizes[l] = row[l].size();
     }
     double off = 0;
     for (std::size_t j = 0; j < n_; ++j) {
       AffineSum sum;
       for (std::size_t l = 0; l < n_; ++l)
-        if (Y[l][j] != 0) sum.add(Y[l][j], row[l]);
+        if (Y[l][j] != 0) sum.add(Y[l][j], row[l], sizes[l]);
       M[i][j] = sum.result();
       if (i < last && j < last) off += (i == j ? M[i][j] - Affine(1.0) : M[i][j]).magnitude();
     }
@@ -300,7 +302,7 @@ void PoseCell::know_near_singularity(Known& sides_known) {
   for (std::size_t i = 0; i < n_; ++i) {
     AffineSum sum;
     for (std::size_t j = 0; j < n_; ++j)
-      if (X[i][j] != 0) sum.add(X[i][j], step(statics_->equations[j].free.front()));
+      if (X[i][j] != 0) add_step(sum, X[i][j], statics_->equations[j].free.front());
     y.push_back(sum.result());
     p.push_back(M[i][last]);
   }
@@ -322,17 +324,16 @@ void PoseCell::know_near_singularity(Known& sides_known) {
   if (side == 0) open.push_back({s, 0, -1, change->sign});
   std::vector<int> turned(statics_->demands.size(), 0);
   if (side != 0) sides_known.open.clear();
-  for (std::size_t d = 0; d < statics_->demands.size(); ++d) {
-    const core::PoseDemand& demand = statics_->demands[d];
+  const auto form_of = [&](std::size_t d) {
     std::vector<Affine> components;
-    for (const core::LinearRow& linear_row : demand.components) {
+    for (const core::LinearRow& linear_row : statics_->demands[d].components) {
       Affine sum = s * step(linear_row.free.front());
       double off = 0;
       for (std::size_t j = 0; j < n_; ++j) {
         AffineSum of_j;
         for (const core::LinearRow::Term& term : linear_row.terms)
           if (const double value = Y[static_cast<std::size_t>(term.unknown)][j]; value != 0)
-            of_j.add(value, step(term.step));
+            add_step(of_j, value, term.step);
         const Affine c = of_j.result();
         sum = sum + c * (j == last ? N : u[j]);
         if (j < last) off += c.magnitude();
@@ -348,10 +349,17 @@ void PoseCell::know_near_singularity(Known& sides_known) {
     const double least = leasts_[d] * s.magnitude() * (1 + 0x1p-45);
     const bool single = components.size() == 1;
     const int sign = !single ? 0 : components.front().c < 0 ? -1 : 1;
-    Open singular{sum.result(), least, static_cast<int>(d), sign};
-    if (singular.form.lower() > least) {
-      turned[d] = sign;
-      if (side != 0) sides_known.signs[d] = sign * side;
+    return Open{sum.result(), least, static_cast<int>(d), sign};
+  };
+  std::vector<Open> forms;
+  for (std::size_t d = 0; d < statics_->demands.size(); ++d) {
+    const auto alike = static_cast<std::size_t>(alike_[d]);
+    forms.push_back(alike < d ? forms[alike] : form_of(d));
+    forms.back().demand = static_cast<int>(d);
+    Open singular = forms.back();
+    if (singular.form.lower() > singular.least) {
+      turned[d] = singular.sign;
+      if (side != 0) sides_known.signs[d] = singular.sign * side;
       continue;
     }
     sides_known.open.emplace_back(Doubt::demand, static_cast<int>(d));

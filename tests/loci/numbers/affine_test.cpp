@@ -128,13 +128,13 @@ TEST(Affine, LeavesACubeOfTheBox) {
 }
 
 TEST(Affine, LeavesASquareOfTheBoxBeyondThreeCoordinates) {
-  // The same function of the last three noises.
+  // The same function along the last noise.
   const auto last = [](double half) {
     std::array<Affine, 3> all;
     const Point middle = {0.3, -0.2, 0.7};
     for (std::size_t c = 0; c < 3; ++c) {
       all[c] = Affine(middle[c]);
-      all[c].a[c + 3] = half;
+      all[c].a[3] = half;
     }
     return f(all);
   };
@@ -143,10 +143,22 @@ TEST(Affine, LeavesASquareOfTheBoxBeyondThreeCoordinates) {
   std::uniform_real_distribution<double> place(-1, 1);
   const Affine all = last(0.1);
   for (int sample = 0; sample < 2000; ++sample) {
-    const Point e = {place(random), place(random), place(random)};
-    const double value = f({0.3 + 0.1 * e[0], -0.2 + 0.1 * e[1], 0.7 + 0.1 * e[2]});
-    ASSERT_LE(std::abs(value - all.c - all.a[3] * e[0] - all.a[4] * e[1] - all.a[5] * e[2]), all.r + 1e-15);
+    const double e = place(random);
+    const double value = f({0.3 + 0.1 * e, -0.2 + 0.1 * e, 0.7 + 0.1 * e});
+    ASSERT_LE(std::abs(value - all.c - all.a[3] * e), all.r + 1e-15);
   }
+}
+
+TEST(Affine, IsAddedWithItsSizeAsWithoutIt) {
+  const Affine all = f(box({0.3, -0.2, 0.7}, 0.1));
+  AffineSum plain, sized;
+  plain.add(-1.7, all);
+  sized.add(-1.7, all, all.size());
+  const Affine one = plain.result(), other = sized.result();
+  EXPECT_EQ(one.c, other.c);
+  EXPECT_EQ(one.a, other.a);
+  EXPECT_EQ(one.b, other.b);
+  EXPECT_EQ(one.r, other.r);
 }
 
 TEST(Affine, FlattenedEnclosesTheSame) {
