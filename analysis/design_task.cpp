@@ -4,8 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/pose_demands.hpp"
 #include "analysis/take_ups.hpp"
 #include "analysis/task_demands.hpp"
+#include "analysis/verification.hpp"
 #include "core/enclosure.hpp"
 #include "core/errors.hpp"
 #include "mechanism/read_task.hpp"
@@ -116,21 +118,24 @@ DesignTask::DesignTask(const Mechanism& mechanism, const std::vector<ParameterRa
       open_(mechanism::open_design(mechanism, opened(mechanism, vary, task))),
       loads_(under_loads_of(task, open_.mechanism)),
       directions_(unit_loads(open_.mechanism, task, balls_)),
-      demands_(demands_of(open_.mechanism, request_)),
-      conditions_(conditions_for(demands_, task.pose_error.has_value())),
       sides_(requested_modes(mechanism, request_).front()),
+      demands_(demands_of(open_.mechanism, request_)),
+      conditions_(conditions_for(
+          demands_, task.pose_error.has_value(),
+          loaded_beside_efforts(mechanism, sides_, demands_, usual_poses(loci::TaskRegion(task.shape))))),
       mode_(mode_of(sides_, names_of(conditions_.tower))),
       region_(task.shape),
       margin_(core::to_double(task.margin)) {}
 
-core::TaskConditions DesignTask::conditions_for(const std::vector<TaskDemand>& demands, bool take_ups) const {
+core::TaskConditions DesignTask::conditions_for(const std::vector<TaskDemand>& demands, bool take_ups,
+                                                const std::vector<bool>& always) const {
   std::vector<const Mechanism*> loads, directions;
   for (const Mechanism& mechanism : loads_) loads.push_back(&mechanism);
   for (const Mechanism& mechanism : directions_) directions.push_back(&mechanism);
-  if (!take_ups) return symbolic::task_conditions(loads, demands, directions);
+  if (!take_ups) return symbolic::task_conditions(loads, demands, directions, {}, always);
   const std::vector<Mechanism> unit = under_unit_forces(open_.mechanism);
-  return symbolic::task_conditions(loads, demands, directions,
-                                   {take_up_demands(open_.mechanism), {&unit[0], &unit[1]}});
+  return symbolic::task_conditions(loads, demands, directions, {take_up_demands(open_.mechanism), {&unit[0], &unit[1]}},
+                                   always);
 }
 
 std::vector<TaskDemand> DesignTask::demands() const {

@@ -65,7 +65,8 @@ class DesignTask {
 
  private:
   loci::DesignVariables variables() const;
-  core::TaskConditions conditions_for(const std::vector<core::TaskDemand>& demands, bool take_ups) const;
+  core::TaskConditions conditions_for(const std::vector<core::TaskDemand>& demands, bool take_ups,
+                                      const std::vector<bool>& always = {}) const;
 
   const mechanism::Mechanism& mechanism_;
   std::vector<mechanism::ParameterRange> vary_;
@@ -74,9 +75,9 @@ class DesignTask {
   mechanism::OpenDesign open_;
   std::vector<core::LoadBall> balls_;
   std::vector<mechanism::Mechanism> loads_, directions_;
+  DyadSides sides_;
   std::vector<core::TaskDemand> demands_;
   core::TaskConditions conditions_;
-  DyadSides sides_;
   core::WorkingMode mode_;
   loci::TaskRegion region_;
   double margin_ = 0;

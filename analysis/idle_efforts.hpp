@@ -27,4 +27,17 @@ inline std::vector<numeric::NumericModel> models_under_efforts(const mechanism::
   return models;
 }
 
+/// Under efforts that are given and, each alone, a unit more of one of them: what these load a preload has to load.
+inline std::vector<numeric::NumericModel> models_beside_efforts(const mechanism::Mechanism& mechanism) {
+  std::vector<numeric::NumericModel> models;
+  for (const mechanism::JointIndex j : mechanism::preloaded_joints(mechanism)) {
+    mechanism::Mechanism beside = mechanism;
+    mechanism::Joint& joint = beside.joints[static_cast<std::size_t>(j)];
+    if (!joint.free_effort->given || !joint.effort) continue;
+    joint.effort = core::Expression::apply(core::Expression::Kind::add, {*joint.effort, core::Expression::number(1)});
+    models.push_back(numeric::compile(beside));
+  }
+  return models;
+}
+
 }  // namespace clearloci

@@ -111,10 +111,23 @@ std::vector<std::vector<double>> usual_poses(const Mechanism& mechanism, const s
   return all;
 }
 
-FeasibleEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const std::vector<numeric::Bounded>& at,
-                           const DyadSides& sides, const PoseRequest& request, std::vector<std::string>& notes) {
+/// Whether an effort is in a gap: its ends are, too, where a reaction vanishes there.
+bool fails_at(const std::vector<EffortGap>& gaps, double effort) {
+  return std::any_of(gaps.begin(), gaps.end(), [&](const EffortGap& gap) {
+    return gap.demand.least > 0 ? gap.from < effort && effort < gap.to : gap.from <= effort && effort <= gap.to;
+  });
+}
+
+struct GappedEfforts {
+  FeasibleEfforts efforts;
+  std::vector<EffortGap> gaps;
+};
+
+GappedEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const std::vector<numeric::Bounded>& at,
+                         const DyadSides& sides, const PoseRequest& request, std::vector<std::string>& notes) {
   const mechanism::Joint& joint = joint_of(mechanism, index);
-  FeasibleEfforts efforts = efforts_without_ranges(joint);
+  GappedEfforts found{efforts_without_ranges(joint), {}};
+  FeasibleEfforts& efforts = found.efforts;
   efforts.effort = core::to_double(mechanism::value_of(*joint.effort, mechanism));
   const std::vector<numeric::NumericModel> models = models_under_efforts(mechanism, {index});
   const LociRequest asked{.min_force = request.min_force, .min_couple = request.min_couple};
@@ -122,21 +135,29 @@ FeasibleEfforts efforts_of(const Mechanism& mechanism, JointIndex index, const s
       loaded_demands(models, sides, demands_of(mechanism, asked), usual_poses(mechanism, at), notes);
   if (const auto determinant = numeric::bounded_numerators(models[0], at, sides).determinant;
       !(std::abs(determinant.value) > determinant.error))
-    return efforts;
-  std::vector<EffortGap> gaps = numeric::effort_gaps(models[0], models[1], at, sides, demands);
-  if (const auto gap = own_gap(mechanism, joint.name, asked)) gaps.push_back(*gap);
-  set_ranges(gaps, efforts);
-  return efforts;
+    return found;
+  found.gaps = numeric::effort_gaps(models[0], models[1], at, sides, demands);
+  if (const auto gap = own_gap(mechanism, joint.name, asked)) found.gaps.push_back(*gap);
+  set_ranges(found.gaps, efforts);
+  return found;
 }
 
-core::Rational smallest_of(const std::vector<EffortRange>& ranges) {
+/// The smallest effort of all ranges; where the range is open there one beside it.
+core::Rational smallest_of(const GappedEfforts& all) {
+  const std::vector<EffortRange>& ranges = all.efforts.ranges;
   const auto nearest = [](const EffortRange& range) {
     return range.from > 0 ? range.from : range.to < 0 ? range.to : 0;
   };
   const auto smallest = std::min_element(ranges.begin(), ranges.end(), [&](const EffortRange& a, const EffortRange& b) {
     return std::abs(nearest(a)) < std::abs(nearest(b));
   });
-  return core::Rational(nearest(*smallest));
+  const double end = nearest(*smallest);
+  if (!fails_at(all.gaps, end)) return core::Rational(end);
+  constexpr double part = 1.0 / 128, digits = 0.01;
+  const double width = smallest->to - smallest->from;
+  const double step = part * (std::isfinite(width) ? width : std::max(1.0, std::abs(end)));
+  const core::Rational beside(end <= smallest->from ? end + step : end - step);
+  return core::simplest_rational_near(beside, core::Rational(digits * step));
 }
 
 }  // namespace
@@ -168,16 +189,17 @@ PoseEfforts pose_efforts(const Mechanism& mechanism, const std::vector<numeric::
     mechanism::give_effort(all.mechanism, joint, within ? nearest_to_none(within->first, within->second) : 0);
   }
   for (const JointIndex joint : wanted) {
-    const FeasibleEfforts efforts = efforts_of(all.mechanism, joint, at, sides, request, all.notes);
-    if (!efforts.ranges.empty()) mechanism::give_effort(all.mechanism, joint, smallest_of(efforts.ranges));
-    all.notes = {"the effort of joint " + efforts.joint +
-                 " is free: the reactions are those under the smallest feasible effort; give another by --preload " +
-                 efforts.joint + "=VALUE"};
+    const GappedEfforts found = efforts_of(all.mechanism, joint, at, sides, request, all.notes);
+    if (!found.efforts.ranges.empty()) mechanism::give_effort(all.mechanism, joint, smallest_of(found));
+    all.notes = {"the effort of joint " + found.efforts.joint +
+                 " is free: the reactions are those under the smallest feasible effort, or one a little larger where a "
+                 "reaction vanishes at it; give another by --preload " +
+                 found.efforts.joint + "=VALUE"};
   }
   std::vector<std::string> notes;
   for (const JointIndex joint : mechanism::preloaded_joints(mechanism)) {
     notes.clear();  // the same of each
-    all.efforts.push_back(efforts_of(all.mechanism, joint, at, sides, request, notes));
+    all.efforts.push_back(efforts_of(all.mechanism, joint, at, sides, request, notes).efforts);
     all.efforts.back().given = joint_of(mechanism, joint).free_effort->given;
   }
   all.notes.insert(all.notes.end(), notes.begin(), notes.end());

@@ -93,8 +93,12 @@ class LawSearch {
       if (corridor.empty()) return;
       needed = std::max(needed, nearest_to_zero(corridor));
     }
-    // Any effort takes up the play of its own motor, however small: as small as constant ones are told apart.
-    if (own_gap_ && needed == 0)
+    // Any effort takes up the play of its own motor and loads what others do not, however small: as small as constant
+    // ones are told apart.
+    if (needed == 0 &&
+        (own_gap_ || std::any_of(pattern.corridors.begin(), pattern.corridors.end(), [](const EffortCorridor& each) {
+           return each.lower.effort >= -each.lower.rounding || each.upper.effort <= each.upper.rounding;
+         })))
       needed = std::max(std::abs(core::to_double(wanted_.lower)), std::abs(core::to_double(wanted_.upper))) / (1 << 16);
     for (const double stretch : stretches) {
       const double most = needed > 0 ? stretch * needed : infinity;

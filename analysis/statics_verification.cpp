@@ -6,6 +6,7 @@
 
 #include "analysis/framed.hpp"
 #include "analysis/group_sheets.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/pose_displacement.hpp"
 #include "analysis/pose_fit.hpp"
@@ -74,8 +75,11 @@ class StaticsVerifier {
     constexpr std::size_t poses = 24;
     std::vector<PoseAt> samples = region_.samples();
     if (samples.size() > poses) samples.erase(samples.begin() + 1, samples.end() - (poses - 1));
+    std::vector<numeric::NumericModel> models = models_;
+    for (numeric::NumericModel& beside : models_beside_efforts(widened_.loads().front()))
+      models.push_back(std::move(beside));
     const std::vector<TaskDemand> demands =
-        loaded_demands(models_, sides_, demands_of(mechanism, request_), samples, notes_);
+        loaded_demands(models, sides_, demands_of(mechanism, request_), samples, notes_);
     demands_ = demands;
     witness_.emplace(witness_for(demands));
     std::vector<const Mechanism*> list;

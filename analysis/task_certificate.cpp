@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/flanks.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/pose_demands.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/widened_task.hpp"
@@ -40,6 +41,8 @@ core::TaskCertificate certificate_of(const mechanism::Mechanism& mechanism, cons
       for (const mechanism::JointIndex j : open) mechanism::give_effort(given, j, effort);
       if (effort == 0 || !open.empty()) models.push_back(numeric::compile(given));
     }
+  for (numeric::NumericModel& beside : models_beside_efforts(widened.loads().front()))
+    models.push_back(std::move(beside));
   std::vector<std::string> notes;
   certificate.demands =
       loaded_demands(models, certificate.sides, demands_of(mechanism, request), region.samples(), notes);

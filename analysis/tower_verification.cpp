@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "analysis/pose_demands.hpp"
 #include "analysis/singular_modes.hpp"
 #include "analysis/task_demands.hpp"
 #include "analysis/verification.hpp"
@@ -69,9 +70,11 @@ class TowerVerifier {
         task_(task),
         request_(request_of(task, request)),
         cases_(load_cases(mechanism, task)),
-        demands_(demands_of(mechanism, request_)),
-        conditions_(symbolic::task_conditions(mechanisms(), demands_)),
         sides_(requested_modes(mechanism, request_).front()),
+        demands_(demands_of(mechanism, request_)),
+        conditions_(symbolic::task_conditions(mechanisms(), demands_, {}, {},
+                                              loaded_beside_efforts(cases_.front().mechanism, sides_, demands_,
+                                                                    usual_poses(loci::TaskRegion(task.shape))))),
         mode_(mode_of(sides_, names_of(conditions_.tower))) {
     for (const TaskDemand& never : conditions_.never_loaded)
       std::erase_if(demands_, [&](const TaskDemand& demand) {
@@ -186,9 +189,7 @@ class TowerVerifier {
   numeric::TaskWitness witness_for(const loci::TaskRegion& region) const {
     numeric::WitnessLoads loads;
     for (const LoadCase& one : cases_) loads.ends.push_back(&one.model);
-    std::vector<std::vector<double>> usual;
-    for (const Point2& at : region.samples()) usual.push_back(list_of(at));
-    return {std::move(loads), sides_, demands_, usual, numeric::TaskWitness::Rounding::of_plane};
+    return {std::move(loads), sides_, demands_, usual_poses(region), numeric::TaskWitness::Rounding::of_plane};
   }
 
   loci::RefutedAt refuted_at(const loci::TaskRegion& region, const numeric::TaskWitness& judge,
@@ -302,9 +303,9 @@ class TowerVerifier {
   const Task& task_;
   LociRequest request_;
   std::vector<LoadCase> cases_;
+  DyadSides sides_;
   std::vector<TaskDemand> demands_;
   core::TaskConditions conditions_;
-  DyadSides sides_;
   core::WorkingMode mode_;  ///< of the conditions' tower
   std::optional<std::vector<TracedProblem>> traced_;
   TraceEffort effort_ = TraceEffort::sketch;

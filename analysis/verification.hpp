@@ -46,6 +46,13 @@ core::OpenTask open_part(const loci::CoverProof& proof, const WidenedTask& widen
 
 inline std::vector<double> list_of(const core::Point2& at) { return {at[0], at[1]}; }
 
+/// Some of a task's, as lists.
+inline std::vector<std::vector<double>> usual_poses(const loci::TaskRegion& region) {
+  std::vector<std::vector<double>> poses;
+  for (const core::Point2& at : region.samples()) poses.push_back(list_of(at));
+  return poses;
+}
+
 /// Without names and units, which verification.cpp adds. Traced loci and zones come after the verdict: they name what
 /// is near and are drawn, and prove nothing. So a sketch of them is enough (loci::TraceOptions::sketch), unless the
 /// verdict is open or a place for the task is looked for.

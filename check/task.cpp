@@ -47,22 +47,53 @@ class TaskCheck {
     const auto wanted = [&](Quantity q) {
       return std::find(c_.quantities.begin(), c_.quantities.end(), q) != c_.quantities.end();
     };
+    const std::vector<bool> by_efforts = loaded_beside_efforts();
     for (const std::string& joint : c_.joints) {
       const auto found =
           std::find_if(m_.joints.begin(), m_.joints.end(), [&](const auto& j) { return j.name == joint; });
       const std::vector<Quantity> parts = mechanism::contact_components(m_, *found);
       std::vector<std::vector<int>> force;
+      bool is_force_by_efforts = false;
       for (std::size_t k = 0; k < unknowns.size(); ++k) {
-        if (unknowns[k].joint != found - m_.joints.begin() || !orders_.reactions[k]) continue;
+        if (unknowns[k].joint != found - m_.joints.begin()) continue;
+        const bool part = std::find(parts.begin(), parts.end(), unknowns[k].quantity) != parts.end();
+        if (!orders_.reactions[k]) {
+          if (part) is_force_by_efforts = is_force_by_efforts || by_efforts[k];
+          if (!part && wanted(unknowns[k].quantity) && by_efforts[k]) refuse_unloaded(joint);
+          continue;
+        }
         std::vector<int> zeros;
         for (int f = 0; f < functions; ++f)
           if ((*orders_.reactions[k])[static_cast<std::size_t>(f)] > 0) zeros.push_back(f);
-        const bool part = std::find(parts.begin(), parts.end(), unknowns[k].quantity) != parts.end();
         if (part) force.push_back(zeros);
         if (!part && wanted(unknowns[k].quantity)) conditions_.push_back({zeros});
       }
-      if (wanted(Quantity::f) && !force.empty()) conditions_.push_back(force);
+      if (!wanted(Quantity::f)) continue;
+      if (force.empty() && is_force_by_efforts) refuse_unloaded(joint);
+      if (!force.empty()) conditions_.push_back(force);
     }
+  }
+
+  [[noreturn]] static void refuse_unloaded(const std::string& joint) {
+    throw FalseClaim("task: joint " + joint + " bears nothing under the given efforts, and would under others");
+  }
+
+  /// What a unit more of some given effort does not leave at zero, at a pose of the task.
+  std::vector<bool> loaded_beside_efforts() const {
+    std::vector<bool> loaded(reactions_of(m_).size(), false);
+    const auto& at = task_.shape.points.front();
+    const Interval x(at[0], cell_bits), y(at[1], cell_bits);
+    for (std::size_t j = 0; j < m_.joints.size(); ++j) {
+      if (!m_.joints[j].free_effort || !m_.joints[j].effort) continue;
+      mechanism::Mechanism beside = m_;
+      beside.joints[j].effort =
+          core::Expression::apply(core::Expression::Kind::add, {*m_.joints[j].effort, core::Expression::number(1)});
+      const std::optional<Posture> here = posture(beside, sides_, x, y);
+      const auto solution = here ? solve(beside, *here, x, y) : std::nullopt;
+      for (std::size_t k = 0; solution && k < loaded.size(); ++k)
+        loaded[k] = loaded[k] || solution->reactions[k].sign() != 0;
+    }
+    return loaded;
   }
 
   bool holds(const Cell& cell) {

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
+#include <variant>
 
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
@@ -66,16 +68,19 @@ std::string line_name(const Mechanism& m, PointIndex a, PointIndex b) {
   return m.points[static_cast<std::size_t>(a)].name + "-" + m.points[static_cast<std::size_t>(b)].name;
 }
 
-/// Whether a point is on the line through two others in every posture of a sample.
+/// Whether a point is on the line through two others: as it is built or, where that does not tell, in every posture of
+/// a sample.
 class OnLine {
  public:
-  explicit OnLine(const Mechanism& m) : postures_(sample_postures(m, 12)) {}
+  explicit OnLine(const Mechanism& m) : m_(m), postures_(sample_postures(m, 12)) {}
 
-  bool holds(PointIndex point, PointIndex a, PointIndex b) const {
-    if (point == a || point == b) return true;
+  /// Nothing where the mechanism closes in no pose of the sample.
+  std::optional<bool> holds(PointIndex point, PointIndex a, PointIndex b) const {
+    if (is_built_on(point, a, b)) return true;
+    if (postures_.empty()) return std::nullopt;
     constexpr double rounding = 1e-9;  // of the line's length
     const auto at = [](const PosturePoints& posture, PointIndex p) { return posture[static_cast<std::size_t>(p)]; };
-    return !postures_.empty() && std::all_of(postures_.begin(), postures_.end(), [&](const PosturePoints& posture) {
+    return std::all_of(postures_.begin(), postures_.end(), [&](const PosturePoints& posture) {
       const auto p = at(posture, a), q = at(posture, b), x = at(posture, point);
       std::array<double, 3> u{}, v{};
       for (std::size_t c = 0; c < 3; ++c) {
@@ -89,38 +94,91 @@ class OnLine {
   }
 
  private:
+  bool is_built_on(PointIndex point, PointIndex a, PointIndex b) const {
+    if (point == a || point == b) return true;
+    const PointForm& form = m_.points[static_cast<std::size_t>(point)].form;
+    if (const auto* mean = std::get_if<MeanPoint>(&form))
+      return is_built_on(mean->first, a, b) && is_built_on(mean->second, a, b);
+    if (const auto* offset = std::get_if<OffsetPoint>(&form))
+      return is_built_on(offset->first, a, b) && is_built_on(offset->second, a, b);
+    if (const auto* shifted = std::get_if<ShiftedPoint>(&form))
+      return is_built_on(shifted->from, a, b) && weight_on(shifted->by, a, b) == 0;
+    return false;
+  }
+
+  /// Of a sum of points of the line how many they are, less those that are taken off: 0 of a way along the line.
+  std::optional<int> weight_on(const VectorExpression& v, PointIndex a, PointIndex b) const {
+    using Kind = VectorExpression::Kind;
+    const auto argument = [&](std::size_t i) { return weight_on(v.arguments[i], a, b); };
+    switch (v.kind) {
+      case Kind::point:
+        return is_built_on(v.point, a, b) ? std::optional(1) : std::nullopt;
+      case Kind::add: {
+        const auto first = argument(0), second = argument(1);
+        return first && second ? std::optional(*first + *second) : std::nullopt;
+      }
+      case Kind::negate: {
+        const auto weight = argument(0);
+        return weight ? std::optional(-*weight) : std::nullopt;
+      }
+      case Kind::scale:
+        return argument(0) == 0 ? std::optional(0) : std::nullopt;
+      case Kind::components:
+      case Kind::cross:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  const Mechanism& m_;
   std::vector<PosturePoints> postures_;
 };
 
+std::string what_turns(const Mechanism& m, const Hanging& hanging, const std::string& what) {
+  const std::string link = m.links[static_cast<std::size_t>(hanging.links.front())].name;
+  return what + " turns link " + link + " about the line " +
+         line_name(m, m.joints[hanging.first].at, m.joints[hanging.second].at) +
+         ", about which it spins between its two balls";
+}
+
 [[noreturn]] void refuse(const Mechanism& m, const Hanging& hanging, const core::SourcePosition& where,
                          const std::string& what) {
-  const std::string link = m.links[static_cast<std::size_t>(hanging.links.front())].name;
-  throw core::InputError(where,
-                         what + " turns link " + link + " about the line " +
-                             line_name(m, m.joints[hanging.first].at, m.joints[hanging.second].at) +
-                             ", about which it spins between its two balls",
+  throw core::InputError(where, what_turns(m, hanging, what),
                          "let it act on that line, or make one of the balls a universal joint");
 }
 
+void require_on_line(const Mechanism& m, const Hanging& hanging, const OnLine& on_line, PointIndex point,
+                     const core::SourcePosition& where, const std::string& what) {
+  const auto held = on_line.holds(point, m.joints[hanging.first].at, m.joints[hanging.second].at);
+  if (!held)
+    throw core::InputError(where,
+                           "the mechanism closes in no pose that was tried, so that it is not known whether " +
+                               what_turns(m, hanging, what),
+                           "give a workspace in which it closes, or write " +
+                               m.points[static_cast<std::size_t>(point)].name + " as a point of that line");
+  if (!*held) refuse(m, hanging, where, what);
+}
+
 void require_balance(const Mechanism& m, const Hanging& hanging, const OnLine& on_line) {
-  const PointIndex a = m.joints[hanging.first].at, b = m.joints[hanging.second].at;
   for (std::size_t i = 0; i < m.loads.size(); ++i) {
     const Load& load = m.loads[i];
     if (!holds(hanging.links, load.link)) continue;
-    const bool couple = std::any_of(load.couple_vector.begin(), load.couple_vector.end(),
-                                    [](const Expression& e) { return !e.is_zero_literal(); });
-    if (couple || (load.at && load.has_force() && !on_line.holds(*load.at, a, b)))
-      refuse(m, hanging, load.where, "load " + std::to_string(i + 1));
+    const std::string name = "load " + std::to_string(i + 1);
+    if (std::any_of(load.couple_vector.begin(), load.couple_vector.end(),
+                    [](const Expression& e) { return !e.is_zero_literal(); }))
+      refuse(m, hanging, load.where, name);
+    if (load.at && load.has_force()) require_on_line(m, hanging, on_line, *load.at, load.where, name);
   }
   for (const Mass& mass : masses(m))
-    if (!m.gravity.empty() && holds(hanging.links, mass.link) && !on_line.holds(mass.at, a, b))
-      refuse(m, hanging, m.links[static_cast<std::size_t>(mass.link)].where, "its weight");
+    if (!m.gravity.empty() && holds(hanging.links, mass.link))
+      require_on_line(m, hanging, on_line, mass.at, m.links[static_cast<std::size_t>(mass.link)].where, "its weight");
   for (const Spring& spring : m.springs)
     for (const auto& [link, other, point] :
          {std::tuple(spring.from, spring.to, spring.from_point), std::tuple(spring.to, spring.from, spring.to_point)})
-      if (holds(hanging.links, link) && !holds(hanging.links, other) &&
-          (spring.kind == Spring::Kind::torsion || !on_line.holds(point, a, b)))
-        refuse(m, hanging, spring.where, "spring " + spring.name);
+      if (holds(hanging.links, link) && !holds(hanging.links, other)) {
+        if (spring.kind == Spring::Kind::torsion) refuse(m, hanging, spring.where, "spring " + spring.name);
+        require_on_line(m, hanging, on_line, point, spring.where, "spring " + spring.name);
+      }
 }
 
 }  // namespace

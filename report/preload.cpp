@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -217,14 +218,26 @@ std::string tension_text(const core::FeasibleEfforts& tension, const core::Shown
   return text + "\n";
 }
 
+/// Ranges are open where a reaction vanishes at an end; a chosen effort is at no such end.
+bool is_kept(const core::FeasibleEfforts& efforts) {
+  return std::any_of(efforts.ranges.begin(), efforts.ranges.end(), [&](const core::EffortRange& range) {
+    const bool closed_below = range.below.empty() || !efforts.given,
+               closed_above = range.above.empty() || !efforts.given;
+    return (closed_below ? range.from <= efforts.effort : range.from < efforts.effort) &&
+           (closed_above ? efforts.effort <= range.to : efforts.effort < range.to);
+  });
+}
+
 }  // namespace
 
 std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units) {
   const core::ShownUnit unit = unit_of(efforts, units);
   if (efforts.cable) return tension_text(efforts, unit);
-  std::string text =
-      fmt::format("effort of {} = {} {}{}\n", efforts.joint, engineering(efforts.effort * unit.per_si, digits),
-                  unit.name, efforts.ranges.empty() ? "; none keeps every joint loaded here" : "; feasible here");
+  std::string text = fmt::format("effort of {} = {} {}{}\n", efforts.joint,
+                                 engineering(efforts.effort * unit.per_si, digits), unit.name,
+                                 efforts.ranges.empty() ? "; none keeps every joint loaded here"
+                                 : is_kept(efforts)     ? "; feasible here"
+                                                        : ", at which not every joint is loaded; feasible here");
   if (!efforts.never.empty()) text += "  " + reaction_names(efforts.never) + ": lost whatever the effort\n";
   for (const core::EffortRange& range : efforts.ranges) text += "  " + range_words(range, unit) + "\n";
   return text;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/shown_units.hpp"
@@ -155,6 +156,18 @@ class Words {
   bool plane_ = false;
 };
 
+/// The couple of a load; parts that are roundings of the force times a metre, or of the others, are 0.
+std::vector<double> without_rounding(const core::WitnessLoad& load) {
+  double size = 0;
+  for (const std::vector<double>* parts : {&load.force, &load.couple})
+    for (const double part : *parts) size = std::max(size, std::abs(part));
+  std::vector<double> couple = load.couple;
+  constexpr double rounding = 1e-14;
+  for (double& part : couple)
+    if (std::abs(part) <= rounding * size) part = 0;
+  return couple;
+}
+
 }  // namespace
 
 std::string witness_words(const core::TaskWitness& witness, const core::Units& units, bool of_angles) {
@@ -212,7 +225,7 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
   if (!witness.load.empty()) words += " under the load " + vector(witness.load);
   for (const core::WitnessLoad& load : witness.loads)
     words += fmt::format(" under {} and {} as load {}", vector(load.force),
-                         listed(load.couple, shown_unit("N m", units)), load.load + 1);
+                         listed(without_rounding(load), shown_unit("N m", units)), load.load + 1);
   for (std::size_t i = 0; i < witness.design.size(); ++i)
     words += fmt::format("{}{} = {}", i == 0 ? " of the design " : ", ", witness.design[i].first,
                          exact_number(witness.design[i].second));

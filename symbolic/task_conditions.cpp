@@ -66,14 +66,15 @@ class Conditions {
     }
   }
 
-  void add(const TaskDemand& demand) {
+  /// `always`: of a reaction that is zero in every pose, too.
+  void add(const TaskDemand& demand, bool always) {
     const Demanded demanded = parts_of(demand, result_.loads + result_.directions);
     const Parts& parts = demanded.parts;
     TaskCondition condition;
     condition.reactions = {{demand.joint, demand.quantity, 1}};
     condition.least = demand.least;
     if (parts.front().empty()) {
-      if (demand.least == 0) {
+      if (demand.least == 0 && !always) {
         result_.never_loaded.push_back(demand);
         return;
       }
@@ -331,10 +332,10 @@ class Conditions {
 core::TaskConditions task_conditions(const std::vector<const mechanism::Mechanism*>& loads,
                                      const std::vector<TaskDemand>& demands,
                                      const std::vector<const mechanism::Mechanism*>& directions,
-                                     const TakeUps& take_ups) {
+                                     const TakeUps& take_ups, const std::vector<bool>& always) {
   const auto turn = algebra_turn();
   Conditions conditions(loads, directions, take_ups.forces);
-  for (const TaskDemand& demand : demands) conditions.add(demand);
+  for (std::size_t d = 0; d < demands.size(); ++d) conditions.add(demands[d], !always.empty() && always[d]);
   for (const TaskDemand& take_up : take_ups.reactions) conditions.add_take_up(take_up);
   return conditions.take();
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "core/errors.hpp"
@@ -17,6 +19,8 @@ namespace {
 using core::InputError;
 
 constexpr double degree = std::numbers::pi / 180;
+/// What a source means to be in line or at a right angle, and to how much it is then written.
+constexpr double meant = 1e-6, precise = 1e-14;
 
 class Writer : private Drawing {
  public:
@@ -143,13 +147,62 @@ class Writer : private Drawing {
     return direction_text(joint.axis(), written);
   }
 
-  std::string direction_text(const Vec& axis, Vec& written) const {
+  std::string direction_text(const Vec& axis, Vec& written, double within = exactness) const {
     std::size_t most = 0;
     for (std::size_t i = 1; i < dimension_; ++i)
       if (std::abs(axis[i]) > std::abs(axis[most]) + 1e-9) most = i;
     const double scale = std::abs(axis[most]) > 0 ? 1 / std::abs(axis[most]) : 1;
     written = scale * axis;
-    return vector_text(written, exactness);
+    return vector_text(written, within);
+  }
+
+  /// A rod between balls and crosses is turned by its two points and by axes across or along the way between them:
+  /// these are so of the points as they are written, and not but for the roundings of both.
+  std::string axes_text(const SourceJoint& joint) const {
+    std::array<Vec, 2> axes = {joint.on_from.frame.z, joint.on_to.frame.z};
+    const std::array<std::optional<Vec>, 2> ways = {way_of_rod(joint.from), way_of_rod(joint.to)};
+    std::array<std::string, 2> texts;
+    for (const std::size_t i : {0U, 1U})
+      if (ways[i] && norm(cross(unit(*ways[i]), axes[i])) <= meant)
+        texts[i] = direction_text((dot(*ways[i], axes[i]) > 0 ? 1 : -1) * *ways[i], axes[i], precise);
+    for (const std::size_t i : {0U, 1U}) {
+      if (!ways[i] || !texts[i].empty()) continue;
+      if (std::abs(dot(unit(*ways[i]), axes[i])) > meant || std::abs(dot(axes[0], axes[1])) > meant) continue;
+      Vec& other = axes[1 - i];
+      if (texts[1 - i].empty()) {
+        texts[1 - i] = direction_text(other, other);
+        for (double& part : other) part = std::strtod(shortest_decimal(part, exactness).c_str(), nullptr);
+      }
+      const Vec across = unit(cross(other, *ways[i]));
+      texts[i] = direction_text((dot(across, axes[i]) > 0 ? 1 : -1) * across, axes[i], precise);
+    }
+    for (const std::size_t i : {0U, 1U})
+      if (texts[i].empty()) texts[i] = direction_text(axes[i], axes[i]);
+    return "[" + texts[0] + ", " + texts[1] + "]";
+  }
+
+  /// As it is written, between two points of a link that balls and crosses alone hold, or of the two halves of a leg.
+  std::optional<Vec> way_of_rod(int link) const {
+    if (link == ground_link) return std::nullopt;
+    std::set<int> leg = {link};
+    for (const SourceJoint& joint : s_.joints)
+      if (!joint.dropped && joint.kind == SourceKind::prismatic && (joint.from == link || joint.to == link))
+        leg.insert(joint.from == link ? joint.to : joint.from);
+    std::vector<PlaceIndex> ends;
+    for (const int part : leg) {
+      for (const SourceJoint& joint : s_.joints) {
+        const bool inside = leg.contains(joint.from) && leg.contains(joint.to);
+        const bool turns_freely = joint.kind == SourceKind::spherical || joint.kind == SourceKind::universal;
+        if (!joint.dropped && (joint.from == part || joint.to == part) && !inside && !turns_freely) return std::nullopt;
+      }
+      if (const auto places = order_.find(part); places != order_.end())
+        ends.insert(part == link ? ends.begin() : ends.end(), places->second.begin(), places->second.end());
+    }
+    if (leg.contains(ground_link) || ends.size() < 2) return std::nullopt;
+    Vec way{};
+    for (std::size_t i = 0; i < dimension_; ++i)
+      way[i] = core::to_double(core::Rational(places_[ends[1]].exact[i] - places_[ends[0]].exact[i]));
+    return norm(way) > meant * size_ ? std::optional(way) : std::nullopt;
   }
 
   std::string clearance_text(const SourceJoint& joint, bool& guide_without) const {
@@ -218,8 +271,7 @@ class Writer : private Drawing {
       if (slides(joint))
         text += ", axis: " + axis_text(joint, at_[j], axes_[j]);
       else if (joint.kind == SourceKind::universal)
-        text += ", axes: [" + direction_text(joint.on_from.frame.z, axes_[j]) + ", " +
-                direction_text(joint.on_to.frame.z, axes_[j]) + "]";
+        text += ", axes: " + axes_text(joint);
       else if (!s_.planar && joint.kind == SourceKind::revolute)
         text += ", axis: " + direction_text(joint.axis(), axes_[j]);
       if (joint.actuated) text += ", actuated: true";

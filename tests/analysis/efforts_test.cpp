@@ -122,6 +122,15 @@ TEST(EffortsAtAPose, AreTheSmallestFeasibleWhereNoneIsGiven) {
   EXPECT_TRUE(solve_pose(given(model, "-20"), {0.05, 0.5}).efforts.at(0).given);
 }
 
+// Between two ranges that end at 0 no effort is feasible that loads nothing.
+TEST(EffortsAtAPose, AreNotAtAnEndAtWhichContactIsLost) {
+  const Pose pose = solve_pose(Model::parse(example_text("studies/third_leg"), "m.yaml"), {0.22, 0.31});
+  const FeasibleEfforts& chosen = pose.efforts.at(0);
+  EXPECT_NE(chosen.effort, 0);
+  EXPECT_LT(std::abs(chosen.effort), 1);
+  EXPECT_TRUE(is_in(chosen, chosen.effort));
+}
+
 TEST(EffortsAtAPose, KeepTheMotorsOwnPlayAndBounds) {
   const Model model =
       Model::parse(replaced(antagonistic, "{effort: free}, clearance: {radial: 10e-6}",

@@ -83,6 +83,31 @@ TEST(FreeEffort, ALawTakesUpThePlayOfItsOwnMotor) {
   }
 }
 
+// A leg without weight bears what its motor exerts: without any it has no contact, at every pose.
+TEST(FreeEffort, ALawLoadsWhatEffortsAloneLoad) {
+  const std::string text = replaced(example_text("studies/third_leg"),
+                                    "{effort: free, within: [-40, 40]}, "
+                                    "clearance: {radial: 10e-6, angular: 0.5e-3}",
+                                    "{effort: free, within: [-40, 40]}, clearance: {radial: 10e-6}");
+  const std::string box = "format: 1\nbox: {x: [0.22, 0.23], y: [0.31, 0.32]}\n";
+  const std::string by_statics = replaced(text, "at: A1, actuated: true", "at: A1, actuated: {within: [-1000, 1000]}");
+  for (const std::string& model_text : {text, by_statics}) {
+    const Model model = Model::parse(model_text, "m.yaml");
+    const auto verdict = [&](const std::string& more) {
+      return verify(model, parse_task(box + more, model), {.depth = VerifyDepth::verdict});
+    };
+    const Verification law = verdict("preload: controlled\n");
+    ASSERT_TRUE(law.verified());
+    ASSERT_TRUE(law.preload && law.preload->law);
+    EXPECT_TRUE(law.preload->law->within[0] > 0 || law.preload->law->within[1] < 0) << law.preload->law->expression;
+    const Verification none = verdict("preload: {A3: 0}\n");
+    EXPECT_EQ(none.verdict, Verdict::refuted);
+    ASSERT_TRUE(none.witness);
+    EXPECT_EQ(none.witness->kind, TaskWitness::Kind::vanishing);
+    EXPECT_TRUE(verdict("preload: {A3: -1}\n").verified());
+  }
+}
+
 TEST(FreeEffort, IsLookedForWithinItsBounds) {
   const Model weak = bounded("[-5, 12]");
   const Verification none = verify(weak, task_of("preload", weak), {.depth = VerifyDepth::verdict});

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "analysis/framed.hpp"
 #include "analysis/task_certificate.hpp"
 #include "clearloci/verify.hpp"
 #include "mechanism/read_task.hpp"
@@ -189,6 +190,27 @@ TEST(PoseTaskCertificate, OfARefutedTaskIsRejected) {
   const check::Examination examination = examination_of(proof.model, proof.certificate);
   EXPECT_FALSE(examination.accepted);
   EXPECT_NE(examination.why.find("theta"), std::string::npos) << examination.why;
+}
+
+// A third leg without weight, whose motor is given no effort, bears nothing at any pose.
+TEST(PoseTaskCertificate, AsksForWhatOtherEffortsWouldLoad) {
+  std::string model = example("studies/third_leg.yaml");
+  const std::string play = ", angular: 0.5e-3", task_text = "format: 1\nbox: {x: [0.22, 0.23], y: [0.31, 0.32]}\n";
+  model.erase(model.find(play, model.find("at: A3, actuated")), play.size());
+  for (const char* effort : {"0", "-1"}) {
+    const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml", {{"preload_A3", effort}});
+    const core::Task task = mechanism::parse_task(task_text, "task.yaml", mechanism);
+    const report::CertificateSource source{"verify", model, {{"preload_A3", effort}}};
+    const bool loaded = std::string(effort) != "0";
+    const std::string alone = report::certificate_text(source, clearloci::certificate_of(mechanism, task, {}));
+    EXPECT_EQ(examination_of(model, alone).accepted, loaded) << effort;
+    core::Certificate loci;
+    trace_loci(mechanism, {}, &loci);
+    const core::Task in_loci = in_frame(task, loci);
+    const check::Examination examination = examination_of(model, report::certificate_text(source, loci, &in_loci));
+    EXPECT_EQ(examination.accepted, loaded) << effort << examination.why;
+    if (!loaded) EXPECT_NE(examination.why.find("A3 bears nothing"), std::string::npos) << examination.why;
+  }
 }
 
 TEST(PoseTaskCertificate, OfWhatIsNotCertifiedIsRefused) {

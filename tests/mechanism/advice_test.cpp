@@ -135,6 +135,40 @@ gravity: [0, 0, -9.81]
   EXPECT_EQ(refusal(with(text, "0.06, 0.03]", "0.045, 0.03]")), "") << "the middle of the rod";
 }
 
+// No posture tells whether a weight turns its rod: the middle of its balls is on their line by what it is.
+TEST(Advice, DoesNotSayThatAWeightTurnsARodThatClosesNowhere) {
+  const std::string text = R"(
+format: 1
+space: spatial
+workspace: {theta: {angle: [0, 360 deg]}}
+points:
+  A: [0, 0, 0]
+  B: [0, 0.1*cos(theta), 0.1*sin(theta)]
+  D: [0.4, 0.1, 0]
+  C: {dyad: [D, B], lengths: [0.2, 0.25], axis: [1, 0.5, 1], side: right}
+  G: {from: B, by: 0.3*(C - B)}
+  H: [0.2, 0.1, 0.1]
+links:
+  crank: {points: [A, B]}
+  rod: {points: [B, C], mass: 0.4}
+  rocker: {points: [D, C]}
+joints:
+  A: {revolute: [ground, crank], at: A, axis: [1, 0, 0], actuated: true}
+  B: {spherical: [crank, rod], at: B}
+  C: {spherical: [rod, rocker], at: C}
+  D: {revolute: [ground, rocker], at: D, axis: [1, 0.5, 1]}
+gravity: [0, 0, -9.81]
+end_effector: {link: rocker, at: C}
+)";
+  EXPECT_EQ(refusal(text), "");
+  EXPECT_EQ(refusal(with(text, "mass: 0.4", "mass: 0.4, com: G")), "");
+  const std::string said = refusal(with(text, "mass: 0.4", "mass: 0.4, com: H"));
+  EXPECT_TRUE(says(said, "the mechanism closes in no pose that was tried")) << said;
+  const std::string beside =
+      with(with(text, "lengths: [0.2, 0.25]", "lengths: [0.4, 0.5]"), "mass: 0.4", "mass: 0.4, com: H");
+  EXPECT_TRUE(says(refusal(beside), "its weight turns link rod about the line B-C")) << refusal(beside);
+}
+
 TEST(Advice, NamesTheLinksThatAMissingMotorLetsGo) {
   const std::string said = refusal(with(five_bar_text, "at: A2, actuated: true", "at: A2"));
   EXPECT_TRUE(says(said, "under-actuated by 1: links B1P, PB2, B2A2 move although every motor stands still")) << said;

@@ -11,6 +11,7 @@
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
 #include "report/pose.hpp"
+#include "report/verification.hpp"
 #include "report/wording.hpp"
 #include "report/zones.hpp"
 
@@ -149,6 +150,15 @@ TEST(Wording, SaysByVirtualWorkWhatAFactorMeans) {
   EXPECT_EQ(words(K::direct_singularity, {}), "the mechanism can move with its actuators locked");
   EXPECT_EQ(reason_words(K::backlash, {}, "x - 1", "", 60), "x - 1");
   EXPECT_EQ(reason_words(K::backlash, {}, heavy, "A, B, C aligned", 60), "A, B, C aligned");
+}
+
+TEST(Wording, TellsACoupleThatIsARoundingOfItsForceAsNone) {
+  core::TaskWitness witness;
+  witness.kind = core::TaskWitness::Kind::singular;
+  witness.loads = {{0, {-20.46, 34.9}, {5.6e-17}}};
+  EXPECT_NE(witness_words(witness).find("N and 0 N m as load 1"), std::string::npos) << witness_words(witness);
+  witness.loads.front().couple = {2e-6};
+  EXPECT_EQ(witness_words(witness).find(" 0 N m"), std::string::npos) << witness_words(witness);
 }
 
 TEST(Wording, TellsEachNoteOnce) {

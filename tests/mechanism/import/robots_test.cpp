@@ -216,6 +216,46 @@ TEST(Mjcf, MakesAUniversalJointOfTwoHinges) {
             std::string::npos);
 }
 
+double cosine(const std::vector<double>& a, const std::vector<double>& b) {
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += a[i] * b[i];
+    aa += a[i] * a[i];
+    bb += b[i] * b[i];
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+/// "axes: [[1, 0, 0], [0, 1, 0]]" of a line.
+std::array<std::vector<double>, 2> axes_of(const std::string& joint) {
+  std::array<std::vector<double>, 2> axes;
+  std::istringstream text(joint.substr(joint.find("axes: [[") + 8));
+  for (std::vector<double>& axis : axes) {
+    axis.resize(3);
+    for (double& part : axis) {
+      text >> part;
+      text.ignore();
+    }
+    text.ignore(3);
+  }
+  return axes;
+}
+
+/// Places are written to a billionth of the source's size; what turns a rod is across it all the same.
+TEST(Crosses, AreWrittenAcrossTheRodAsItIsWritten) {
+  for (const auto& [name, joint, from, to] : {std::array<std::string, 4>{"sdf/cross_in_a_rod.sdf", "c", "b", "c"},
+                                              {"cuik/cross_in_a_rod.world", "u3", "s2", "u3"}}) {
+    const Imported file = imported(name);
+    const auto at = places(file);
+    const auto [first, second] = axes_of(section(file, "joints").at(joint));
+    std::vector<double> way;
+    for (std::size_t i = 0; i < 3; ++i) way.push_back(at.at(to)[i] - at.at(from)[i]);
+    EXPECT_LT(std::abs(cosine(first, way)), 1e-12) << name;
+    EXPECT_LT(std::abs(cosine(first, second)), 1e-12) << name;
+    EXPECT_EQ(mechanism_of(file).coordinates.size(), 1U) << name;
+  }
+}
+
 /// However the model is turned and shifted, the plane is found, and distances stay.
 TEST(Sdf, FindsThePlaneHoweverItLies) {
   const std::string text = bytes_of(path_of("sdf/four_bar_1_11.sdf"));
