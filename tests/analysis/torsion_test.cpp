@@ -11,6 +11,7 @@
 #include "clearloci/export.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
+#include "clearloci/verify.hpp"
 #include "clearloci/zones.hpp"
 #include "tests/source_dir.hpp"
 
@@ -237,6 +238,14 @@ TEST(Torsion, OfFingersThatMirrorEachOtherCancelsOut) {
   const std::string errors = to_text(find_errors(model));
   EXPECT_EQ(errors.find("nan"), std::string::npos);
   EXPECT_NE(errors.find("undefined"), std::string::npos);
+}
+
+TEST(Torsion, RestMayVary) {
+  const Model model = Model::read(source_dir() + "/tests/corpus/springs/five_bar_rest_of_a_parameter.yaml");
+  const std::string box = "format: 1\nbox: {x: [0.2, 0.25], y: [-0.7, -0.65]}\n";
+  const Verdict within = verify(model, parse_task(box + "tolerances: {a: 0.01}\n")).verdict;
+  for (const char* rest : {"0.49", "0.5", "0.51"})
+    EXPECT_EQ(verify(model.with({{"a", rest}}), parse_task(box)).verdict, within);
 }
 
 }  // namespace
