@@ -52,7 +52,7 @@ std::optional<core::TaskWitness> confirmed(const core::Task& task, const Widened
   const numeric::NumericModel model = numeric::compile(widened.at_place(at, found.load));
   const numeric::Posture posture = numeric::posture(model, at, sides);
   if (!posture.reachable()) return std::nullopt;
-  const double size = numeric::pose_accuracy(model, posture).error.dp.norm();
+  const double size = numeric::pose_accuracy(model, posture).least_distance;
   if (!(size > core::to_double(*task.pose_error) * (1 + rounding_of_pose_errors))) return std::nullopt;
   core::TaskWitness told;
   told.kind = core::TaskWitness::Kind::displaced;

@@ -171,7 +171,7 @@ class Tolerant {
     const numeric::NumericModel model = numeric::compile(open);
     const numeric::Posture posture = numeric::posture(model, values(failure.at, failure.parameters), task_.sides());
     if (!posture.reachable()) return std::nullopt;
-    const double size = numeric::pose_accuracy(model, posture).error.dp.norm();
+    const double size = numeric::pose_accuracy(model, posture).least_distance;
     if (!(size > core::to_double(*task_.task().pose_error) * (1 + rounding_of_pose_errors))) return std::nullopt;
     told.kind = core::TaskWitness::Kind::displaced;
     told.at = list_of(failure.at);

@@ -35,6 +35,12 @@ using core::Quantity;
 constexpr int no_pose = -2;  // of an arc of a mode that could not be looked at
 constexpr std::size_t most_bytes = 400'000'000;
 
+bool has_angle(const core::StraightLine& line) {
+  return std::any_of(line.steps.begin(), line.steps.end(), [](const core::StraightLine::Step& step) {
+    return step.operation == core::StraightLine::Operation::angle;
+  });
+}
+
 class Check {
  public:
   Check(const mechanism::Mechanism& m, CertificateFile c) : m_(m), c_(std::move(c)) {}
@@ -92,7 +98,8 @@ class Check {
         throw FalseClaim("joints: '" + joint.substr(0, 40) + "' is none of the model's");
   }
 
-  /// The limits of torsion springs are the last, in the order of the springs, whose angles are named after them.
+  /// The limits of torsion springs are the last, in the order of the springs, whose angles are named after them; so may
+  /// points be.
   void find_slits() {
     std::size_t next = c_.limit_roots.size();
     for (const mechanism::Spring& spring : m_.springs)
@@ -101,7 +108,8 @@ class Check {
       if (spring.kind != mechanism::Spring::Kind::torsion) continue;
       const int limit = c_.limit_roots.at(next++);
       for (std::size_t j = 0; j < c_.root_points.size(); ++j)
-        if (c_.root_points[j] == spring.name) c_.slits.emplace_back(static_cast<int>(j), limit);
+        if (c_.root_points[j] == spring.name && has_angle(c_.squares[j]))
+          c_.slits.emplace_back(static_cast<int>(j), limit);
     }
   }
 

@@ -1,6 +1,7 @@
 #include "numeric/pose_error.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <limits>
 
 #include "numeric/wrench_rows.hpp"
@@ -31,6 +32,24 @@ PoseError pose_error(const std::vector<JointInfluence>& influence, const std::ve
   return {error.tail<3>(), error.head<3>()};
 }
 
+namespace {
+
+/// What is displaced by the take-ups that are defined, less the most that clearances of the others displace.
+double least_distance_of(std::vector<JointContact> contacts, const std::vector<JointInfluence>& influence,
+                         const std::vector<TakeUp>& take_up) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    JointClearance& clearance = contacts[j].clearance;
+    if (!take_up[j].force_vanishes) clearance.radial = 0;
+    if (!take_up[j].actuator_vanishes) clearance.angular = clearance.axial = 0;
+    if (!take_up[j].guide_vanishes()) clearance.gap = 0;
+  }
+  const double others = worst_case(contacts, influence, rounding, false).distance;
+  return std::max(0.0, (1 - rounding) * pose_error(influence, take_up).dp.norm() - others);
+}
+
+}  // namespace
+
 Accuracy pose_accuracy(const NumericModel& model, const Posture& posture, const std::vector<LostContact>& lost) {
   const mechanism::Mechanism& m = model.mechanism;
   const Eigen::MatrixXd A = newton_euler_matrix(model, posture);
@@ -43,15 +62,18 @@ Accuracy pose_accuracy(const NumericModel& model, const Posture& posture, const 
   result.take_up = take_up(result.contacts, result.of_joints, lost);
   result.undefined = undefined_take_up(m, result.contacts, result.take_up);
   result.influence = lu.solve(unit_wrenches(m, A.rows())).transpose();
-  result.worst = worst_case(result.contacts, joint_influence(m, result.columns, result.influence));
+  const std::vector<JointInfluence> influence = joint_influence(m, result.columns, result.influence);
+  result.worst = worst_case(result.contacts, influence);
   if (result.undefined.empty()) {
     result.link_displacements = lu.transpose().solve(clearance_displacements(result.columns, result.take_up));
     const Vector6 displacement = end_effector_displacement(m, result.link_displacements);
     result.error = {displacement.tail<3>(), displacement.head<3>()};
+    result.least_distance = result.error.dp.norm();
   } else {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     result.link_displacements.setConstant(A.rows(), nan);
     result.error = {Vector3d::Constant(nan), Vector3d::Constant(nan)};
+    result.least_distance = least_distance_of(result.contacts, influence, result.take_up);
   }
   return result;
 }

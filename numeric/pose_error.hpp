@@ -40,6 +40,7 @@ struct Accuracy {
   std::vector<std::string> undefined;  ///< joints with a clearance and no contact: no pose error then
   Eigen::VectorXd link_displacements;  ///< u; NaN where a take-up is undefined
   PoseError error;                     ///< of the end effector; NaN where a take-up is undefined
+  double least_distance = 0;           ///< |dp|; where a take-up is undefined the least that it may be, m
   std::vector<ReactionColumn> columns;
   Influence influence;  ///< H
   WorstCase worst;

@@ -269,9 +269,9 @@ class LocusLaws {
       if (!a || !b) continue;
       const double scale = b->values.cwiseAbs().maxCoeff();
       grows = grows || scale > 5 * a->values.cwiseAbs().maxCoeff();
-      // Where bases nearly coincide reactions grow in the last thousandth of that way.
-      if (const auto c = s_.witness.at(beside(side * nearest), sides))
-        grows = grows || c->values.cwiseAbs().maxCoeff() > 5 * scale;
+      // Where bases nearly coincide reactions grow in the last thousandth of that way, or |A| vanishes before it.
+      const auto c = s_.witness.at(beside(side * nearest), sides);
+      if (c) grows = grows || c->values.cwiseAbs().maxCoeff() > 5 * scale;
       if (curve.kind == LocusKind::direct_singularity && !(std::abs(b->determinant) <= 0.2 * std::abs(a->determinant)))
         fault << "|A| is " << a->determinant << " and " << b->determinant;
       for (const core::Vanishing& what : curve.vanishing) {
@@ -281,7 +281,7 @@ class LocusLaws {
           const auto& least = what.quantity == core::Quantity::M ? s_.request.min_couple : s_.request.min_force;
           if (least && !(std::abs(wb - core::to_double(*least)) <= 1e-4 * core::to_double(*least) + std::abs(wb - wa)))
             fault << what.joint << "." << core::to_string(what.quantity) << " is " << wb << " on a margin";
-        } else if (!(wb <= 0.2 * wa + 1e-6 * scale)) {
+        } else if (!(wb <= 0.2 * wa + 1e-6 * scale) && !(c && std::abs(s_.witness.value_of(*c, what)) <= 0.2 * wb)) {
           // The last is what rounding may leave of a zero among reactions of that size.
           fault << what.joint << "." << core::to_string(what.quantity) << " is " << wa << " and " << wb << " of "
                 << scale;

@@ -134,7 +134,9 @@ void hold_refuted(const Oracle& oracle, const core::Task& task, const TaskWitnes
   const std::string where = fmt::format(" at the witness ({:.17g}, {:.17g}): {}", witness.at[0], witness.at[1],
                                         report::witness_words(witness));
   const loci::TaskRegion region(task.shape);
-  say(region.signed_distance(point_of(witness.at)) <= std::max(core::to_double(task.margin), 1e-14),
+  // Poses are told to four spacings of doubles.
+  const double spacing = 0x1p-52 * std::max(std::abs(witness.at[0]), std::abs(witness.at[1]));
+  say(region.signed_distance(point_of(witness.at)) <= std::max(core::to_double(task.margin), 1e-14) + 4 * spacing,
       "farther than the margin" + where);
   const auto around = [&](double step) {
     std::vector<Point2> list = {point_of(witness.at)};

@@ -192,6 +192,42 @@ TEST(TaskPoseError, OfAPistonCountsItsGuide) {
   EXPECT_LE(*answer.pose_error, found * 1.01);
 }
 
+// The guide of a telescopic leg bears nothing: it is anywhere in its gap, which does not move P.
+TEST(TaskPoseError, IsToldWhereATakeUpThatMovesNothingIsUndefined) {
+  const std::string rest = R"(
+  B1: {dyad: [A1, P], lengths: [0.4, 0.5], side: left}
+  A2: [0.5, 0]
+links:
+  A1B1: {points: [A1, B1]}
+  B1P: {points: [B1, P]}
+  cylinder: {points: [A2]}
+  rod: {points: [P]}
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true, clearance: {radial: 1e-5, angular: 0.5e-3 rad}}
+  B1: {revolute: [A1B1, B1P], at: B1, clearance: {radial: 1e-5}}
+  A2: {revolute: [ground, cylinder], at: A2, clearance: {radial: 1e-5}}
+  S2: {prismatic: [cylinder, rod], at: P, axis: [A2, P], actuated: true, clearance: {gap: 1e-5, half_length: 0.1, axial: 5e-6}}
+  P: {revolute: [B1P, rod], at: P, clearance: {radial: 1e-5}}
+end_effector: {link: B1P, at: P}
+loads: [{link: B1P, at: P, force: [-85, -44]}]
+)";
+  const std::string head = "format: 1\nspace: planar\n";
+  const std::string plane =
+      head + "workspace: {x: [0.1, 0.3], y: [0.5, 0.8]}\npoints:\n  A1: [0, 0]\n  P: [x, y]" + rest;
+  const std::string line = head + "workspace: {y: [0.5, 0.8]}\npoints:\n  A1: [0, 0]\n  P: [0.2, y]" + rest;
+  for (const auto& [text, task] : {std::pair(plane, "format: 1\nbox: {x: [0.19, 0.21], y: [0.6, 0.61]}\n"),
+                                   std::pair(line, "format: 1\nbox: {y: [0.6, 0.61]}\n")}) {
+    const Verification answer = decided(text, std::string(task) + "pose_error: 1\n");
+    ASSERT_TRUE(answer.verified());
+    const double most = *answer.pose_error;
+    EXPECT_TRUE(decided(text, task + fmt::format("pose_error: {}\n", 1.01 * most)).verified());
+    const Verification refuted = decided(text, task + fmt::format("pose_error: {}\n", 0.95 * most));
+    ASSERT_EQ(refuted.verdict, core::Verdict::refuted);
+    EXPECT_GT(*refuted.witness->size, 0.95 * most);
+    EXPECT_LE(*refuted.witness->size, most);
+  }
+}
+
 TEST(StudyFigures, OfReactionsHoldUnderBallsOfLoads) {
   const Model study_model = Model::parse(clearances());
   const std::string text =
