@@ -57,9 +57,11 @@ CheckedReaction checked_reaction(const NumericModel& model, const TracedReaction
   return {reaction, columns_of(model, reaction), force_parts(model, reaction), {}};
 }
 
+bool tells_zeros(core::LocusKind kind) { return kind != core::LocusKind::margin && kind != core::LocusKind::preload; }
+
 int times_vanishing(core::LocusKind kind, const std::vector<core::Vanishing>& vanishing,
                     const CheckedReaction& checked) {
-  if (kind == core::LocusKind::margin) return 0;  // there a reaction equals its least size
+  if (!tells_zeros(kind)) return 0;
   const TracedReaction& reaction = checked.reaction;
   const std::vector<Quantity>& parts = checked.force;
   const auto multiplicity = [&](Quantity quantity) {

@@ -22,6 +22,9 @@ struct CheckedReaction {
 /// Without weights. Throws core::InputError for a reaction that the mechanism does not have.
 CheckedReaction checked_reaction(const NumericModel& model, const TracedReaction& reaction);
 
+/// Whether what a locus names vanishes on it. On margins it has its least size, on loci of preload it is at a bound.
+bool tells_zeros(core::LocusKind kind);
+
 /// How often the reaction vanishes on a locus.
 int times_vanishing(core::LocusKind kind, const std::vector<core::Vanishing>& vanishing,
                     const CheckedReaction& checked);

@@ -192,7 +192,7 @@ class ModeValidation {
   void judge_arcs(ValidationReport& report) const {
     for (std::size_t c = 0; c < map_.curves.size(); ++c) {
       const LocusCurve& curve = map_.curves[c];
-      if (curve.mode != mode_ || curve.kind == LocusKind::margin || curve.kind == LocusKind::preload) continue;
+      if (curve.mode != mode_ || !tells_zeros(curve.kind)) continue;
       for (const core::Arc& arc : curve.arcs) {
         const std::vector<Approach> ways = approaches(model_, signs_, curve, arc, diagonal_);
         const bool context = curve.kind == LocusKind::direct_singularity || curve.kind == LocusKind::workspace_boundary;
@@ -304,7 +304,7 @@ std::vector<TracedReaction> named_reactions(const LocusMap& map) {
   std::vector<TracedReaction> named;
   const auto add = [&](const auto& loci) {
     for (const auto& locus : loci) {
-      if (locus.kind == LocusKind::margin || locus.kind == LocusKind::preload) continue;
+      if (!tells_zeros(locus.kind)) continue;
       for (const auto& v : locus.vanishing) {
         const TracedReaction reaction{v.joint, v.quantity};
         if (std::find(named.begin(), named.end(), reaction) == named.end()) named.push_back(reaction);

@@ -151,7 +151,7 @@ class LinesOfMode {
     for (std::size_t r = 0; r < reactions_.size(); ++r)
       if (is_judged_by_edges(reactions_[r])) add_tally(report, mode_, reactions_[r].reaction, counts[r], zero_[r]);
     for (std::size_t l = 0; l < loci_.size(); ++l)
-      if (loci_[l].second && loci_[l].first.kind != LocusKind::margin) judge_locus(l, report);
+      if (loci_[l].second && tells_zeros(loci_[l].first.kind)) judge_locus(l, report);
     if (n_ == 3) judge_turns(model_, signs_, map_, mode_, axes_, turning_, listed, report);
   }
 

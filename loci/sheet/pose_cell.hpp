@@ -44,8 +44,8 @@ struct CellAnswers {
   /// What is known of a cell in doubt, under one load.
   struct Known {
     bool free = false;                        ///< it is proven after all
-    bool outside = false;                     ///< no pose of it can be assembled
-    bool beyond = false;                      ///< the second part is one of which no pose can be assembled
+    bool outside = false;                     ///< as of `enter`
+    bool beyond = false;                      ///< the second part is `outside`
     Signs signs;                              ///< in all of the cell
     std::vector<std::pair<Doubt, int>> open;  ///< all that may vanish in it
     /// Parts of the cell that are proven, on the two sides of what may vanish: either may be empty.
@@ -105,6 +105,7 @@ class PoseCellOf : public CellAnswers {
   /// Adds how far each parameter moves what a demand is kept from zero by.
   void add_spreads(const Form& value);
   bool is_beyond_bound(int demand) const;
+  bool has_effort_beyond(const Signs& signs) const;
   void drop_parts_beyond_bounds(Known& sides_known) const;
   /// Of a step of a row. Most entries of A are numbers, which move with no coordinate.
   void add_step(Sum& sum, double factor, int index) const {
@@ -163,6 +164,8 @@ template <>
 CellAnswers::Known PoseCell::known();
 template <>
 void PoseCell::sides_of(const std::vector<Open>& open, const std::vector<int>& turned, Known& sides_known) const;
+template <>
+bool PoseCell::has_effort_beyond(const Signs& signs) const;
 template <>
 void PoseCell::drop_parts_beyond_bounds(Known& sides_known) const;
 template <>

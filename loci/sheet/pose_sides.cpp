@@ -204,24 +204,28 @@ void PoseCell::know_at_demand(Known& sides_known) {
   Known other;
   other.signs.assign(demands + 1, 0);
   know_near_singularity(other);
-  const auto share = [](const Known& one) { return one.free ? 1.0 : share_of(one.parts[0]) + share_of(one.parts[1]); };
+  const auto share = [](const Known& one) {
+    return one.free || one.outside ? 1.0 : share_of(one.parts[0]) + share_of(one.parts[1]);
+  };
   if (share(other) > share(sides_known)) sides_known = other;
+}
+
+template <>
+bool PoseCell::has_effort_beyond(const Signs& signs) const {
+  for (std::size_t d = 0; d < statics_->demands.size() && d < signs.size(); ++d)
+    if (statics_->demands[d].demand.bound && signs[d] < 0) return true;
+  return false;
 }
 
 /// Where an effort is beyond its bound there is no state: such a part is none.
 template <>
 void PoseCell::drop_parts_beyond_bounds(Known& sides_known) const {
-  const auto is_beyond = [&](const Signs& signs) {
-    for (std::size_t d = 0; d < statics_->demands.size() && d < signs.size(); ++d)
-      if (statics_->demands[d].demand.bound && signs[d] < 0) return true;
-    return false;
-  };
-  if (is_beyond(sides_known.of_parts[0])) {
+  if (has_effort_beyond(sides_known.of_parts[0])) {
     std::swap(sides_known.parts[0], sides_known.parts[1]);
     std::swap(sides_known.of_parts[0], sides_known.of_parts[1]);
-    if (is_beyond(sides_known.of_parts[0])) sides_known.parts[0] = {};
+    if (has_effort_beyond(sides_known.of_parts[0])) sides_known.parts[0] = {};
   }
-  if (is_beyond(sides_known.of_parts[1]) && !sides_known.parts[1].empty()) sides_known.beyond = true;
+  if (has_effort_beyond(sides_known.of_parts[1]) && !sides_known.parts[1].empty()) sides_known.beyond = true;
 }
 
 /// The first part is within reach and free of all that may vanish, the second out of reach.
@@ -368,7 +372,8 @@ void PoseCell::know_near_singularity(Known& sides_known) {
   }
   if (side != 0) {
     sides_known.signs.back() = side * change->sign;
-    sides_known.free = open.empty();
+    sides_known.outside = has_effort_beyond(sides_known.signs);
+    sides_known.free = open.empty() && !sides_known.outside;
     turned.clear();
   }
   sides_of(open, turned, sides_known);

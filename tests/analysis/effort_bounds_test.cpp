@@ -73,6 +73,39 @@ TEST(EffortBounds, EndTheZones) {
   EXPECT_GT(inside, 0.95 * strip);
 }
 
+/// Near |A| = 0, where A is conditioned badly, the effort is far beyond its bounds: that is no zone.
+TEST(EffortBounds, EndTheZonesBesideDirectSingularities) {
+  const Model model = Model::parse(
+      "format: 1\nworkspace: {th: {angle: [-60 deg, 60 deg]}}\n"
+      "points:\n  A: [0, 0]\n  B: [0.339*cos(th), 0.339*sin(th)]\n  D: [0.763, 0]\n"
+      "  C: {dyad: [B, D], lengths: [0.348, 0.327], side: right}\n"
+      "links:\n  AB: {points: [A, B]}\n  BC: {points: [B, C]}\n  CD: {points: [C, D]}\n"
+      "joints:\n  A: {revolute: [ground, AB], at: A}\n  B: {revolute: [AB, BC], at: B}\n"
+      "  C: {revolute: [BC, CD], at: C}\n"
+      "  D: {revolute: [ground, CD], at: D, actuated: {within: [-12, 8]}, clearance: {radial: 1e-5, angular: 1e-4}}\n"
+      "end_effector: {link: CD, at: C}\n"
+      "loads:\n  - {link: CD, at: C, force: [-35, -100]}\n  - {link: AB, at: B, force: [0, -30]}\n",
+      "m.yaml");
+  const auto is_within = [&](const std::vector<double>& at) {
+    for (const JointReaction& joint : solve_pose(model, at).reactions)
+      for (const ReactionComponent& part : joint.components)
+        if (joint.joint == "D" && part.quantity == Quantity::M) return -12 < part.value && part.value < 8;
+    return false;
+  };
+  const Zones map = find_zones(model, {});
+  double inside = 0, held = 0;
+  for (const Zone& zone : map.zones) {
+    EXPECT_TRUE(is_within(zone.sample)) << zone.id;
+    inside += zone.at_least;
+  }
+  constexpr int nodes = 1000;
+  constexpr double step = 2 * std::numbers::pi / 3 / nodes;
+  for (int i = 0; i < nodes; ++i)
+    if (is_within({(i + 0.5 - 0.5 * nodes) * step})) held += step;
+  EXPECT_GT(held, 0);
+  EXPECT_NEAR(inside, held, 4 * step);
+}
+
 TEST(EffortBounds, EndTheRangesOfAFreeEffort) {
   const std::string free = example_text("studies/antagonistic");
   const Model plain = Model::parse(free, "m.yaml");

@@ -62,6 +62,16 @@ TEST(ValidateLines, HoldsPointsOverOneCoordinate) {
   EXPECT_EQ(report.arcs_held, 2U);
 }
 
+TEST(ValidateLines, TakesNoBoundOfAnEffortForAZero) {
+  LocusMap map = map_of(slider());
+  map.isolated_points = {zero_at(-0.5), zero_at(0.5), zero_at(0.75), zero_at(0.5)};
+  map.isolated_points[2].kind = map.isolated_points[3].kind = LocusKind::preload;
+  const ValidationReport report = validate(slider(), map, {.nx = 500}, drive);
+  EXPECT_EQ(report.disputed, 0U);
+  EXPECT_EQ(report.held, 499U);
+  EXPECT_EQ(report.arcs_held, 2U);
+}
+
 TEST(ValidateLines, DisputesMissingAddedAndShiftedPoints) {
   LocusMap map = map_of(slider());
   map.isolated_points = {zero_at(-0.5)};
