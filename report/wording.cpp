@@ -179,8 +179,7 @@ std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> 
 }
 
 std::vector<std::string> told_once(const std::vector<std::string>& notes) {
-  // "fBx is zero in every pose under these loads" is said of many.
-  const std::string said = " is zero in every pose under these loads";
+  const std::string said = unloaded_words;  // of many
   std::vector<std::string> sentences, named;
   std::size_t place = 0;
   for (const std::string& note : notes) {

@@ -23,9 +23,8 @@ std::string sign_list(const core::Zones& map, const core::Zone& zone) {
   const std::vector<std::string>& notes = map.loci.notes;
   std::string signs;
   for (const auto& [reaction, sign] : zone.signs) {
-    const std::string unloaded = core::to_string(reaction.quantity) + reaction.joint + " is zero in every pose";
-    if (std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note.rfind(unloaded, 0) == 0; }))
-      continue;
+    const std::string unloaded = core::to_string(reaction.quantity) + reaction.joint + unloaded_words;
+    if (std::find(notes.begin(), notes.end(), unloaded) != notes.end()) continue;
     signs += (signs.empty() ? "" : " ") + reaction_name(reaction) + sign_words(sign);
   }
   return signs;

@@ -14,14 +14,6 @@ bool vanishes_everywhere(const FactoredPoly& p, const Elimination& elimination) 
          });
 }
 
-/// " where x > 0"; empty where nothing folds.
-std::string side_of_folds(const Derivation& d) {
-  std::string words;
-  for (const Fold& fold : d.geometry.folds())
-    words += (words.empty() ? " where " : " and ") + d.words.of(fold.where) + " > 0";
-  return words;
-}
-
 }  // namespace
 
 void collect_factors(Derivation& d) {
@@ -30,7 +22,10 @@ void collect_factors(Derivation& d) {
     const FactoredPoly& numerator = reaction.numerator;
     if (vanishes_everywhere(numerator, d.elimination)) {
       if (d.selected(joint) && d.is_asked_for(joint, reaction.quantity)) {
-        d.result.notes.push_back(reaction.name + " is zero in every pose" + side_of_folds(d) + " under these loads");
+        const bool folds = !d.geometry.folds().empty();  // the sheet is one side alone
+        d.result.notes.push_back(reaction.name + " is zero in every pose " +
+                                 (folds ? "on one side of those in which the mechanism folds, " : "") +
+                                 "under these loads");
       }
       d.result.problem.always_zero.push_back({joint, reaction.quantity});
       continue;

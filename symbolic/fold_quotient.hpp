@@ -20,7 +20,7 @@ class FoldQuotients {
   FoldQuotients(const Geometry& geometry, const Elimination& elimination, StraightLines& lines)
       : geometry_(&geometry), elimination_(&elimination), lines_(&lines) {}
 
-  /// The value of a natural polynomial over a positive number and `element`, that of a fold, to its multiplicity;
+  /// The value of a natural polynomial over a number and `element`, that of a fold, to its multiplicity;
   /// empty where no such loop is known.
   core::StraightLine of(const Poly& natural, const PolyFactor& element);
 

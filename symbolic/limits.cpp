@@ -38,7 +38,9 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
     };
     const auto& p = limit.points;
     if (limit.is_angle() && (inverse(false).is_zero() || inverse(true).is_zero())) {  // there is no such angle
-      all.push_back({Poly(geometry.ring(), -1), mechanism::words_of(m, limit, true), limit.where, {}, i});
+      for (const bool upper : {false, true})
+        if (upper ? limit.keeps_upper() : limit.keeps_lower())
+          all.push_back({Poly(geometry.ring(), -1), mechanism::words_of(m, limit, upper), limit.where, {}, i});
       continue;
     }
     if (limit.is_angle()) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
+#include "core/fold.hpp"
 #include "loci/curves/curves.hpp"
 #include "loci/numbers/numbers.hpp"
 #include "loci/points/sheet_roots.hpp"
@@ -255,8 +257,8 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::Workin
   return labels;
 }
 
-/// The same at a simple zero of one factor where nothing else vanishes, but for its multiples. Where something else
-/// may, throws NotTold; with an angle, which polynomials would tell nothing of, it is not proven.
+/// The same at a simple zero of one factor where nothing else vanishes, but for what has the same sheet. Where
+/// something else may, throws NotTold; with an angle, which polynomials would tell nothing of, it is not proven.
 std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor, RootPlace& place) {
   const LocusFactor& own = problem.factors[factor];
   std::vector<bool> vanishing(problem.factors.size()), margins(problem.factors.size());
@@ -311,6 +313,13 @@ struct Event {
 
 bool is_before(const Event& a, const Event& b) { return a.lower() < b.lower(); }
 
+/// Whether the reach may end where root j vanishes, which no polynomial tells.
+bool ends_by_angle(const core::RootTower& tower, std::size_t j) {
+  const core::Root& root = tower.roots[j];
+  return is_root_of_angle(tower, j) &&
+         (root.role == core::RootRole::working_mode || root.name == core::limit_name || root.name == core::fold_name);
+}
+
 /// The sheet of a mode over the range, cut where polynomials tell that something vanishes, and where roots that hold
 /// angles do: between neighbouring cuts it is reached all along, or nowhere, or that is open.
 class SheetLine {
@@ -327,12 +336,13 @@ class SheetLine {
       if (root.lower > problem.lower[0] && root.upper < problem.upper[0]) cuts.push_back({&root});
     cuts.push_back({&sides_[1]});
     for (std::size_t j = 0; j < problem.tower.roots.size(); ++j) {
-      if (!is_root_of_angle(problem.tower, j)) continue;
+      if (!ends_by_angle(problem.tower, j)) continue;
       cuts_ = placed(cuts, j);
       LocusFactor square;
       square.sheet = problem.tower.roots[j].square;
       square.line = problem.tower.roots[j].line;
       const StretchZeros found = zeros(square, j);
+      squares_.emplace_back(j, SheetRoots(problem.tower, mode, square));
       for (const SheetRoot& zero : found.zeros) ends_of_reach_.push_back({nullptr, zero, 0, j});
       for (const SheetRoot& place : found.open) ends_of_reach_.push_back({nullptr, place, 0, j, true});
       const std::size_t added = found.zeros.size() + found.open.size();
@@ -348,9 +358,9 @@ class SheetLine {
   const std::vector<Event>& ends_of_reach() const { return ends_of_reach_; }
 
   /// Whether the mode reaches what is between two neighbouring places.
-  bool reaches(const Rational& from, const Rational& to) const {
-    return reaches(from, to, problem_.tower.roots.size());
-  }
+  bool reaches(const Rational& from, const Rational& to) { return reaches(from, to, problem_.tower.roots.size()); }
+  /// Where that is not told: it was taken to reach these.
+  const std::vector<Event>& untold() const { return untold_; }
 
   /// Of a function on the sheet, where it is reached; all of them where it holds an angle, else up to the first place
   /// that is open.
@@ -383,7 +393,8 @@ class SheetLine {
     return list;
   }
 
-  bool reaches(const Rational& from, const Rational& to, std::size_t first_unplaced) const {
+  bool reaches(const Rational& from, const Rational& to, std::size_t first_unplaced) {
+    std::size_t untold = 0;
     for (const int part :
          {8, 7, 11}) {  // where one number is next to a zero of what holds an angle, another one is not
       const Rational at = from + (to - from) * Rational(part, 16);
@@ -391,8 +402,19 @@ class SheetLine {
       const RootPlace place(problem_.tower, mode_, sample, first_unplaced);
       if (!place.reachable()) return false;
       const std::vector<bool> vanishing = place.vanishing_roots();
-      if (std::find(vanishing.begin(), vanishing.end(), true) == vanishing.end()) return true;
+      bool told = true;
+      for (auto& [root, square] : squares_) {
+        if (root >= first_unplaced || !vanishing[root]) continue;
+        const int sign = square.sign(at);
+        if (sign < 0) return false;
+        if (sign == 0) untold = root;
+        told = told && sign > 0;
+      }
+      if (told) return true;
     }
+    const auto is_known = [&](const Event& event) { return event.zero.lower <= from && event.zero.upper >= to; };
+    if (std::none_of(untold_.begin(), untold_.end(), is_known))
+      untold_.push_back({nullptr, {from, to}, 0, untold, true});
     return true;
   }
 
@@ -421,15 +443,17 @@ class SheetLine {
         const std::optional<bool> is_zero = is_zero_at(cut, function);
         if (!is_zero) return std::nullopt;
         StretchEnd end = cut.place;
-        end.function_is_zero = *is_zero;
+        (all ? end.may_own_zero : end.function_is_zero) = *is_zero;
         return end;
       };
-      const std::optional<StretchEnd> first = end_at(from, lower), last = end_at(to, upper);
+      std::optional<StretchEnd> first = end_at(from, lower), last = end_at(to, upper);
       // At a side of the box a zero is a point itself.
       if (!first || !last || (i == 0 && first->function_is_zero) || (i + 2 == cuts_.size() && last->function_is_zero)) {
         result.open.push_back({lower, upper});
         continue;
       }
+      if (i == 0) first->may_own_zero = false;
+      if (i + 2 == cuts_.size()) last->may_own_zero = false;
       StretchZeros found = search.between(*first, *last, width_, enough_);
       std::move(found.zeros.begin(), found.zeros.end(), std::back_inserter(result.zeros));
       std::move(found.open.begin(), found.open.end(), std::back_inserter(result.open));
@@ -440,7 +464,8 @@ class SheetLine {
   const LocusProblem& problem_;
   const core::WorkingMode& mode_;
   std::vector<RealRoot> sides_;
-  std::vector<Event> ends_of_reach_;
+  std::vector<Event> ends_of_reach_, untold_;
+  std::vector<std::pair<std::size_t, SheetRoots>> squares_;  ///< of the roots that hold angles, by root
   std::vector<Cut> cuts_;
   Rational width_, enough_;
 };
@@ -475,6 +500,7 @@ class ModePoints {
       if (const auto refused = add(events_[i], i + 1 < events_.size() ? events_[i + 1].lower() : problem_.upper[0]))
         return refused;
     end_cell(problem_.upper[0], core::to_double(problem_.upper[0]), false);
+    for (const Event& event : line_.untold()) open_.push_back({factor_of(*event.root), event.zero});
     for (const OpenZeros& open : open_) leave_open(open);
     std::move(points_.begin(), points_.end(), std::back_inserter(map.isolated_points));
     std::move(intervals_.begin(), intervals_.end(), std::back_inserter(map.reachable));
@@ -497,15 +523,36 @@ class ModePoints {
     return *first;
   }
 
+  /// Of an event that ends the reach: the first such factor that is not told from zero there.
+  std::size_t factor_at(const Event& event, RootPlace& place) const {
+    for (std::size_t f = 0; event.root && f < problem_.factors.size(); ++f) {
+      if (searches_[f] != Search::with_its_root) continue;
+      try {
+        if (place.sign(problem_.factors[f].sheet) == 0) return f;
+      } catch (const NotTold&) {
+        return f;
+      }
+    }
+    return event.factor;
+  }
+
   std::optional<std::size_t> search_on_sheet() {
     for (std::size_t f = 0; f < problem_.factors.size(); ++f) {
-      if (searches_[f] != Search::on_sheet) continue;
+      if (searches_[f] != Search::on_sheet || is_told_with_another(f)) continue;
       StretchZeros found = line_.zeros(problem_.factors[f]);
       if (!found.open.empty() && !holds_angle(f)) return f;
       for (SheetRoot& zero : found.zeros) events_.push_back({nullptr, std::move(zero), f});
       for (SheetRoot& place : found.open) open_.push_back({f, std::move(place)});
     }
     return std::nullopt;
+  }
+
+  /// Of what holds an angle: labels tell all factors of one sheet together.
+  bool is_told_with_another(std::size_t factor) const {
+    if (!holds_angle(factor)) return false;
+    for (std::size_t f = 0; f < factor; ++f)
+      if (searches_[f] == Search::on_sheet && problem_.factors[f].sheet == problem_.factors[factor].sheet) return true;
+    return false;
   }
 
   /// Of two events whose order is not known, unless both hold angles: then they may be one, and labels say so.
@@ -552,12 +599,16 @@ class ModePoints {
                                          [&](const Polynomial& denominator) { return place.sign(denominator) == 0; });
       if (undefined) return std::nullopt;
       labels = event.exact != nullptr ? labels_at(problem_, mode_, *event.exact, place)
-                                      : labels_at(problem_, event.factor, place);
+                                      : labels_at(problem_, factor_at(event, place), place);
       // What a force must do is a condition on its numerator times |A|, which tells nothing where |A| is zero.
+      const std::vector<bool> vanishing = place.vanishing_roots();
+      bool at_limit = false;
+      for (std::size_t j = 0; j < vanishing.size(); ++j)
+        at_limit = at_limit || (vanishing[j] && problem_.tower.roots[j].name == core::limit_name);
       const bool singular = std::any_of(labels.begin(), labels.end(), [](const EdgeLabel& label) {
         return label.kind == LocusKind::direct_singularity;
       });
-      if (singular && !reached && from_ < next && !line_.reaches(from_, next)) return std::nullopt;
+      if (at_limit && singular && !reached && from_ < next && !line_.reaches(from_, next)) return std::nullopt;
     } catch (const NotTold&) {
       if (!holds_angle(event.factor)) return event.factor;
       open_.push_back({event.factor, event.zero});
@@ -590,6 +641,8 @@ class ModePoints {
           together.push_back(other);
       };
       for (const OpenZeros& other : open_) also(other.factor, other.place);
+      for (std::size_t f = 0; f < problem_.factors.size(); ++f)
+        if (problem_.factors[f].sheet == problem_.factors[open.factor].sheet) also(f, open.place);
       for (const Event& event : events_)
         if (event.exact == nullptr) also(event.factor, event.zero);
       label = reaction_label(problem_, together);

@@ -13,7 +13,7 @@ using core::Rational;
 using sheet::Jet;
 using sheet::MultiInterval;
 
-/// Cells of one stretch, after which the exact way is taken: a simple zero takes some tens.
+/// Cells of one stretch, after which what is left is open: a simple zero takes some tens.
 constexpr int most_cells = 4000;
 /// Relative width at which doubles no longer tell a cell's ends apart.
 constexpr double least_width = 0x1p-48;
@@ -201,17 +201,19 @@ StretchZeros SheetRoots::between(const StretchEnd& from, const StretchEnd& to, c
     if (slope_sign(cell, search) != 0) {
       const std::optional<int> before = cell.first ? end_sign(from) : inner_sign(cell.lower),
                                behind = cell.last ? end_sign(to) : inner_sign(cell.upper);
-      if (!before || !behind) {
-        leave_open(cell);
+      if (before && behind) {
+        if (*before * *behind >= 0) continue;
+        SheetRoot root = range(cell);
+        if (root.lower >= root.upper || !narrow(root, *before, width, enough))
+          leave_open(cell);
+        else
+          found.zeros.push_back(std::move(root));
         continue;
       }
-      if (*before * *behind >= 0) continue;
-      SheetRoot root = range(cell);
-      if (root.lower >= root.upper || !narrow(root, *before, width, enough))
-        leave_open(cell);
-      else
-        found.zeros.push_back(std::move(root));
-      continue;
+      // Next to an end without a sign: what is left in the end is at the end itself.
+      const bool own = (!before && cell.first && from.may_own_zero && behind) ||
+                       (!behind && cell.last && to.may_own_zero && before);
+      if (own && cell.upper - cell.lower < least_width * whole) continue;
     }
     if (cells > most_cells || cell.upper - cell.lower < least_width * whole) {
       leave_open(cell);

@@ -11,7 +11,7 @@
 
 namespace clearloci::loci {
 
-/// A simple zero; the only one of the function between the ends.
+/// Of a simple zero, the only one of the function between the ends; or of a place that is open.
 struct SheetRoot {
   core::Rational lower, upper;
 };
@@ -21,6 +21,7 @@ struct StretchEnd {
   core::Rational lower, upper;
   std::vector<bool> vanishing;    ///< one a root
   bool function_is_zero = false;  ///< exactly
+  bool may_own_zero = false;      ///< a zero that is not told from the end is the end's, and told there
 };
 
 /// What is known of the zeros between two ends, ascending.
@@ -41,6 +42,9 @@ class SheetRoots {
   /// tell. Places are not decided at a zero of higher order, for example.
   StretchZeros between(const StretchEnd& from, const StretchEnd& to, const core::Rational& width,
                        const core::Rational& enough);
+
+  /// Of the function at a number where the roots that it holds are real; 0: not told.
+  int sign(const core::Rational& at) { return sign_at(at, at, {}); }
 
  private:
   struct StretchCell {

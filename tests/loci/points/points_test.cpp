@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/fold.hpp"
 #include "loci/numbers/tower_algebra.hpp"
 #include "loci/numbers/univariate.hpp"
 #include "loci/trace.hpp"
@@ -282,6 +283,85 @@ TEST(PointsOfOneCoordinate, SheetsAgreeWithNorms) {
     points += norms.isolated_points.size();
   }
   EXPECT_GT(points, 100U);
+}
+
+/// In x, the angle's root s1 and the limit's s2.
+Polynomial whole(int value) { return core::constant_polynomial(3, value); }
+const Polynomial angle = core::variable_polynomial(3, 1) - whole(4), place = core::variable_polynomial(3, 0);
+
+/// Over x in [-2, 2], with the angle of the way (1, x), and a limit that is `left`.
+core::LocusProblem angle_problem(const Polynomial& left) {
+  core::LocusProblem problem;
+  problem.tower.coordinates = {"x"};
+  core::Root turned, limit;
+  turned.name = "s1";
+  turned.point = "spring";
+  turned.role = limit.role = core::RootRole::length;
+  turned.square = whole(1) + place * place;
+  turned.cosine_and_sine = {whole(1), place};
+  core::StraightLineBuilder x, one;
+  turned.line = core::line_of_angle(x.line(x.variable(0)), one.line(one.constant(1)));
+  limit.name = core::limit_name;
+  limit.square = left;
+  problem.tower.roots = {turned, limit};
+  problem.lower = {-2};
+  problem.upper = {2};
+  problem.modes = {{1, 1}};
+  problem.joint_order = problem.joints = {"A"};
+  problem.quantities = {core::Quantity::f, core::Quantity::M};
+  core::LocusFactor boundary;
+  boundary.role = core::FactorRole::workspace_boundary;
+  boundary.expression = "limit";
+  boundary.sheet = left;
+  problem.factors = {boundary};
+  return problem;
+}
+
+// 2 atan x >= 1, and the couple 3 atan x - 2.
+TEST(LociOfAngles, EndWhereALimitDoes) {
+  core::LocusProblem problem = angle_problem(whole(2) * angle - whole(1));
+  problem.factors.push_back(reaction(core::Quantity::M, whole(3) * angle - whole(2)));
+  problem.factors.push_back(reaction(core::Quantity::fx, whole(3) * angle + whole(2)));  // beyond the limit
+  const core::LocusMap map = trace(problem, {});
+  EXPECT_TRUE(map.complete);
+  ASSERT_EQ(map.reachable.size(), 1U);
+  EXPECT_NEAR(map.reachable[0].from, std::tan(0.5), 1e-14);
+  EXPECT_EQ(map.reachable[0].to, 2);
+  ASSERT_EQ(map.isolated_points.size(), 2U);
+  EXPECT_NEAR(map.isolated_points[0].at[0], std::tan(0.5), 1e-14);
+  EXPECT_NEAR(map.isolated_points[1].at[0], std::tan(2.0 / 3), 1e-14);
+  EXPECT_TRUE(map.isolated_points[0].certified && map.isolated_points[1].certified);
+}
+
+// The reaction vanishes where its limit ends.
+TEST(LociOfAngles, TellWhatVanishesWithTheirLimit) {
+  core::LocusProblem problem = angle_problem(whole(2) * angle - whole(1));
+  problem.factors.push_back(reaction(core::Quantity::M, whole(2) * angle - whole(1)));
+  const core::LocusMap map = trace(problem, {});
+  EXPECT_TRUE(map.complete);
+  ASSERT_EQ(map.isolated_points.size(), 2U);
+  for (const core::IsolatedPoint& point : map.isolated_points) {
+    EXPECT_NEAR(point.at[0], std::tan(0.5), 1e-14);
+    EXPECT_TRUE(point.certified);
+  }
+}
+
+// A double zero of the limit, and of a couple.
+TEST(LociOfAngles, StayOpenWhereTheyTouchZero) {
+  const Polynomial touching = angle * angle - whole(2) * angle + whole(1);
+  for (const bool of_limit : {true, false}) {
+    core::LocusProblem problem = angle_problem(of_limit ? touching : whole(1) + angle * angle);
+    if (!of_limit) problem.factors.push_back(reaction(core::Quantity::M, touching));
+    const core::LocusMap map = trace(problem, {});
+    EXPECT_FALSE(map.complete);
+    ASSERT_FALSE(map.open.empty());
+    for (const core::OpenRegion& region : map.open) {
+      EXPECT_NEAR(region.lower[0], std::tan(1), 1e-6);
+      EXPECT_NEAR(region.upper[0], std::tan(1), 1e-6);
+      EXPECT_EQ(region.mode, problem.modes[0]);
+      EXPECT_EQ(region.kind, of_limit ? core::LocusKind::workspace_boundary : core::LocusKind::backlash);
+    }
+  }
 }
 
 }  // namespace
