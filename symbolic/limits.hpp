@@ -27,8 +27,8 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry);
 
 /// Those that bound something: none of which what is left to the limit is the same number in every pose, 0 or more.
 /// That is decided exactly over the tower; where roots depend on one another, over the sheets of the file's working
-/// mode. Throws core::InputError where every pose is beyond one, and nothing folds: on one side of a fold that one is the
-/// number -1.
+/// mode. Throws core::InputError where every pose is beyond one, and nothing folds: on one side of a fold that one is
+/// the number -1.
 std::vector<LimitCondition> bounding_limits(const Geometry& geometry, const Elimination& elimination);
 
 }  // namespace clearloci::symbolic

@@ -1,6 +1,6 @@
 // The door of points/: loci over one free coordinate. The real roots of every factor, isolated exactly and given to the
-// modes on whose sheet the factor itself vanishes (method.md section 4, step 4), with exact signs; of what holds an angle
-// zeros are told by enclosures on the sheet, or left open.
+// modes on whose sheet the factor itself vanishes (method.md section 4, step 4), with exact signs; of what holds an
+// angle zeros are told by enclosures on the sheet, or left open.
 #pragma once
 
 #include "core/locus_map.hpp"

@@ -211,8 +211,8 @@ StretchZeros SheetRoots::between(const StretchEnd& from, const StretchEnd& to, c
         continue;
       }
       // Next to an end without a sign: what is left in the end is at the end itself.
-      const bool own = (!before && cell.first && from.may_own_zero && behind) ||
-                       (!behind && cell.last && to.may_own_zero && before);
+      const bool own =
+          (!before && cell.first && from.may_own_zero && behind) || (!behind && cell.last && to.may_own_zero && before);
       if (own && cell.upper - cell.lower < least_width * whole) continue;
     }
     if (cells > most_cells || cell.upper - cell.lower < least_width * whole) {
