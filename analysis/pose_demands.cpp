@@ -1,5 +1,8 @@
 #include "analysis/pose_demands.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/idle_efforts.hpp"
 #include "numeric/task_witness.hpp"
 
@@ -8,31 +11,17 @@ namespace clearloci {
 using core::Quantity;
 using core::TaskDemand;
 
-namespace {
-
-/// One a demand: it is for no least size nor a bound, and zero at every pose, to rounding.
-std::vector<bool> are_never_loaded(const std::vector<numeric::NumericModel>& models, const std::vector<int>& sides,
-                                   const std::vector<TaskDemand>& demands,
-                                   const std::vector<std::vector<double>>& poses) {
-  numeric::WitnessLoads loads;
-  for (const numeric::NumericModel& model : models) loads.ends.push_back(&model);
-  const numeric::TaskWitness all(loads, sides, demands, poses, numeric::TaskWitness::Rounding::of_coordinates);
-  std::vector<bool> never;
-  for (std::size_t d = 0; d < demands.size(); ++d)
-    never.push_back(demands[d].least == 0 && !demands[d].bound && all.is_never_loaded(static_cast<int>(d), poses));
-  return never;
-}
-
-}  // namespace
-
 std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>& models, const std::vector<int>& sides,
                                        std::vector<TaskDemand> demands, const std::vector<std::vector<double>>& poses,
                                        std::vector<std::string>& notes) {
-  const std::vector<bool> never = are_never_loaded(models, sides, demands, poses);
+  numeric::WitnessLoads loads;
+  for (const numeric::NumericModel& model : models) loads.ends.push_back(&model);
+  const numeric::TaskWitness all(loads, sides, demands, poses, numeric::TaskWitness::Rounding::of_coordinates);
   std::vector<TaskDemand> loaded;
   std::string names;
   for (std::size_t d = 0; d < demands.size(); ++d) {
-    if (!never[d])
+    const bool never = demands[d].least == 0 && !demands[d].bound && all.is_never_loaded(static_cast<int>(d), poses);
+    if (!never)
       loaded.push_back(std::move(demands[d]));
     else
       names += (names.empty() ? "" : ", ") + core::to_string(demands[d].quantity) + "_" + demands[d].joint;
@@ -47,8 +36,18 @@ std::vector<bool> loaded_beside_efforts(const mechanism::Mechanism& mechanism, c
                                         const std::vector<std::vector<double>>& poses) {
   const std::vector<numeric::NumericModel> models = models_beside_efforts(mechanism);
   if (models.empty()) return {};
-  std::vector<bool> loaded = are_never_loaded(models, sides, demands, poses);
-  loaded.flip();
+  const auto is_told = [](const numeric::Bounded& value) { return std::abs(value.value) > value.error; };
+  std::vector<bool> loaded(demands.size(), false);
+  for (const std::vector<double>& pose : poses)
+    for (const numeric::NumericModel& model : models) {
+      const numeric::BoundedNumerators numerators = numeric::bounded_numerators(model, pose, sides);
+      if (!numerators.reachable || !is_told(numerators.determinant)) continue;
+      for (std::size_t d = 0; d < demands.size(); ++d) {
+        if (loaded[d] || demands[d].bound) continue;
+        const std::vector<numeric::Bounded> parts = numeric::demanded_parts(model, demands[d], numerators);
+        loaded[d] = std::any_of(parts.begin(), parts.end(), is_told);
+      }
+    }
   return loaded;
 }
 

@@ -18,7 +18,8 @@ std::vector<core::TaskDemand> loaded_demands(const std::vector<numeric::NumericM
                                              const std::vector<std::vector<double>>& poses,
                                              std::vector<std::string>& notes);
 
-/// Of every demand whether efforts beside the given ones load what it asks for; empty where no effort is given.
+/// Of every demand whether efforts beside the given ones load what it asks for, for certain, at one of the poses; empty
+/// where no effort is given.
 std::vector<bool> loaded_beside_efforts(const mechanism::Mechanism& mechanism, const std::vector<int>& sides,
                                         const std::vector<core::TaskDemand>& demands,
                                         const std::vector<std::vector<double>>& poses);

@@ -78,20 +78,29 @@ class TaskCheck {
     throw FalseClaim("task: joint " + joint + " bears nothing under the given efforts, and would under others");
   }
 
-  /// What a unit more of some given effort does not leave at zero, at a pose of the task.
+  /// What a unit more of some given effort does not leave at zero, at a point of the task's shape or their mean.
   std::vector<bool> loaded_beside_efforts() const {
     std::vector<bool> loaded(reactions_of(m_).size(), false);
-    const auto& at = task_.shape.points.front();
-    const Interval x(at[0], cell_bits), y(at[1], cell_bits);
+    std::vector<std::vector<core::Rational>> places = task_.shape.points;
+    std::vector<core::Rational> mean(2);
+    for (const std::vector<core::Rational>& at : task_.shape.points)
+      for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += at[c] / static_cast<long>(task_.shape.points.size());
+    places.push_back(std::move(mean));
     for (std::size_t j = 0; j < m_.joints.size(); ++j) {
       if (!m_.joints[j].free_effort || !m_.joints[j].effort) continue;
       mechanism::Mechanism beside = m_;
       beside.joints[j].effort =
           core::Expression::apply(core::Expression::Kind::add, {*m_.joints[j].effort, core::Expression::number(1)});
-      const std::optional<Posture> here = posture(beside, sides_, x, y);
-      const auto solution = here ? solve(beside, *here, x, y) : std::nullopt;
-      for (std::size_t k = 0; solution && k < loaded.size(); ++k)
-        loaded[k] = loaded[k] || solution->reactions[k].sign() != 0;
+      bool solved = false;
+      for (const std::vector<core::Rational>& at : places) {
+        const Interval x(at[0], cell_bits), y(at[1], cell_bits);
+        const std::optional<Posture> here = posture(beside, sides_, x, y);
+        const auto solution = here ? solve(beside, *here, x, y) : std::nullopt;
+        solved = solved || solution.has_value();
+        for (std::size_t k = 0; solution && k < loaded.size(); ++k)
+          loaded[k] = loaded[k] || solution->reactions[k].sign() != 0;
+      }
+      if (!solved) throw FalseClaim("task: the reactions cannot be told at any of its points");
     }
     return loaded;
   }

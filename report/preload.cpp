@@ -218,14 +218,19 @@ std::string tension_text(const core::FeasibleEfforts& tension, const core::Shown
   return text + "\n";
 }
 
-/// Ranges are open where a reaction vanishes at an end; a chosen effort is at no such end.
-bool is_kept(const core::FeasibleEfforts& efforts) {
-  return std::any_of(efforts.ranges.begin(), efforts.ranges.end(), [&](const core::EffortRange& range) {
-    const bool closed_below = range.below.empty() || !efforts.given,
-               closed_above = range.above.empty() || !efforts.given;
-    return (closed_below ? range.from <= efforts.effort : range.from < efforts.effort) &&
-           (closed_above ? efforts.effort <= range.to : efforts.effort < range.to);
-  });
+/// Of an effort where some are feasible. Two ranges meet where a reaction vanishes; at another end it may be the least
+/// that is asked for, which a chosen effort has.
+std::string feasibility_words(const core::FeasibleEfforts& efforts) {
+  int ends = 0;
+  for (const core::EffortRange& range : efforts.ranges) {
+    if (efforts.effort < range.from || efforts.effort > range.to) continue;
+    const bool at_end =
+        (efforts.effort == range.from && !range.below.empty()) || (efforts.effort == range.to && !range.above.empty());
+    if (!at_end) return "";
+    ++ends;
+  }
+  if (ends == 1) return efforts.given ? ", at the end of a range" : "";
+  return ", which is not feasible";
 }
 
 }  // namespace
@@ -233,11 +238,9 @@ bool is_kept(const core::FeasibleEfforts& efforts) {
 std::string feasible_efforts_text(const core::FeasibleEfforts& efforts, const core::Units& units) {
   const core::ShownUnit unit = unit_of(efforts, units);
   if (efforts.cable) return tension_text(efforts, unit);
-  std::string text = fmt::format("effort of {} = {} {}{}\n", efforts.joint,
-                                 engineering(efforts.effort * unit.per_si, digits), unit.name,
-                                 efforts.ranges.empty() ? "; none keeps every joint loaded here"
-                                 : is_kept(efforts)     ? "; feasible here"
-                                                        : ", at which not every joint is loaded; feasible here");
+  std::string text = fmt::format(
+      "effort of {} = {} {}{}\n", efforts.joint, engineering(efforts.effort * unit.per_si, digits), unit.name,
+      efforts.ranges.empty() ? "; none is feasible here" : feasibility_words(efforts) + "; feasible here");
   if (!efforts.never.empty()) text += "  " + reaction_names(efforts.never) + ": lost whatever the effort\n";
   for (const core::EffortRange& range : efforts.ranges) text += "  " + range_words(range, unit) + "\n";
   return text;

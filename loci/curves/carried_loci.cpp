@@ -53,7 +53,8 @@ class Carrying {
   }
 
  private:
-  /// Of a mode of the last map those of each problem: roots that a problem alone has are positive.
+  /// Of a mode of the last map those of each problem: roots that a problem alone has are positive. What places a point
+  /// may be called by another name where more roots come before it.
   std::vector<CarriedSheet*> sheets_of(const core::WorkingMode& mode) {
     auto [found, fresh] = sheets_.try_emplace(mode);
     if (fresh)
@@ -62,7 +63,8 @@ class Carrying {
         for (const core::RootNames& root : core::names_of(problem->tower).roots) {
           const auto& names = last_.tower.roots;
           const auto same = std::find_if(names.begin(), names.end(), [&](const core::RootNames& one) {
-            return one.point == root.point && one.name == root.name && one.role == root.role;
+            const bool named = one.name == root.name || root.role == core::RootRole::working_mode;
+            return named && one.point == root.point && one.role == root.role;
           });
           const auto index = static_cast<std::size_t>(same - names.begin());
           working_mode.push_back(same != names.end() && index < mode.size() ? mode[index] : 1);

@@ -174,6 +174,7 @@ class Writer : private Drawing {
         for (double& part : other) part = std::strtod(shortest_decimal(part, exactness).c_str(), nullptr);
       }
       const Vec across = unit(cross(other, *ways[i]));
+      if (norm(cross(across, axes[i])) > meant) continue;  // the other is along this rod
       texts[i] = direction_text((dot(across, axes[i]) > 0 ? 1 : -1) * across, axes[i], precise);
     }
     for (const std::size_t i : {0U, 1U})

@@ -4,7 +4,10 @@
 #include <functional>
 
 #include "analysis/framed.hpp"
+#include "analysis/loci.hpp"
+#include "analysis/pose_demands.hpp"
 #include "analysis/task_certificate.hpp"
+#include "analysis/task_demands.hpp"
 #include "clearloci/verify.hpp"
 #include "mechanism/read_task.hpp"
 #include "tests/check/certified.hpp"
@@ -210,6 +213,23 @@ TEST(PoseTaskCertificate, AsksForWhatOtherEffortsWouldLoad) {
     const check::Examination examination = examination_of(model, report::certificate_text(source, loci, &in_loci));
     EXPECT_EQ(examination.accepted, loaded) << effort << examination.why;
     EXPECT_EQ(examination.why.find("A3 bears nothing") == std::string::npos, loaded) << examination.why;
+  }
+}
+
+// Where no pose is within reach nothing is told of other efforts.
+TEST(EffortsBesideTheGiven, LoadForCertainOrNotAtAll) {
+  std::string model = example("studies/third_leg.yaml");
+  const std::string play = ", angular: 0.5e-3";
+  model.erase(model.find(play, model.find("at: A3, actuated")), play.size());
+  const mechanism::Mechanism mechanism = mechanism::parse_mechanism(model, "model.yaml", {{"preload_A3", "0"}});
+  const std::vector<core::TaskDemand> demands = demands_of(mechanism, {});
+  const std::vector<int> sides = requested_modes(mechanism, {}).front();
+  const std::vector<bool> near = loaded_beside_efforts(mechanism, sides, demands, {{100, 100}, {0.22, 0.31}}),
+                          beyond = loaded_beside_efforts(mechanism, sides, demands, {{100, 100}});
+  ASSERT_EQ(near.size(), demands.size());
+  for (std::size_t d = 0; d < demands.size(); ++d) {
+    EXPECT_TRUE(near[d] || demands[d].joint != "A3") << core::to_string(demands[d].quantity);
+    EXPECT_FALSE(beyond[d]) << demands[d].joint;
   }
 }
 

@@ -11,6 +11,7 @@
 #include "report/loci_json.hpp"
 #include "report/loci_table.hpp"
 #include "report/pose.hpp"
+#include "report/preload.hpp"
 #include "report/verification.hpp"
 #include "report/wording.hpp"
 #include "report/zones.hpp"
@@ -159,6 +160,28 @@ TEST(Wording, TellsACoupleThatIsARoundingOfItsForceAsNone) {
   EXPECT_NE(witness_words(witness).find("N and 0 N m as load 1"), std::string::npos) << witness_words(witness);
   witness.loads.front().couple = {2e-6};
   EXPECT_EQ(witness_words(witness).find(" 0 N m"), std::string::npos) << witness_words(witness);
+}
+
+TEST(Wording, TellsWhereAGivenEffortIsAmongTheFeasibleOnes) {
+  core::FeasibleEfforts efforts;
+  efforts.joint = "A";
+  efforts.given = true;
+  const std::vector<core::Vanishing> fails = {{"B", core::Quantity::f, 1}};
+  efforts.within = {-9, 9};
+  efforts.ranges = {{-9, -3, {}, fails}, {2, 4, fails, fails}, {4, 9, fails, {}}};
+  const auto told = [&](double effort) {
+    efforts.effort = effort;
+    const std::string text = feasible_efforts_text(efforts, {});
+    return text.substr(text.find(" N m") + 4, text.find('\n') - text.find(" N m") - 4);
+  };
+  for (const double inside : {-9.0, -4.0, 3.0, 9.0}) EXPECT_EQ(told(inside), "; feasible here") << inside;
+  for (const double end : {-3.0, 2.0}) EXPECT_EQ(told(end), ", at the end of a range; feasible here") << end;
+  for (const double beyond : {-10.0, 0.0, 4.0, 10.0})
+    EXPECT_EQ(told(beyond), ", which is not feasible; feasible here") << beyond;
+  efforts.given = false;
+  EXPECT_EQ(told(2), "; feasible here") << "of a least size";
+  efforts.ranges.clear();
+  EXPECT_EQ(told(0), "; none is feasible here");
 }
 
 TEST(Wording, TellsEachNoteOnce) {

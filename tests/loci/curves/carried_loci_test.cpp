@@ -138,6 +138,15 @@ TEST(CarriedLoci, ArcsEndOnTheRimWhereItIsNow) {
   }
 }
 
+/// The roots of another sheet are numbered on their own.
+TEST(CarriedLoci, RootsThatPlaceTheSamePointAreTheSame) {
+  LocusProblem problem = chord(Rational(3, 10));
+  problem.modes = {{-1}};
+  const LocusMap last = trace(problem);
+  problem.tower.roots[0].name = "s2";
+  EXPECT_FALSE(curve_of(carried_to(problem, last), core::LocusKind::backlash).arcs.empty());
+}
+
 TEST(CarriedLoci, TheRimAndTheWorkspaceGoAlong) {
   const LocusMap last = trace(chord(Rational(3, 10)));
   LocusProblem smaller = chord(Rational(3, 10));
