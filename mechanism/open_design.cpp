@@ -213,6 +213,10 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
       if (joint.free_effort && joint.free_effort->parameter == range.name) joint.free_effort->given = true;
   }
   Opening opening(mechanism, result.varied);
+  for (const Spring& spring : mechanism.springs)
+    if (spring.kind == Spring::Kind::torsion && opening.dependence(spring.rest).varied)
+      throw core::InputError(spring.where, "the rest of the torsion spring " + spring.name + " is varied",
+                             "vary other parameters, or give the rest a number");
   const Change by = [&](const Expression& e) { return opening.opened(e); };
   for (const Point& point : mechanism.points) {
     std::vector<Expression> expressions;

@@ -40,7 +40,7 @@ const Parameter* parameter_named(const Mechanism& mechanism, const std::string& 
 Expression in_varied(const Expression& expression, const Mechanism& mechanism, const std::vector<std::string>& varied);
 
 /// Throws core::InputError where a range is of no parameter, or what a variable changes is not among what designs may
-/// differ in: the half length of a guide.
+/// differ in: the half length of a guide, the rest of a torsion spring.
 OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRange>& ranges);
 
 }  // namespace clearloci::mechanism

@@ -53,10 +53,7 @@ const TorsionAngle& Geometry::torsion_angle(std::size_t spring) const {
 
 void Geometry::list_torsion_angles() {
   for (const mechanism::Action& action : mechanism::actions(*mechanism_))
-    if (action.law == mechanism::Action::Law::torsion) {
-      torsion_angles_.push_back({action.index});
-      (void)circle(mechanism_->springs[action.index].rest);  // what it keeps of parameters has variables
-    }
+    if (action.law == mechanism::Action::Law::torsion) torsion_angles_.push_back({action.index});
   std::vector<core::Expression> tangents;
   for (const mechanism::Load& load : mechanism_->loads) {
     for (const core::Expression& component : load.force) collect_tangents(component, tangents);

@@ -168,6 +168,20 @@ bool SheetRoots::narrow(SheetRoot& root, int sign_below, const Rational& width, 
   return true;
 }
 
+/// Whether the only zero that a monotone cell may have is at the end of the stretch, as near as doubles tell: the sign
+/// of its other side, the only one of the two that is told, goes on up to there.
+bool SheetRoots::is_of_end(const StretchCell& cell, const Search& search, int before, int behind, double whole) {
+  const bool at_from = before == 0 && behind != 0 && cell.first && search.from.may_own_zero;
+  const bool at_to = behind == 0 && before != 0 && cell.last && search.to.may_own_zero;
+  if (!at_from && !at_to) return false;
+  const double end = at_from ? cell.lower : cell.upper;
+  for (double side = at_from ? cell.upper : cell.lower; std::abs(side - end) >= least_width * whole;) {
+    side = end + 0.48730127 * (side - end);
+    if (sign_at(Rational(side), Rational(side), {}) != (at_from ? behind : before)) return false;
+  }
+  return true;
+}
+
 StretchZeros SheetRoots::between(const StretchEnd& from, const StretchEnd& to, const Rational& width,
                                  const Rational& enough) {
   const Search search{from, to};
@@ -210,10 +224,7 @@ StretchZeros SheetRoots::between(const StretchEnd& from, const StretchEnd& to, c
           found.zeros.push_back(std::move(root));
         continue;
       }
-      // Next to an end without a sign: what is left in the end is at the end itself.
-      const bool own =
-          (!before && cell.first && from.may_own_zero && behind) || (!behind && cell.last && to.may_own_zero && before);
-      if (own && cell.upper - cell.lower < least_width * whole) continue;
+      if (is_of_end(cell, search, before.value_or(0), behind.value_or(0), whole)) continue;
     }
     if (cells > most_cells || cell.upper - cell.lower < least_width * whole) {
       leave_open(cell);

@@ -60,6 +60,7 @@ class SheetRoots {
   int slope_sign(const StretchCell& cell, const Search& search);
   /// Of the function; 0: not told.
   int sign_at(const core::Rational& lower, const core::Rational& upper, const std::vector<bool>& vanishing);
+  bool is_of_end(const StretchCell& cell, const Search& search, int before, int behind, double whole);
   bool narrow(SheetRoot& root, int sign_below, const core::Rational& width, const core::Rational& enough);
 
   core::WorkingMode mode_;
