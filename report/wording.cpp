@@ -179,25 +179,34 @@ std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> 
 }
 
 std::vector<std::string> told_once(const std::vector<std::string>& notes) {
-  const std::string said = unloaded_words;  // of many
-  std::vector<std::string> sentences, named;
-  std::size_t place = 0;
+  // "fBx is zero in every pose under these loads" is said of many, and of those on one side of a fold alike.
+  const std::string said = " is zero in every pose ";
+  struct Sentence {
+    std::vector<std::string> named;
+    std::string of_all;
+  };
+  std::vector<Sentence> sentences;
   for (const std::string& note : notes) {
-    const bool of_a_reaction =
-        note.size() > said.size() && note.compare(note.size() - said.size(), said.size(), said) == 0;
-    if (of_a_reaction) {
-      if (named.empty()) place = sentences.size();
-      const std::string name = note.substr(0, note.size() - said.size());
-      if (std::find(named.begin(), named.end(), name) == named.end()) named.push_back(name);
-    } else if (std::find(sentences.begin(), sentences.end(), note) == sentences.end()) {
-      sentences.push_back(note);
-    }
+    const std::size_t at = note.find(said);
+    const bool of_a_reaction = at != std::string::npos && note.find(' ') == at;
+    const Sentence one =
+        of_a_reaction ? Sentence{{note.substr(0, at)}, note.substr(at + said.size())} : Sentence{{}, note};
+    const auto same = std::find_if(sentences.begin(), sentences.end(), [&](const Sentence& other) {
+      return other.of_all == one.of_all && other.named.empty() == one.named.empty();
+    });
+    if (same == sentences.end())
+      sentences.push_back(one);
+    else if (of_a_reaction && std::find(same->named.begin(), same->named.end(), one.named[0]) == same->named.end())
+      same->named.push_back(one.named[0]);
   }
-  if (named.size() == 1) sentences.insert(sentences.begin() + static_cast<std::ptrdiff_t>(place), named.front() + said);
-  if (named.size() > 1)
-    sentences.insert(sentences.begin() + static_cast<std::ptrdiff_t>(place),
-                     joined(named, ", ") + " are zero in every pose under these loads");
-  return sentences;
+  std::vector<std::string> told;
+  for (const Sentence& sentence : sentences) {
+    const bool several = sentence.named.size() > 1;
+    told.push_back(sentence.named.empty() ? sentence.of_all
+                                          : joined(sentence.named, ", ") + (several ? " are" : " is") +
+                                                " zero in every pose " + sentence.of_all);
+  }
+  return told;
 }
 
 std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates, bool exact) {

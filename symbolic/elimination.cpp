@@ -17,6 +17,23 @@ void insert_distinct(std::vector<Poly>& list, const Poly& p) {
   if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
 }
 
+/// Of a factor of denominators, which are nowhere negative: whether it may be negative, as that of a square.
+bool changes_sign(const Poly& factor, const Geometry& geometry) {
+  bool is_squared = false;
+  for (const Poly& denominator : geometry.denominators()) {
+    if (std::any_of(geometry.roots().begin(), geometry.roots().end(),
+                    [&](const TowerRoot& root) { return denominator.depends_on(root.variable); }))
+      continue;
+    Rational constant;
+    for (const PolyFactor& part : denominator.factors(constant)) {
+      if (!(part.poly == factor) && !(part.poly == -factor)) continue;
+      if (part.multiplicity % 2 != 0) return false;
+      is_squared = true;
+    }
+  }
+  return is_squared;
+}
+
 }  // namespace
 
 Elimination::Elimination(const Geometry& geometry, KnownEliminations* known)
@@ -26,6 +43,8 @@ Elimination::Elimination(const Geometry& geometry, KnownEliminations* known)
   for (const Poly& denominator : geometry.denominators())
     if (geometry.coordinates() != 2 || !is_beyond_use(norm_degree(denominator))) eliminate(denominator, found);
   denominator_factors_ = std::move(found);
+  for (const Poly& factor : denominator_factors_)
+    stripped_.push_back(changes_sign(factor, geometry) ? factor * factor : factor);
   // Most of those without roots are products of these factors.
   for (const Poly& denominator : geometry.denominators())
     if (!strip_denominators(denominator).is_constant()) known_denominators_.push_back(denominator);
@@ -198,7 +217,7 @@ bool Elimination::has_free_coordinate(const Poly& p) const {
 Poly Elimination::strip_denominators(Poly p) const {
   if (p.is_zero()) return p;
   Poly quotient(p.ring());
-  for (const Poly& denominator : denominator_factors_) {
+  for (const Poly& denominator : stripped_) {
     while (p.divides(denominator, quotient)) p = quotient;
   }
   for (const Poly& denominator : known_denominators_) {
@@ -318,7 +337,7 @@ bool Elimination::is_too_heavy_over_tower(const Poly& natural) const {
 
 const LineImage& Elimination::line_image() const {
   if (!line_image_) {
-    std::vector<Poly> divisors = denominator_factors_;
+    std::vector<Poly> divisors = stripped_;
     divisors.insert(divisors.end(), known_denominators_.begin(), known_denominators_.end());
     line_image_ = std::make_unique<LineImage>(*geometry_, divisors, denominator_factors_, independent_roots_);
   }

@@ -120,6 +120,7 @@ class Elimination {
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower
   std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates
+  std::vector<Poly> stripped_;             ///< of these, or their squares, so that what is left keeps its sign
 };
 
 }  // namespace clearloci::symbolic

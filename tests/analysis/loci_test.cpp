@@ -115,6 +115,8 @@ TEST(FoldedFourBar, IsReachedOnTheSideOnWhichItsLimitHolds) {
   EXPECT_THAT(reach_of("kite_four_bar_with_limit"),
               testing::Pointwise(near, {2.4005639, 18.5903779, 101.4096221, 168.0390518}));
   EXPECT_THAT(reach_of("slider_on_its_crank"), testing::Pointwise(near, {113.1301024, 143.1301024}));
+  // Here the length that the angle is divided by is a square root whose sign changes where it folds.
+  EXPECT_THAT(reach_of("slider_on_its_crank_ahead"), testing::Pointwise(near, {46.5650512, 105.4176730}));
 }
 
 // The spring's length is a root on one side of the fold and a number on the other.
