@@ -188,7 +188,7 @@ std::vector<std::string> told_once(const std::vector<std::string>& notes) {
   std::vector<Sentence> sentences;
   for (const std::string& note : notes) {
     const std::size_t at = note.find(said);
-    const bool of_a_reaction = at != std::string::npos && note.find(' ') == at;
+    const bool of_a_reaction = at != std::string::npos;
     const Sentence one =
         of_a_reaction ? Sentence{{note.substr(0, at)}, note.substr(at + said.size())} : Sentence{{}, note};
     const auto same = std::find_if(sentences.begin(), sentences.end(), [&](const Sentence& other) {
