@@ -1,5 +1,5 @@
-// Enclosures of functions over a box, to first order over up to eight coordinates or, over up to four, in the first
-// three to second: with every coordinate of the box a noise e_i in [-1, 1],
+// Enclosures of functions over a box of up to eight coordinates, to first order or, in the first three, to second: with
+// every coordinate of the box a noise e_i in [-1, 1],
 //     f(x) in c + sum a_i e_i + sum b_ij e_i e_j + [-r, r]
 // for every x of the box. What is linear in the coordinates, and quadratic in the first three, stays so through sums
 // and differences: terms cancel before they are bounded. r shrinks with the cube of a box of three coordinates, else
@@ -18,9 +18,8 @@ namespace clearloci::loci::pose {
 /// `second_order`: with products of the first three noises. They cost more than half as much again as what is linear.
 template <bool second_order>
 struct AffineForm {
-  /// Coordinates of a box at most, an even number: those of a pose, six or as many as have products, and the way along
-  /// a path.
-  static constexpr std::size_t noises = second_order ? 4 : 8;
+  /// Coordinates of a box at most, an even number: those of a pose or of a pose and efforts, and the way along a path.
+  static constexpr std::size_t noises = 8;
   /// The first of them have squares and products.
   static constexpr std::size_t curved = second_order ? 3 : 0, products = second_order ? 6 : 0;
 

@@ -288,12 +288,15 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor
   for (const auto& [sheet, power] : own.cleared) proven = is_told(sheet) && proven;
   const ReactionOrders orders = compared >= 0 ? orders_at_simple_zero(problem, compared) : ReactionOrders{};
   std::vector<EdgeLabel> labels = labels_from(problem, orders, vanishing, margins);
-  if (!proven && !orders.singular) {  // what one factor does not let vanish two may
+  if (!proven && !orders.singular) {  // what no factor makes vanish alone two may together
     EdgeLabel label = reaction_label(problem, perhaps);
-    const bool known = std::any_of(labels.begin(), labels.end(), [&](const EdgeLabel& one) {
-      return one.kind == label.kind && one.vanishing == label.vanishing;
-    });
-    if (!label.vanishing.empty() && !known) labels.insert(labels.begin(), std::move(label));
+    for (const LocusFactor* one : perhaps) {
+      const std::vector<core::Vanishing> alone = reaction_label(problem, {one}).vanishing;
+      std::erase_if(label.vanishing, [&](const core::Vanishing& vanishing) {
+        return std::find(alone.begin(), alone.end(), vanishing) != alone.end();
+      });
+    }
+    if (!label.vanishing.empty()) labels.insert(labels.begin(), std::move(label));
   }
   for (EdgeLabel& label : labels) label.proven = proven;
   return labels;
