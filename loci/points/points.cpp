@@ -291,9 +291,9 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor
   if (!proven && !orders.singular) {  // what no factor makes vanish alone two may together
     EdgeLabel label = reaction_label(problem, perhaps);
     for (const LocusFactor* one : perhaps) {
-      const std::vector<core::Vanishing> alone = reaction_label(problem, {one}).vanishing;
-      std::erase_if(label.vanishing, [&](const core::Vanishing& vanishing) {
-        return std::find(alone.begin(), alone.end(), vanishing) != alone.end();
+      const std::vector<core::Vanishing> alone = reaction_label(problem, std::vector{one}).vanishing;
+      std::erase_if(label.vanishing, [&](const core::Vanishing& each) {
+        return std::find(alone.begin(), alone.end(), each) != alone.end();
       });
     }
     if (!label.vanishing.empty()) labels.insert(labels.begin(), std::move(label));
