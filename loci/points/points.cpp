@@ -265,7 +265,7 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor
   std::vector<const LocusFactor*> perhaps;  // reactions, with that which is zero for certain
   const bool own_angle = has_angle(own.sheet, problem.tower);
   bool proven = true;
-  int compared = is_of_determinants(own.role) ? static_cast<int>(factor) : -1;
+  std::vector<int> compared;  // each of the first order
   const auto is_told = [&](const Polynomial& other) {
     try {
       place.sign(other);
@@ -280,15 +280,19 @@ std::vector<EdgeLabel> labels_at(const LocusProblem& problem, std::size_t factor
     if (other.role == FactorRole::construction) continue;
     vanishing[f] = f == factor || (own_angle && other.sheet == own.sheet);
     margins[f] = vanishing[f] && other.role == FactorRole::margin;
-    if (vanishing[f] && is_of_determinants(other.role)) compared = static_cast<int>(f);
+    if (vanishing[f] && is_of_determinants(other.role)) compared.push_back(static_cast<int>(f));
     const bool told = vanishing[f] || is_told(other.sheet);
     proven = proven && told;
     if (other.role == FactorRole::reaction && (vanishing[f] || !told)) perhaps.push_back(&other);
   }
   for (const auto& [sheet, power] : own.cleared) proven = is_told(sheet) && proven;
-  const ReactionOrders orders = compared >= 0 ? orders_at_simple_zero(problem, compared) : ReactionOrders{};
+  const ReactionOrders orders = compared.empty() ? ReactionOrders{} : orders_at_simple_zero(problem, compared.front());
   std::vector<EdgeLabel> labels = labels_from(problem, orders, vanishing, margins);
-  if (!proven && !orders.singular) {  // what no factor makes vanish alone two may together
+  for (std::size_t k = 1; k < compared.size(); ++k) {
+    EdgeLabel label = reaction_label(problem, orders_at_simple_zero(problem, compared[k]));
+    if (!label.vanishing.empty()) labels.insert(labels.begin(), std::move(label));
+  }
+  if (perhaps.size() > 1 && !orders.singular) {  // what no factor makes vanish alone two may together
     EdgeLabel label = reaction_label(problem, perhaps);
     for (const LocusFactor* one : perhaps) {
       const std::vector<core::Vanishing> alone = reaction_label(problem, std::vector{one}).vanishing;
