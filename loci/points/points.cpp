@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -348,8 +349,8 @@ class SheetLine {
       LocusFactor square;
       square.sheet = problem.tower.roots[j].square;
       square.line = problem.tower.roots[j].line;
-      const StretchZeros found = zeros(square, j);
-      squares_.emplace_back(j, SheetRoots(problem.tower, mode, square));
+      squares_.emplace_back(j, std::make_unique<SheetRoots>(problem.tower, mode, square, true));
+      const StretchZeros found = zeros(square, *squares_.back().second, j);
       for (const SheetRoot& zero : found.zeros) ends_of_reach_.push_back({nullptr, zero, 0, j});
       for (const SheetRoot& place : found.open) ends_of_reach_.push_back({nullptr, place, 0, j, true});
       const std::size_t added = found.zeros.size() + found.open.size();
@@ -371,7 +372,10 @@ class SheetLine {
 
   /// Of a function on the sheet, where it is reached; all of them where it holds an angle, else up to the first place
   /// that is open.
-  StretchZeros zeros(const LocusFactor& function) { return zeros(function, problem_.tower.roots.size()); }
+  StretchZeros zeros(const LocusFactor& function) {
+    SheetRoots search(problem_.tower, mode_, function, has_angle(function.sheet, problem_.tower));
+    return zeros(function, search, problem_.tower.roots.size());
+  }
 
  private:
   struct Cut {
@@ -412,7 +416,7 @@ class SheetLine {
       bool told = true;
       for (auto& [root, square] : squares_) {
         if (root >= first_unplaced || !vanishing[root]) continue;
-        const int sign = square.sign(at);
+        const int sign = square->sign(at);
         if (sign < 0) return false;
         if (sign == 0) untold = root;
         told = told && sign > 0;
@@ -436,9 +440,8 @@ class SheetLine {
     }
   }
 
-  StretchZeros zeros(const LocusFactor& function, std::size_t first_unplaced) {
+  StretchZeros zeros(const LocusFactor& function, SheetRoots& search, std::size_t first_unplaced) {
     const bool all = has_angle(function.sheet, problem_.tower);
-    SheetRoots search(problem_.tower, mode_, function, all);
     StretchZeros result;
     for (std::size_t i = 0; i + 1 < cuts_.size() && (all || result.open.empty()); ++i) {
       Cut &from = cuts_[i], &to = cuts_[i + 1];
@@ -472,7 +475,8 @@ class SheetLine {
   const core::WorkingMode& mode_;
   std::vector<RealRoot> sides_;
   std::vector<Event> ends_of_reach_, untold_;
-  std::vector<std::pair<std::size_t, SheetRoots>> squares_;  ///< of the roots that hold angles, by root
+  /// Of the roots that hold angles, by root.
+  std::vector<std::pair<std::size_t, std::unique_ptr<SheetRoots>>> squares_;
   std::vector<Cut> cuts_;
   Rational width_, enough_;
 };

@@ -176,7 +176,7 @@ bool SheetRoots::is_of_end(const StretchCell& cell, const Search& search, int be
   if (!at_from && !at_to) return false;
   const double end = at_from ? cell.lower : cell.upper;
   for (double side = at_from ? cell.upper : cell.lower; std::abs(side - end) >= least_width * whole;) {
-    side = end + 0.48730127 * (side - end);
+    side = cut_of(end, side);
     if (sign_at(Rational(side), Rational(side), {}) != (at_from ? behind : before)) return false;
   }
   return true;

@@ -37,6 +37,10 @@ class SheetRoots {
   SheetRoots(const core::RootTower& tower, const core::WorkingMode& mode, const core::LocusFactor& factor,
              bool keeps_open = false);
 
+  /// Its registers are of its program.
+  SheetRoots(const SheetRoots&) = delete;
+  SheetRoots& operator=(const SheetRoots&) = delete;
+
   /// The zeros strictly between two ends, narrowed to `width`, or to `enough` where signs are not told beyond.
   /// Required: no root that the function holds is zero between them, and the mode reaches all of it, as far as these
   /// tell. Places are not decided at a zero of higher order, for example.
