@@ -33,8 +33,9 @@ constexpr double same_place = 1e-8;
 constexpr double on_side = 1e-12, along_side = 1e-4;
 // How far from a touch the parts beside it are looked at.
 constexpr double beside_a_touch = 1e-5;
-// The order of edges around a node is read off circles of these radii, from the largest that fits.
-constexpr double largest_circle = 0.02, smallest_circle = 3e-8;
+// The order of edges around a node is read off circles of these radii, from the largest that fits. Nodes are farther
+// apart than what counts as one place.
+constexpr double largest_circle = 0.02, smallest_circle = 1e-9;
 constexpr int agreeing_circles = 1;
 constexpr double widest_doubt = 1e-4;  // rad; of bearings that are looked for by other means
 constexpr double rounding = 1e-13;     // of points moved onto a curve
@@ -493,16 +494,24 @@ class Builder {
     return (strand.owner == box_owner ? 0 : 2 * map_.tolerance) + same_place * size_;
   }
 
+  /// Whether the nearest place of a strand is an end of it.
+  static bool ends_before(const Strand& strand, const Foot& foot) {
+    return !strand.closed && (foot.position() == 0 || foot.position() == static_cast<double>(strand.points.size() - 1));
+  }
+
   /// Splits every strand that passes through the node.
   void cut_at(int node) {
     const Point2 at = graph().nodes[static_cast<std::size_t>(node)];
     for (Strand& strand : strands_) {
       for (const Foot& foot : passes(strand.points, boxed(strand), at, reach_of(strand))) {
-        // A vertex is on the curve, also where the curve is singular and nothing near could be moved onto it.
+        // An arc does not go on beyond its ends, which are known: the curve does, maybe through this node.
+        if (ends_before(strand, foot) && foot.distance > same_place * size_) continue;
+        // A vertex is on the curve, also where the curve is singular and nothing near could be moved onto it. A curve
+        // that passes a place for which the node stands is as near to it as that place.
         const auto is_near = [&](std::size_t i) { return distance(strand.points[i], at) <= same_place * size_; };
         const CurveProjection* const curve_projection =
             is_near(foot.segment) || is_near(foot.segment + 1) ? nullptr : projection(strand.owner);
-        if (curve_projection != nullptr && distance((*curve_projection)(at).at, at) > 10 * same_place * size_) continue;
+        if (curve_projection != nullptr && distance((*curve_projection)(at).at, at) > 2 * same_place * size_) continue;
         strand.cuts.emplace_back(foot.position(), node);
       }
     }

@@ -375,6 +375,14 @@ TEST(OnceDisputed, ZonesBetweenTwoFactorsOfOneCurveApart) {
   all_zones_are_certified("loci/one_rail_two_factors_of_one_curve", request);
 }
 
+// Loci end on a boundary 1e-7 of the box from where it crosses another one: they were taken to go on to that crossing,
+// which is as near to their curve as rounding tells, and no zone was certified.
+TEST(OnceDisputed, ZonesWhereLociEndBesideACornerOfTheWorkspace) {
+  ZoneRequest request;
+  request.loci.all_working_modes = true;
+  all_zones_are_certified("loci/five_bar_loci_end_beside_a_corner", request);
+}
+
 // The spring's angle is that of a way whose coefficients are 1e-72, since a base is at sqrt(2)/8 + 3/4: its enclosures
 // had no digits left. Two zeros were missing, and none was certified.
 TEST(OnceDisputed, ATorsionSpringOverIrrationalBases) {
