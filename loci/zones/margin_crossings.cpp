@@ -16,66 +16,6 @@ namespace {
 using core::Polynomial;
 using core::Rational;
 
-Polynomial in_plane(const Univariate& over_x) {
-  Polynomial p{2, {}};
-  for (std::size_t k = over_x.size(); k-- > 0;)
-    if (over_x[k] != 0) p.terms.push_back({{static_cast<int>(k), 0}, Rational(over_x[k])});
-  return p;
-}
-
-/// Of a polynomial in x and y: that of y^power.
-Polynomial coefficient_of(const Polynomial& p, int power) {
-  Polynomial coefficient{1, {}};
-  for (const core::Term& term : p.terms)
-    if (term.exponents[1] == power) coefficient.terms.push_back({{term.exponents[0]}, term.coefficient});
-  return coefficient;
-}
-
-/// What the coefficients of the powers of y have in common.
-Univariate content_of(const Polynomial& p) {
-  Univariate content;
-  for (int power = core::degree_in(p, 1); power >= 0; --power)
-    if (const Polynomial coefficient = coefficient_of(p, power); !coefficient.is_zero())
-      content = content.empty() ? univariate(coefficient) : greatest_common_divisor(content, univariate(coefficient));
-  return content;
-}
-
-Polynomial divided(const Polynomial& p, const Polynomial& divisor) {
-  const std::optional<Polynomial> quotient = core::exact_quotient(p, divisor);
-  core::ensure(quotient.has_value(), "a divisor");
-  return core::primitive_part(*quotient);
-}
-
-/// A multiple of p by a polynomial in x, but for multiples of q, of a lower degree in y than q.
-Polynomial pseudo_remainder(Polynomial p, const Polynomial& q) {
-  const int degree = core::degree_in(q, 1);
-  const Polynomial leading = core::with_variables(coefficient_of(q, degree), 2);
-  for (int top = core::degree_in(p, 1); top >= degree; top = core::degree_in(p, 1)) {
-    Polynomial shift = core::with_variables(coefficient_of(p, top), 2);
-    for (core::Term& term : shift.terms) term.exponents[1] = top - degree;
-    p = leading * p - shift * q;
-  }
-  return p;
-}
-
-/// Of two polynomials in x and y without content, by Euclid's algorithm over the polynomials in x.
-Polynomial common_divisor(Polynomial p, Polynomial q) {
-  while (core::degree_in(q, 1) > 0) {
-    Polynomial rest = pseudo_remainder(std::move(p), q);
-    p = std::move(q);
-    q = rest.is_zero() ? std::move(rest) : divided(rest, in_plane(content_of(rest)));
-  }
-  return q.is_zero() ? p : core::constant_polynomial(2, 1);
-}
-
-/// The same curves, each once. Required: not zero.
-Polynomial square_free(const Polynomial& p) {
-  const Univariate content = content_of(p);
-  const Polynomial rest = divided(p, in_plane(content));
-  const Polynomial once = rest.is_constant() ? rest : divided(rest, common_divisor(rest, core::derivative(rest, 1)));
-  return core::primitive_part(once * in_plane(square_free_part(content)));
-}
-
 /// A bound on the degree of a norm that is worth its factors.
 constexpr double highest_norm_degree = 64;
 /// Numbers that are tried for one of which terms cancel.
