@@ -119,6 +119,12 @@ class Check {
       if (kind <= core::LocusKind::component && kind != gravest_kind(vanishing))
         throw FalseClaim(fmt::format("{} is said to be of the kind {}, where {} vanish", what, core::to_string(kind),
                                      names({vanishing.begin(), vanishing.end()})));
+      // What vanishes along one of these has a curve of its own.
+      const bool is_singular =
+          kind == core::LocusKind::direct_singularity || kind == core::LocusKind::workspace_boundary;
+      if (is_singular && !vanishing.empty())
+        throw FalseClaim(fmt::format("{} of the kind {} is said to make {} vanish", what, core::to_string(kind),
+                                     names({vanishing.begin(), vanishing.end()})));
       std::set<Reaction> different(vanishing.begin(), vanishing.end());
       if (different.size() != vanishing.size()) throw FalseClaim(what + " names one reaction twice");
     };

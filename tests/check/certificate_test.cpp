@@ -231,6 +231,16 @@ TEST_F(Mutations, ASheetLeftOut) {
   }
 }
 
+// What vanishes along a boundary or a singularity has an arc of its own.
+TEST_F(Mutations, AReactionNamedWhereItIsUnbounded) {
+  for (const char* kind : {"direct-singularity", "workspace-boundary"}) {
+    Json changed = certificate();
+    for (Json& curve : changed["curves"])
+      if (curve["kind"] == kind) curve["vanishing"].push_back({"B2", "f"});
+    expect_rejected(changed, "is said to make");
+  }
+}
+
 TEST_F(Mutations, AnArcMoved) {
   for (const char* kind : {"contact-loss", "direct-singularity", "workspace-boundary"}) {
     Json changed = certificate();
