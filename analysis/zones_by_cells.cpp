@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -80,6 +81,16 @@ bool turns(PoseCell& cell, const std::vector<double>& before, const std::vector<
   return together < 0;
 }
 
+/// The size of what is in doubt at an end, N, N m or what it is of; infinite at a pose that is not assembled or
+/// singular.
+double size_at(PoseCell& cell, const std::vector<double>& pose, int demand) {
+  const auto at = cell.at(pose);
+  if (!at) return std::numeric_limits<double>::infinity();
+  double squares = 0;
+  for (const double part : at->components[static_cast<std::size_t>(demand)].front()) squares += part * part;
+  return std::sqrt(squares);
+}
+
 /// Teeth that would have to pull. Zones are cut where their force vanishes.
 bool teeth_pull(const numeric::NumericModel& model, const std::vector<double>& pose, const DyadSides& sides) {
   return meshes(model.mechanism) && !numeric::reachable(model, pose, sides);
@@ -150,7 +161,15 @@ class Ends {
       end.kind = core::LocusKind::direct_singularity;
       return end;
     }
-    add_vanishing(end, before, behind, apart, open);
+    // Where reactions grow without bound nothing tells them from zero in the last cells: what bounds them comes first.
+    if (const auto grave = gravest_between(before, behind)) {
+      end.kind = *grave;
+      return end;
+    }
+    if (!add_vanishing(end, before, behind, apart, open)) {
+      end.kind = core::LocusKind::direct_singularity;
+      return end;
+    }
     end.limit = flank_of(end, before, behind);
     if (end.zero)
       add_jump(end, *end.zero - apart, *end.zero + apart);
@@ -159,8 +178,17 @@ class Ends {
     return end;
   }
 
-  /// Of what may vanish at an end that which turns; where nothing does, all of it.
-  void add_vanishing(core::ZoneEnd& end, const std::vector<double>& before, const std::vector<double>& behind,
+  /// The boundary of the workspace or |A| = 0, where one is passed from one pose to the other.
+  std::optional<core::LocusKind> gravest_between(const std::vector<double>& before, const std::vector<double>& behind) {
+    const auto one = cell_.at(before), other = cell_.at(behind);
+    if (one.has_value() != other.has_value()) return core::LocusKind::workspace_boundary;
+    if (one && one->determinant * other->determinant < 0) return core::LocusKind::direct_singularity;
+    return std::nullopt;
+  }
+
+  /// Of what may vanish at an end that which turns; where nothing does, all of it. False: something turns where it has
+  /// no bound, which is where |A| vanishes twice.
+  bool add_vanishing(core::ZoneEnd& end, const std::vector<double>& before, const std::vector<double>& behind,
                      double apart, const std::set<std::pair<Doubt, int>>& open) {
     bool elsewhere = false;
     const auto add = [&](Doubt doubt, int demand) {
@@ -170,17 +198,21 @@ class Ends {
     };
     for (const auto& [doubt, demand] : open) {
       if (!turns(cell_, before, behind, demand)) continue;
-      end.turns = true;
       const double zero = zero_between(before, behind, demand);
+      if (size_at(cell_, {zero}, demand) > std::max(size_at(cell_, before, demand), size_at(cell_, behind, demand)))
+        return false;
+      end.turns = true;
       if (!end.zero) end.zero = zero;
       elsewhere = elsewhere || std::abs(zero - *end.zero) > 4 * apart;
       add(doubt, demand);
     }
     if (end.vanishing.empty())
       for (const auto& [doubt, demand] : open) add(doubt, demand);
-    if (!elsewhere) return;
-    end.turns = false;  // where each of them vanishes is not told
-    end.zero.reset();
+    if (elsewhere) {  // where each of them vanishes is not told
+      end.turns = false;
+      end.zero.reset();
+    }
+    return true;
   }
 
   /// Where what turns between two poses does so.

@@ -290,6 +290,28 @@ loads:
   EXPECT_EQ(map.zones.size(), 4U);
 }
 
+/// Where a dyad is stretched, and where |A| changes its sign, reactions grow without bound: none of them vanishes.
+TEST(ZonesByCells, EndWhereReactionsAreUnbounded) {
+  const Zones slider =
+      find_zones(Model::read(source_dir() + "/tests/corpus/loci/crank_at_dead_centres_of_a_slider.yaml"));
+  ASSERT_EQ(slider.zones.size(), 1U);
+  ASSERT_EQ(slider.zones[0].ends.size(), 2U);
+  for (const ZoneEnd& end : slider.zones[0].ends) {
+    EXPECT_EQ(end.kind, LocusKind::workspace_boundary) << end.at;
+    EXPECT_TRUE(end.vanishing.empty()) << end.at;
+  }
+  const Zones bars = find_zones(Model::read(source_dir() + "/tests/corpus/loci/eight_bar_singular_between_zones.yaml"));
+  int singular = 0;
+  for (const Zone& zone : bars.zones)
+    for (const ZoneEnd& end : zone.ends) {
+      if (std::abs(end.at - 155.716287 * std::numbers::pi / 180) > 1e-6) continue;
+      EXPECT_EQ(end.kind, LocusKind::direct_singularity);
+      EXPECT_FALSE(end.jump.has_value());
+      ++singular;
+    }
+  EXPECT_EQ(singular, 2);
+}
+
 /// Eight bars on one crank: no locus is traced for it, which takes minutes.
 TEST(ZonesByCells, OfAJansenLegEndWhereItsReactionsTurn) {
   const Model model = example("jansen_leg");
