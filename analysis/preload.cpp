@@ -262,7 +262,12 @@ Verification verify_with_preload(const Model& model, const Task& task, const Ver
     result.witness.reset();
     result.notes.emplace_back("no preload was found that verifies, and not all are proven to fail");
   } else if (!found) {
-    result.notes.emplace_back("no constant preload within these ranges verifies the task: each fails, proven");
+    result.notes.push_back(
+        "no constant preload of " + named_efforts(wanted) +
+        " within these ranges verifies the task: each fails, proven" +
+        (only_tensions_are_free(mechanism)
+             ? "; with other cables held constant it is not known, --preload CABLE=TENSION chooses them"
+             : ""));
     constexpr std::size_t most_notes = 12;
     answer.words.resize(std::min(answer.words.size(), most_notes));
     result.notes.insert(result.notes.end(), answer.words.begin(), answer.words.end());
