@@ -21,6 +21,7 @@ constexpr double inflation = 0.1;
 // it is; wider ones in x and y do.
 constexpr int most_widenings = 2;
 constexpr double hopeless = 16;          // an image this much wider than its box comes from a singular Jacobian
+constexpr double hardly_narrower = 0.5;  // than its box in any coordinate: no box around that one contracts
 constexpr double thinnest_root = 0.01;   // relative to the cell; then the cell is cut next
 constexpr double lifted_inflation = 0.6, root_inflation = 0.2;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
@@ -395,11 +396,19 @@ int ZeroSearch::axis_to_cut(const SheetCell& cell, const PlaneCell& place) const
 bool ZeroSearch::widen(Candidate& candidate) {
   std::vector<Interval>&box = candidate.box, &image = candidate.image;
   if (image.empty()) return false;
-  for (std::size_t c = 0; c < box.size(); ++c)
-    if (image[c].width() > hopeless * box[c].width()) {
-      image.clear();
-      return false;
-    }
+  // By how much the widths of a box grow at least is no more than the spectral radius (Collatz, Wielandt), which only
+  // grows with the box.
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t c = 0; c < box.size(); ++c) {
+    if (box[c].width() == 0) continue;
+    const double ratio = image[c].width() / box[c].width();
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  if (least > hardly_narrower || most > hopeless) {
+    image.clear();
+    return false;
+  }
   for (std::size_t c = 0; c < box.size(); ++c)
     if (box[c].width() > 0) box[c] = inflated(hull(box[c], image[c]), inflation);
   image.clear();
