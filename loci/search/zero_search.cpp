@@ -320,7 +320,7 @@ void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
   const PlaneCell cell = {candidate.all[0], candidate.all[1]};  // what may hold zeros
   if (known(candidate)) return;                                 // since those before it were settled
   if (candidate.count == ZeroCount::unique && accept(candidate)) return;
-  if (settle_touch({cell, {}, searched.search}, candidate.roots, candidate.lifted) && known(candidate)) return;
+  if (settle_touch(searched, candidate.roots, candidate.lifted) && known(candidate)) return;
   if (width(cell) < limits_.smallest)
     states_[searched.search].undecided.push_back(cell);
   else if (is_much_smaller(cell, searched.cell))
