@@ -223,7 +223,10 @@ void ZeroSearch::count_in_box(Candidate& candidate, SheetCell& cell, bool has_bo
   if (candidate.excluded) return;
   candidate.count = krawczyk(cell, system_, candidate.image);
   candidate.excluded = candidate.count == ZeroCount::none;
-  if (candidate.count == ZeroCount::unknown) contract(candidate, cell);
+  // Where a root is lifted, and where curves may touch, cells keep the proportions that boxes around them need.
+  if (candidate.count == ZeroCount::unknown && cell.lifted().empty() &&
+      width(candidate.searched->cell) > worth_a_touch * limits_.smallest)
+    contract(candidate, cell);
 }
 
 /// Each equation, linear but for its slopes, is solved for each coordinate along which it is proven to change.
