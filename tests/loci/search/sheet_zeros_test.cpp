@@ -243,7 +243,8 @@ int rounds(const SheetProgram& program, const System& system, const PlaneCell& c
 TEST(ZeroSearch, CutsWhatMeanValueFormsLeave) {
   const Ring r{2};
   const auto x = r.x(), y = r.y();
-  const SheetProgram program(testing::plane(), std::vector<core::Polynomial>{y * y * y + y - x, x - r(Rational("7/10"))});
+  const SheetProgram program(testing::plane(),
+                             std::vector<core::Polynomial>{y * y * y + y - x, x - r(Rational("7/10"))});
   FoundZeros found;
   const int asked = rounds(program, {}, {{-20, 20}, {-20, 20}}, found);
   EXPECT_TRUE(found.undecided.empty());
