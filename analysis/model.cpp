@@ -33,6 +33,15 @@ SharedDesign::SharedDesign(std::string text, std::string file, std::vector<std::
     if (joint.free_effort) joint.free_effort->given = true;
 }
 
+mechanism::Mechanism SharedDesign::read(const std::vector<Model::Value>& values) const {
+  const auto reader = [&] {
+    const std::lock_guard lock(mutex_);
+    if (!reader_) reader_ = mechanism::mechanism_reader(text_, file_);
+    return reader_;
+  };
+  return with_notes(reader()(values), notes_);
+}
+
 const symbolic::LocusFamily& SharedDesign::family() const {
   const std::lock_guard lock(mutex_);
   if (!family_) {
@@ -72,7 +81,7 @@ Model Model::with(const std::vector<Value>& values) const {
   for (const Value& old : content_->values)
     if (std::none_of(values.begin(), values.end(), [&](const Value& v) { return v.first == old.first; }))
       all.push_back(old);
-  mechanism::Mechanism parsed = with_notes(mechanism::parse_mechanism(text(), file(), all), content_->shared->notes());
+  mechanism::Mechanism parsed = content_->shared->read(all);
   return Model(std::make_shared<const Content>(Content{content_->shared, std::move(all), std::move(parsed), true}));
 }
 

@@ -9,6 +9,7 @@
 
 #include "clearloci/mechanism.hpp"
 #include "mechanism/mechanism.hpp"
+#include "mechanism/read.hpp"
 #include "symbolic/locus_problem.hpp"
 
 namespace clearloci {
@@ -23,6 +24,8 @@ class SharedDesign {
   const std::string& text() const { return text_; }
   const std::string& file() const { return file_; }
   const std::vector<std::string>& notes() const { return notes_; }  ///< of the import of another program's file
+  /// With values put in for parameters; throws core::InputError for wrong ones.
+  mechanism::Mechanism read(const std::vector<Model::Value>& values) const;
   /// Throws core::InputError where the equations themselves are wrong.
   const symbolic::LocusFamily& family() const;
 
@@ -31,6 +34,7 @@ class SharedDesign {
   std::vector<std::string> notes_;
   mechanism::Mechanism first_;
   mutable std::mutex mutex_;
+  mutable mechanism::MechanismReader reader_;  // once it is asked for, as below
   mutable std::optional<symbolic::LocusFamily> family_;
 };
 

@@ -112,11 +112,15 @@ Mechanism read_document(const Value& written, const std::string& file, const std
 
 namespace {
 
-template <typename Read>
-auto read_text_of(const std::string& text, const std::string& file, const Read& read) {
-  const Value document = parse_document(text, file);
+Value parse_mapping(const std::string& text, const std::string& file) {
+  Value document = parse_document(text, file);
   if (!document.is_map())
     throw InputError(document.where, "the file is no mapping of keys to values", "start with the line format: 1");
+  return document;
+}
+
+template <typename Read>
+auto read_text_of(const Value& document, const std::string& file, const Read& read) {
   try {
     return read(document);
   } catch (const InputError& error) {
@@ -127,11 +131,17 @@ auto read_text_of(const std::string& text, const std::string& file, const Read& 
 }  // namespace
 
 Mechanism parse_mechanism(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
-  return read_text_of(text, file, [&](const Value& document) { return read_document(document, file, overrides); });
+  return mechanism_reader(text, file)(overrides);
+}
+
+MechanismReader mechanism_reader(const std::string& text, const std::string& file) {
+  return [written = parse_mapping(text, file), file](const std::vector<Override>& overrides) {
+    return read_text_of(written, file, [&](const Value& document) { return read_document(document, file, overrides); });
+  };
 }
 
 WrittenMechanism constructed_text(const std::string& text, const std::string& file) {
-  return read_text_of(text, file, [&](const Value& document) -> WrittenMechanism {
+  return read_text_of(parse_mapping(text, file), file, [&](const Value& document) -> WrittenMechanism {
     Assembled assembled = constructed(document, {});
     const Mapping root(assembled.document, top_keys, true);
     std::vector<Node::Pair> pairs;

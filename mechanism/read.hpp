@@ -1,6 +1,7 @@
 // From the YAML file of mechanism-file.md to a Mechanism, with every check that needs no algebra.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,10 @@ Mechanism read_mechanism(const std::string& path, const std::vector<Override>& o
 /// The same for the text of a mechanism file; `file` is the name that errors show.
 Mechanism parse_mechanism(const std::string& text, const std::string& file,
                           const std::vector<Override>& overrides = {});
+
+/// The same for many values of the parameters: the text is taken apart once, here.
+using MechanismReader = std::function<Mechanism(const std::vector<Override>& overrides)>;
+MechanismReader mechanism_reader(const std::string& text, const std::string& file);
 
 /// A mechanism file in which every point has a construction.
 struct WrittenMechanism {

@@ -8,6 +8,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/group_closing.hpp"
 #include "mechanism/posture_sample.hpp"
+#include "symbolic/ginac_number.hpp"
 #include "symbolic/tower_steps.hpp"
 
 namespace clearloci::symbolic {
@@ -22,17 +23,6 @@ using mechanism::Mechanism;
 using mechanism::OffsetPoint;
 using mechanism::PointIndex;
 using mechanism::SliderPoint;
-
-GiNaC::numeric number(const Rational& value) { return GiNaC::numeric(core::to_string(value).c_str()); }
-
-/// GiNaC prints and parses cl_RA exactly; a short text is the simplest bridge to GMP.
-Rational rational(const GiNaC::numeric& value) {
-  std::ostringstream text;
-  text << value.numer() << "/" << value.denom();
-  Rational result(text.str());
-  result.canonicalize();
-  return result;
-}
 
 struct PlacedExpression {
   Expression expression;

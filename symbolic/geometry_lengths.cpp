@@ -5,6 +5,7 @@
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "symbolic/geometry.hpp"
+#include "symbolic/ginac_number.hpp"
 
 namespace clearloci::symbolic {
 
@@ -113,7 +114,7 @@ void Geometry::place_length(InverseLength& length) {
                           {Expression::number(1),
                            Expression::apply(Expression::Kind::sqrt, {Expression::number(constant.constant())})}),
         *mechanism_);
-    length.natural = GiNaC::numeric(core::to_string(inverse).c_str());
+    length.natural = number(inverse);
     return;
   }
   length.natural = GiNaC::ex(symbol(ring_->name(length.variable)));

@@ -5,6 +5,7 @@
 #include "core/powers_of_two.hpp"
 #include "mechanism/evaluate.hpp"
 #include "symbolic/geometry.hpp"
+#include "symbolic/ginac_number.hpp"
 
 namespace clearloci::symbolic {
 namespace {
@@ -29,8 +30,6 @@ constexpr std::size_t most_terms_of_a_distance = 100;
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-
-GiNaC::numeric number(const Rational& value) { return GiNaC::numeric(core::to_string(value).c_str()); }
 
 }  // namespace
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <limits>
 
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/place_words.hpp"
+#include "loci/search/search.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -20,9 +22,9 @@ using core::LocusKind;
 constexpr double vertex_accuracy = 1e-12;
 constexpr double spacings = 4;
 
-/// The factor first, then every |A|, then the denominators.
-std::vector<sheet::SheetFunction> functions(const core::LocusProblem& problem, const LocusFactor& factor) {
-  std::vector<sheet::SheetFunction> list = {{factor.sheet, factor.line}};
+/// Every |A|, then the denominators.
+std::vector<sheet::SheetFunction> functions_at_ends(const core::LocusProblem& problem) {
+  std::vector<sheet::SheetFunction> list;
   for (const LocusFactor& other : problem.factors)
     if (other.role == FactorRole::direct_singularity) list.push_back({other.sheet, other.line});
   for (const core::Polynomial& denominator : problem.tower.denominators) list.push_back({denominator, {}});
@@ -58,16 +60,31 @@ double vertex_reach(const std::vector<double>& lower, const std::vector<double>&
 ArcCheck::ArcCheck(const core::LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode)
     : problem_(problem),
       mode_(mode),
-      program_(problem.tower, functions(problem, factor)),
+      program_(problem.tower, std::vector<sheet::SheetFunction>{{factor.sheet, factor.line}}),
       registers_(program_.registers<Interval>()) {
   for (std::size_t c = 0; c < 2; ++c) {
     lower_[c] = core::to_double(problem.lower[c]);
     upper_[c] = core::to_double(problem.upper[c]);
   }
   reach_ = vertex_reach({lower_[0], lower_[1]}, {upper_[0], upper_[1]});
-  const int denominators = static_cast<int>(problem.tower.denominators.size());
-  for (int f = 1; f < program_.functions(); ++f)
-    (f < program_.functions() - denominators ? singularities_ : undefined_).push_back(f);
+}
+
+bool ArcCheck::one_vanishes(const std::array<Interval, 2>& place, bool of_denominators) {
+  if (!at_ends_) {
+    at_ends_.emplace(problem_.tower, functions_at_ends(problem_));
+    registers_at_ends_ = at_ends_->registers<Interval>();
+  }
+  for (int c = 0; c < 2; ++c) registers_at_ends_->set(c, place[static_cast<std::size_t>(c)]);
+  for (int j = 0; j < program_.roots(); ++j) {
+    registers_at_ends_->run_square(j);
+    registers_at_ends_->set(2 + j, registers_.root(j));
+  }
+  registers_at_ends_->run_values();
+  const int first_denominator = at_ends_->functions() - static_cast<int>(problem_.tower.denominators.size());
+  const int end = of_denominators ? at_ends_->functions() : first_denominator;
+  for (int f = of_denominators ? first_denominator : 0; f < end; ++f)
+    if (registers_at_ends_->value(f).contains_zero()) return true;
+  return false;
 }
 
 std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcEnd end, const core::Point2& reach) {
@@ -76,7 +93,9 @@ std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcE
     if (!(at[c] >= lower_[c] - reach[c] && at[c] <= upper_[c] + reach[c])) return "a vertex outside the box";
     on_side = on_side || at[c] <= lower_[c] + reach[c] || at[c] >= upper_[c] - reach[c];
   }
-  for (std::size_t c = 0; c < 2; ++c) registers_.set(static_cast<int>(c), Interval(at[c] - reach[c], at[c] + reach[c]));
+  const std::array<Interval, 2> place = {Interval(at[0] - reach[0], at[0] + reach[0]),
+                                         Interval(at[1] - reach[1], at[1] + reach[1])};
+  for (int c = 0; c < 2; ++c) registers_.set(c, place[static_cast<std::size_t>(c)]);
   bool on_boundary = false;
   for (int j = 0; j < program_.roots(); ++j) {
     registers_.run_square(j);
@@ -88,19 +107,16 @@ std::optional<std::string> ArcCheck::fault_at(const core::Point2& at, core::ArcE
   }
   registers_.run_values();
   if (!registers_.value(0).contains_zero()) return "a vertex off its curve, or in another mode";
-  const auto one_vanishes = [&](const std::vector<int>& list) {
-    return std::any_of(list.begin(), list.end(), [&](int f) { return registers_.value(f).contains_zero(); });
-  };
   switch (end) {
     case core::ArcEnd::box:
       if (!on_side) return "an end on no side of the box";
       break;
     case core::ArcEnd::boundary:
       // Where a leg's ends meet the sheet ends in a point.
-      if (!on_boundary && !one_vanishes(undefined_)) return "an end away from the workspace boundary";
+      if (!on_boundary && !one_vanishes(place, true)) return "an end away from the workspace boundary";
       break;
     case core::ArcEnd::direct_singularity:
-      if (!one_vanishes(singularities_)) return "an end away from the direct singularities";
+      if (!one_vanishes(place, false)) return "an end away from the direct singularities";
       break;
     default:
       break;
@@ -204,8 +220,8 @@ Sound sound_pieces(const core::Arc& arc, std::deque<ArcCheck>& checks, double to
 }  // namespace
 
 std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::LocusMap& map) {
-  std::vector<WrongArc> wrong;
-  for (std::size_t c = 0; c < map.curves.size(); ++c) {
+  std::vector<std::vector<WrongArc>> by_curve(map.curves.size());
+  run_in_order(map.curves.size(), [&](std::size_t c) {
     const core::LocusCurve& curve = map.curves[c];
     std::deque<ArcCheck> checks = checks_of(problem, curve);
     for (std::size_t a = 0; a < curve.arcs.size() && !checks.empty(); ++a) {
@@ -216,9 +232,11 @@ std::vector<WrongArc> wrong_arcs(const core::LocusProblem& problem, const core::
         if (!fault) fault = std::move(found);
         return none;
       });
-      if (!held) wrong.push_back({c, a, std::move(*fault)});
+      if (!held) by_curve[c].push_back({c, a, std::move(*fault)});
     }
-  }
+  });
+  std::vector<WrongArc> wrong;
+  for (std::vector<WrongArc>& own : by_curve) std::move(own.begin(), own.end(), std::back_inserter(wrong));
   return wrong;
 }
 

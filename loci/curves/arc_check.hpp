@@ -38,13 +38,17 @@ class ArcCheck {
  private:
   std::optional<std::string> fault_at(const core::Point2& at, core::ArcEnd end, const core::Point2& reach);
 
+  /// Any |A|, or any denominator, in a place whose roots registers_ hold.
+  bool one_vanishes(const std::array<core::Interval, 2>& place, bool of_denominators);
+
   const core::LocusProblem& problem_;
   core::WorkingMode mode_;
   sheet::SheetProgram program_;
   sheet::SheetProgram::Registers<core::Interval> registers_;
   std::array<double, 2> lower_{}, upper_{};
   double reach_ = 0;
-  std::vector<int> singularities_, undefined_;  ///< functions of the program: every |A|, every denominator
+  std::optional<sheet::SheetProgram> at_ends_;  ///< of every |A|, then every denominator; once one is asked for
+  std::optional<sheet::SheetProgram::Registers<core::Interval>> registers_at_ends_;
 };
 
 /// By how much a vertex of a map over this box may be off, in the larger of its sides and of its numbers.

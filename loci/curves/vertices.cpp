@@ -124,12 +124,22 @@ class Run {
   }
 
   /// The point of a leg at a share of the way, told by its variable, from `start` to `end` on it. The leg is a graph
-  /// over that variable: there is one such point.
+  /// over that variable: there is one such point. `tangent`: at the start; null where it is not known.
   bool point_between(const LiftedPoint& start, const LiftedPoint& end, double share, std::size_t leg,
-                     LiftedPoint& point, double within = SheetFollower::accuracy) {
+                     LiftedPoint& point, double within = SheetFollower::accuracy,
+                     const LiftedPoint* tangent = nullptr) {
     const int v = (*legs_)[leg].stretch->along;
+    const double way = end[v] - start[v];
+    // A parabola that starts along the tangent is near the curve; where the tangent is steep it leads away.
+    constexpr double steepest = 4;
+    const double length = tangent != nullptr ? way / (*tangent)[v] : 0;
+    const bool bent = tangent != nullptr && std::abs((*tangent)[v]) * steepest > 1;
     point = start;
-    for (std::size_t i = 0; i < point.size(); ++i) point[i] += share * (end[i] - start[i]);
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      const double chord = end[i] - start[i];
+      point[i] += share * (bent ? share * chord + (1 - share) * length * (*tangent)[i] : chord);
+    }
+    point[v] = start[v] + share * way;
     LiftedPoint row(point.size(), 0.0);
     row[static_cast<std::size_t>(v)] = 1;
     const double value = point[static_cast<std::size_t>(v)];
@@ -138,11 +148,12 @@ class Run {
 
   /// Largest distance from the chord a, b of the points between two of one leg; infinite where they are not found.
   double deviation_between(const LiftedPoint& start, const LiftedPoint& end, std::size_t leg, const core::Point2& a,
-                           const core::Point2& b) {
+                           const core::Point2& b, const LiftedPoint* tangent = nullptr) {
     double largest = 0;
     LiftedPoint point;
     for (const double share : samples) {
-      if (!point_between(start, end, share, leg, point, to_measure)) return std::numeric_limits<double>::infinity();
+      if (!point_between(start, end, share, leg, point, to_measure, tangent))
+        return std::numeric_limits<double>::infinity();
       largest = std::max(largest, distance_to_chord(plane(point), a, b));
     }
     return largest;
@@ -193,7 +204,7 @@ class Run {
       const double part = std::hypot(to[0] - from[0], to[1] - from[1]);
       if ((*legs_)[leg].stretch->leaf < 0 || part < much * std::hypot(b[0] - a[0], b[1] - a[1])) continue;
       sampled = true;
-      largest = std::max(largest, deviation_between(start, end, leg, a, b));
+      largest = std::max(largest, deviation_between(start, end, leg, a, b, leg == first ? &tangent : nullptr));
     }
     if (sampled) return largest;
     const double h = ahead(target.point, at, tangent);

@@ -20,8 +20,9 @@ constexpr double inflation = 0.1;
 // On lifted cells s^2 varies as much as x and y do, so that a box of their proportions does not contract however small
 // it is; wider ones in x and y do.
 constexpr int most_widenings = 2;
-constexpr double hopeless = 16;         // an image this much wider than its box comes from a singular Jacobian
-constexpr double thinnest_root = 0.01;  // relative to the cell; then the cell is cut next
+constexpr double hopeless = 16;          // an image this much wider than its box comes from a singular Jacobian
+constexpr double hardly_narrower = 0.5;  // than its box in any coordinate: no box around that one contracts
+constexpr double thinnest_root = 0.01;   // relative to the cell; then the cell is cut next
 constexpr double lifted_inflation = 0.6, root_inflation = 0.2;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
 constexpr double near_smallest = 1e4;
@@ -38,11 +39,20 @@ constexpr std::size_t most_patience = 4;
 // Fewer than these are looked at one by one.
 constexpr std::size_t few_candidates = 3;
 
+// What mean-value forms leave of a cell is not made more slender than this. Where it is so much smaller in both
+// coordinates it is looked at again before it is cut.
+constexpr double thinnest = 1.0 / 16, much_smaller = 0.5;
+constexpr int sweeps = 2, most_local_coordinates = 16;
+
 const Interval everything(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 
 Interval inflated(const Interval& a, double share) {
   const double margin = share * a.width();
   return {a.lower() - margin, a.upper() + margin};
+}
+
+bool is_much_smaller(const PlaneCell& part, const PlaneCell& whole) {
+  return part.x.width() <= much_smaller * whole.x.width() && part.y.width() <= much_smaller * whole.y.width();
 }
 
 }  // namespace
@@ -213,6 +223,54 @@ void ZeroSearch::count_in_box(Candidate& candidate, SheetCell& cell, bool has_bo
   if (candidate.excluded) return;
   candidate.count = krawczyk(cell, system_, candidate.image);
   candidate.excluded = candidate.count == ZeroCount::none;
+  // Where a root is lifted, and where curves may touch, cells keep the proportions that boxes around them need.
+  if (candidate.count == ZeroCount::unknown && cell.lifted().empty() &&
+      width(candidate.searched->cell) > worth_a_touch * limits_.smallest)
+    contract(candidate, cell);
+}
+
+/// Each equation, linear but for its slopes, is solved for each coordinate along which it is proven to change.
+void ZeroSearch::contract(Candidate& candidate, const SheetCell& cell) const {
+  const int n = cell.dimension();
+  if (n > most_local_coordinates) return;
+  std::array<Interval, most_local_coordinates> places, offsets, terms;
+  const auto put = [&](int c, const Interval& place) {
+    places[c] = place;
+    offsets[c] = place - Interval(cell.middle(c));
+  };
+  for (int c = 0; c < n; ++c) put(c, candidate.all[c < 2 ? c : 2 + cell.lifted()[c - 2]]);
+  const auto solve = [&](const Interval& middle_value, const auto& slope) {
+    for (int c = 0; c < n; ++c) terms[c] = slope(c) * offsets[c];
+    for (int c = 0; c < n; ++c) {
+      if (places[c].width() == 0 || slope(c).contains_zero()) continue;
+      Interval rest = middle_value;
+      for (int other = 0; other < n; ++other)
+        if (other != c) rest = rest + terms[other];
+      const Interval solved = Interval(cell.middle(c)) - rest * inverse(slope(c));
+      if (disjoint(solved, places[c])) return false;
+      put(c, meet(solved, places[c]));
+      terms[c] = slope(c) * offsets[c];
+    }
+    return true;
+  };
+  const auto solve_all = [&] {
+    for (int l = 0; l < static_cast<int>(cell.lifted().size()); ++l)
+      if (!solve(cell.middle_bond(l), [&](int c) -> const Interval& { return cell.bond_slope(l, c); })) return false;
+    for (const std::vector<int>* functions : {&system_.functions, &system_.also})
+      for (const int f : *functions)
+        if (!solve(cell.middle_value(f), [&](int c) -> const Interval& { return cell.slope(f, c); })) return false;
+    return true;
+  };
+  for (int sweep = 0; sweep < sweeps && !candidate.excluded; ++sweep) candidate.excluded = !solve_all();
+  if (candidate.excluded) return;
+  const double least = thinnest * std::max(places[0].width(), places[1].width());
+  const auto kept = [&](int c) {
+    const double middle = places[c].middle();
+    return meet(hull(places[c], Interval(middle - 0.5 * least, middle + 0.5 * least)), candidate.all[c]);
+  };
+  candidate.all[0] = kept(0);
+  candidate.all[1] = kept(1);
+  if (candidate.axis < 2) candidate.axis = candidate.all[0].width() > candidate.all[1].width() ? 0 : 1;
 }
 
 void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& next) {
@@ -262,12 +320,14 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
 
 void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
   const Box& searched = *candidate.searched;
-  const PlaneCell& cell = searched.cell;
-  if (known(candidate)) return;  // since those before it were settled
+  const PlaneCell cell = {candidate.all[0], candidate.all[1]};  // what may hold zeros
+  if (known(candidate)) return;                                 // since those before it were settled
   if (candidate.count == ZeroCount::unique && accept(candidate)) return;
   if (settle_touch(searched, candidate.roots, candidate.lifted) && known(candidate)) return;
   if (width(cell) < limits_.smallest)
     states_[searched.search].undecided.push_back(cell);
+  else if (is_much_smaller(cell, searched.cell))
+    next.push_back({cell, std::move(candidate.roots), searched.search});
   else
     split({cell, std::move(candidate.roots), searched.search}, candidate.axis, next);
 }
@@ -339,11 +399,19 @@ int ZeroSearch::axis_to_cut(const SheetCell& cell, const PlaneCell& place) const
 bool ZeroSearch::widen(Candidate& candidate) {
   std::vector<Interval>&box = candidate.box, &image = candidate.image;
   if (image.empty()) return false;
-  for (std::size_t c = 0; c < box.size(); ++c)
-    if (image[c].width() > hopeless * box[c].width()) {
-      image.clear();
-      return false;
-    }
+  // By how much the widths of a box grow at least is no more than the spectral radius (Collatz, Wielandt), which only
+  // grows with the box.
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t c = 0; c < box.size(); ++c) {
+    if (box[c].width() == 0) continue;
+    const double ratio = image[c].width() / box[c].width();
+    least = std::min(least, ratio);
+    most = std::max(most, ratio);
+  }
+  if (least > hardly_narrower || most > hopeless) {
+    image.clear();
+    return false;
+  }
   for (std::size_t c = 0; c < box.size(); ++c)
     if (box[c].width() > 0) box[c] = inflated(hull(box[c], image[c]), inflation);
   image.clear();

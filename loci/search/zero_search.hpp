@@ -77,7 +77,7 @@ class ZeroSearch {
   struct Candidate {
     const Box* searched = nullptr;
     bool excluded = false;
-    std::vector<Interval> all;  ///< enclosures of all variables
+    std::vector<Interval> all;  ///< enclosures of all variables, where the cell may hold zeros
     std::vector<int> lifted;
     std::vector<Interval> roots;       ///< ranges that its halves inherit
     std::vector<Interval> box, image;  ///< around it, of Krawczyk's operator
@@ -97,6 +97,8 @@ class ZeroSearch {
   void exclude_by_slopes(Candidate& candidate, const SheetCell& cell);
   void put_box_around(Candidate& candidate) const;
   void count_in_box(Candidate& candidate, SheetCell& cell, bool has_box);
+  /// Leaves of the candidate's cell what may hold zeros by mean-value forms over its box.
+  void contract(Candidate& candidate, const SheetCell& cell) const;
   /// Moves to all of each candidate's cell, or to its box, side by side where there are several, and shows its cell.
   enum class Extent { cell, box };
   template <class Show>

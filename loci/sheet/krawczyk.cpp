@@ -17,7 +17,8 @@ namespace {
 constexpr int most_unknowns = 16;
 constexpr int most_newton_steps = 30;
 constexpr int most_radii = 16;
-constexpr double first_radius = 0.02;  // relative to the accuracy wanted
+// Relative to the accuracy wanted.
+constexpr double first_radius = 0.02, negligible_step = 1e-4;
 
 struct SquareMatrix {
   explicit SquareMatrix(int size) : n(static_cast<std::size_t>(size)) {}
@@ -114,12 +115,14 @@ void Narrowing::take_step() {
     step_ = std::max(step_, std::abs(image_[c].middle() - point_[c].middle()));
     if (!is_thin(c)) point_[c] = image_[c].middle();
   }
-  if (step_ != 0 && step_ < 0.5 * last_step_ && ++count_ < most_newton_steps) {
+  // Newton's method converges quadratically: the next step would be about this large.
+  const double ratio = step_ / last_step_, next = count_ > 0 ? step_ * ratio * ratio : step_;
+  if (step_ != 0 && step_ < 0.5 * last_step_ && next > negligible_step * accuracy_ && ++count_ < most_newton_steps) {
     last_step_ = step_;
     return;
   }
   stage_ = Stage::radii;
-  radius_ = std::max(2 * step_, first_radius * accuracy_);
+  radius_ = std::max(2 * std::min(step_, next), first_radius * accuracy_);
   count_ = 0;
   choose_trial();
 }

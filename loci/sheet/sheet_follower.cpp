@@ -10,6 +10,8 @@ namespace {
 constexpr int most_steps = 12;
 // Steps this small, relative to the region, are rounding.
 constexpr double converged = 1e-15;
+// Next steps that are smaller than this share of what is asked for are not taken.
+constexpr double beyond_need = 1e-3;
 
 }  // namespace
 
@@ -80,6 +82,12 @@ bool SheetFollower::correct(LiftedPoint& point, const LiftedPoint& row, double v
     }
     if (!std::isfinite(size)) return false;
     if (size <= converged * size_) return true;
+    // Newton's method converges quadratically: the next step would be about this large. After one step no more than a
+    // measure is had, of a curve that bends over no less than a thousandth of the region.
+    const double next = step > 0            ? size * (size / last) * (size / last)
+                        : within > accuracy ? size * (size / size_)
+                                            : size;
+    if (next <= beyond_need * within * size_) return true;
     if (step > 2 && size > 0.5 * last) return size <= within * size_;
     last = size;
   }

@@ -94,6 +94,18 @@ TEST(ReadMechanism, OverridesParametersAndWhatFollowsFromThem) {
   EXPECT_EQ(read(five_bar_text, {{"L", "0.4"}, {"L", "0.6"}}).parameters[0].value, Rational(3, 5));
 }
 
+TEST(ReadMechanism, AReaderGivesOneTextWithManyValues) {
+  const MechanismReader reader = mechanism_reader(five_bar_text, "five_bar.yaml");
+  for (const int denominator : {2, 3, 4}) {
+    const Mechanism m = reader({{"L", "1/" + std::to_string(denominator)}});
+    EXPECT_EQ(m.parameters[1].value, Rational(1, denominator));
+    EXPECT_EQ(m.file, "five_bar.yaml");
+  }
+  EXPECT_THROW(reader({{"L", "1/0"}}), core::InputError);
+  EXPECT_EQ(reader({}).parameters[1].value, Rational(1, 2));
+  EXPECT_THROW(mechanism_reader("", "empty.yaml"), core::InputError);
+}
+
 TEST(ReadMechanism, IrrationalParametersSayThatTheyAreReplaced) {
   const Mechanism m = read(five_bar_text, {{"L", "sqrt(2)/2"}});
   EXPECT_FALSE(m.parameters[0].exact);

@@ -229,5 +229,30 @@ TEST(ZeroSearch, FindsOnManySegmentsWhatItFindsOnEachAlone) {
   EXPECT_GT(open, 0u);
 }
 
+/// The boxes that a search looks at, told by how often it asks whether to stop: once a round of up to 64.
+int rounds(const SheetProgram& program, const System& system, const PlaneCell& cell, FoundZeros& found) {
+  int asked = 0;
+  found = ZeroSearch(program, {}, system).run({cell}, {1e-12, 64, 1e-13, [&] {
+                                                         ++asked;
+                                                         return false;
+                                                       }});
+  return asked;
+}
+
+// Along y = x^3 the line is met far from either end: what mean-value forms leave of cells is cut, not the cells.
+TEST(ZeroSearch, CutsWhatMeanValueFormsLeave) {
+  const Ring r{2};
+  const auto x = r.x(), y = r.y();
+  const SheetProgram program(testing::plane(),
+                             std::vector<core::Polynomial>{y * y * y + y - x, x - r(Rational("7/10"))});
+  FoundZeros found;
+  const int asked = rounds(program, {}, {{-20, 20}, {-20, 20}}, found);
+  EXPECT_TRUE(found.undecided.empty());
+  ASSERT_EQ(found.enclosures.size(), 1u);
+  const double root = found.enclosures[0][1].middle();
+  EXPECT_NEAR(root * root * root + root, 0.7, 1e-13);
+  EXPECT_LE(asked, 6);
+}
+
 }  // namespace
 }  // namespace clearloci::loci::sheet
