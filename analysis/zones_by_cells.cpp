@@ -124,6 +124,8 @@ class Ends {
  private:
   /// Of the range: more than the finest cells; more than what rounding leaves in doubt between two zones.
   static constexpr double beside = 1e-8, widest_doubt = 1e-3;
+  /// What is passed from one side of it to the other is at the end itself; in units of `beside`.
+  static constexpr double widest_end = 4;
 
   /// Where the zone beyond an end begins; the end itself where there is none so near.
   static double start_beyond(const std::vector<loci::pose::CellZone>& all, bool upper, double at, double reach) {
@@ -145,7 +147,11 @@ class Ends {
     const auto holds = [&](Doubt doubt) {
       return std::any_of(open.begin(), open.end(), [&](const auto& one) { return one.first == doubt; });
     };
-    if (holds(Doubt::workspace)) {
+    // Where reactions grow without bound nothing tells them from zero in the last cells: what bounds them comes first,
+    // unless it is elsewhere in a stretch that is in doubt.
+    const std::optional<core::LocusKind> passed =
+        std::abs(beyond - at) <= widest_end * apart ? gravest_between(before, behind) : std::nullopt;
+    if (holds(Doubt::workspace) || passed == core::LocusKind::workspace_boundary) {
       end.kind = core::LocusKind::workspace_boundary;
       for (const double beside_it : {at - apart, at + apart})  // the one beyond the end breaks the limit
         if (end.limit.empty())
@@ -157,19 +163,12 @@ class Ends {
         }
       return end;
     }
-    if (holds(Doubt::singularity)) {
+    if (holds(Doubt::singularity) || passed == core::LocusKind::direct_singularity ||
+        grows_between(before, behind, open)) {
       end.kind = core::LocusKind::direct_singularity;
       return end;
     }
-    // Where reactions grow without bound nothing tells them from zero in the last cells: what bounds them comes first.
-    if (const auto grave = gravest_between(before, behind)) {
-      end.kind = *grave;
-      return end;
-    }
-    if (!add_vanishing(end, before, behind, apart, open)) {
-      end.kind = core::LocusKind::direct_singularity;
-      return end;
-    }
+    add_vanishing(end, before, behind, apart, open);
     end.limit = flank_of(end, before, behind);
     if (end.zero)
       add_jump(end, *end.zero - apart, *end.zero + apart);
@@ -182,13 +181,26 @@ class Ends {
   std::optional<core::LocusKind> gravest_between(const std::vector<double>& before, const std::vector<double>& behind) {
     const auto one = cell_.at(before), other = cell_.at(behind);
     if (one.has_value() != other.has_value()) return core::LocusKind::workspace_boundary;
-    if (one && one->determinant * other->determinant < 0) return core::LocusKind::direct_singularity;
+    if (one && one->orientation == other->orientation && one->determinant * other->determinant < 0)
+      return core::LocusKind::direct_singularity;
     return std::nullopt;
   }
 
-  /// Of what may vanish at an end that which turns; where nothing does, all of it. False: something turns where it has
-  /// no bound, which is where |A| vanishes twice.
-  bool add_vanishing(core::ZoneEnd& end, const std::vector<double>& before, const std::vector<double>& behind,
+  /// Whether something in doubt turns from one pose to the other where it has no bound instead of a zero: |A| vanishes
+  /// there without changing its sign.
+  bool grows_between(const std::vector<double>& before, const std::vector<double>& behind,
+                     const std::set<std::pair<Doubt, int>>& open) {
+    constexpr double much = 10;
+    return std::any_of(open.begin(), open.end(), [&](const std::pair<Doubt, int>& one) {
+      const int demand = one.second;
+      if (!turns(cell_, before, behind, demand)) return false;
+      const double beside_it = std::max(size_at(cell_, before, demand), size_at(cell_, behind, demand));
+      return size_at(cell_, {zero_between(before, behind, demand)}, demand) > much * beside_it;
+    });
+  }
+
+  /// Of what may vanish at an end that which turns; where nothing does, all of it.
+  void add_vanishing(core::ZoneEnd& end, const std::vector<double>& before, const std::vector<double>& behind,
                      double apart, const std::set<std::pair<Doubt, int>>& open) {
     bool elsewhere = false;
     const auto add = [&](Doubt doubt, int demand) {
@@ -199,8 +211,6 @@ class Ends {
     for (const auto& [doubt, demand] : open) {
       if (!turns(cell_, before, behind, demand)) continue;
       const double zero = zero_between(before, behind, demand);
-      if (size_at(cell_, {zero}, demand) > std::max(size_at(cell_, before, demand), size_at(cell_, behind, demand)))
-        return false;
       end.turns = true;
       if (!end.zero) end.zero = zero;
       elsewhere = elsewhere || std::abs(zero - *end.zero) > 4 * apart;
@@ -208,11 +218,9 @@ class Ends {
     }
     if (end.vanishing.empty())
       for (const auto& [doubt, demand] : open) add(doubt, demand);
-    if (elsewhere) {  // where each of them vanishes is not told
-      end.turns = false;
-      end.zero.reset();
-    }
-    return true;
+    if (!elsewhere) return;
+    end.turns = false;  // where each of them vanishes is not told
+    end.zero.reset();
   }
 
   /// Where what turns between two poses does so.

@@ -21,7 +21,7 @@ constexpr double inflation = 0.1;
 // it is; wider ones in x and y do.
 constexpr int most_widenings = 2;
 constexpr double hopeless = 16;          // an image this much wider than its box comes from a singular Jacobian
-constexpr double hardly_narrower = 0.5;  // than its box in any coordinate: no box around that one contracts
+constexpr double hardly_narrower = 0.5;  // than its box in any coordinate: hardly any box around that one does
 constexpr double thinnest_root = 0.01;   // relative to the cell; then the cell is cut next
 constexpr double lifted_inflation = 0.6, root_inflation = 0.2;
 // Cells within this factor of the smallest size are worth the price of multi-precision.
@@ -324,7 +324,7 @@ void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
   if (known(candidate)) return;                                 // since those before it were settled
   if (candidate.count == ZeroCount::unique && accept(candidate)) return;
   if (settle_touch(searched, candidate.roots, candidate.lifted) && known(candidate)) return;
-  if (width(cell) < limits_.smallest)
+  if (width(searched.cell) < limits_.smallest)
     states_[searched.search].undecided.push_back(cell);
   else if (is_much_smaller(cell, searched.cell))
     next.push_back({cell, std::move(candidate.roots), searched.search});

@@ -82,10 +82,12 @@ bool SheetFollower::correct(LiftedPoint& point, const LiftedPoint& row, double v
     }
     if (!std::isfinite(size)) return false;
     if (size <= converged * size_) return true;
-    // Newton's method converges quadratically: the next step would be about this large. After one step no more than a
-    // measure is had, of a curve that bends over no less than a thousandth of the region.
-    const double next = step > 0            ? size * (size / last) * (size / last)
-                        : within > accuracy ? size * (size / size_)
+    // Newton's method converges quadratically: the next step would be about this large. The steps before may have
+    // been along little curvature, and one alone tells nothing: no less is counted on than of a curve that bends over
+    // no less than a thousandth of the region.
+    const double bent = size * (size / size_);
+    const double next = step > 0            ? std::max(bent, size * (size / last) * (size / last))
+                        : within > accuracy ? bent
                                             : size;
     if (next <= beyond_need * within * size_) return true;
     if (step > 2 && size > 0.5 * last) return size <= within * size_;

@@ -33,9 +33,9 @@ constexpr double same_place = 1e-8;
 constexpr double on_side = 1e-12, along_side = 1e-4;
 // How far from a touch the parts beside it are looked at.
 constexpr double beside_a_touch = 1e-5;
-// The order of edges around a node is read off circles of these radii, from the largest that fits. Nodes are farther
-// apart than what counts as one place.
-constexpr double largest_circle = 0.02, smallest_circle = 1e-9;
+// The order of edges around a node is read off circles of these radii, from the largest that fits. A node
+// stands for what is as near to it as one place.
+constexpr double largest_circle = 0.02, smallest_circle = same_place;
 constexpr int agreeing_circles = 1;
 constexpr double widest_doubt = 1e-4;  // rad; of bearings that are looked for by other means
 constexpr double rounding = 1e-13;     // of points moved onto a curve
