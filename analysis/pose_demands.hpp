@@ -12,7 +12,8 @@
 namespace clearloci {
 
 /// Demands without those of reactions that are zero at every pose given, to rounding, which are taken for ones that
-/// nothing loads; a note then says which. Those that ask for a least size stay.
+/// nothing loads, and without those that the formulas say are zero in every pose, where rounding cannot tell; notes say
+/// which. Those that ask for a least size stay.
 std::vector<core::TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>& models,
                                              const std::vector<int>& sides, std::vector<core::TaskDemand> demands,
                                              const std::vector<std::vector<double>>& poses,

@@ -55,8 +55,9 @@ struct RowErrors {
 };
 
 RowErrors row_of(const NumericModel& model, std::span<const double> poses, std::span<const int> mode, bool under_load,
-                 const ErrorGrid& grid) {
-  const ErrorSamples s = error_samples(model, poses, mode, under_load, grid.worst_case, grid.worst_case_accuracy);
+                 const ErrorGrid& grid, double usual) {
+  const ErrorSamples s =
+      error_samples(model, poses, mode, under_load, grid.worst_case, grid.worst_case_accuracy, usual);
   RowErrors row{{}, s.reachable};
   const auto add = [&](const auto& values, const auto& of) {
     std::vector<double>& field = row.fields.emplace_back();
@@ -89,6 +90,7 @@ class FieldRows {
     const bool under_load = result.never_loaded.empty();
     map_.fields = error_fields(model_.mechanism.space, under_load, grid_.worst_case);
     for (core::Field& field : map_.fields) field.values.assign(map_.size(), nan);
+    const double usual = usual_determinant(model_, mode_);
     const std::size_t columns = map_.axes.front().size(), lines = map_.size() / columns;
     std::vector<std::array<std::size_t, 2>> counts(lines);  // reachable, undefined
     tbb::task_arena arena(grid_.threads > 0 ? grid_.threads : tbb::task_arena::automatic);
@@ -97,14 +99,14 @@ class FieldRows {
         if (grid_.deadline && std::chrono::steady_clock::now() >= *grid_.deadline)
           throw core::LimitReached("the errors could not be computed within the time limit; ask for fewer cells");
         const std::vector<double> poses = poses_of(line * columns, columns);
-        const RowErrors row = row_of(model_, poses, mode_, under_load, grid_);
+        const RowErrors row = row_of(model_, poses, mode_, under_load, grid_, usual);
         for (std::size_t f = 0; f < row.fields.size(); ++f)
           std::copy(row.fields[f].begin(), row.fields[f].end(),
                     map_.fields[f].values.begin() + static_cast<std::ptrdiff_t>(line * columns));
         for (std::size_t i = 0; i < row.reachable.size(); ++i) {
           if (!row.reachable[i]) continue;
           ++counts[line][0];
-          if (under_load && std::isnan(row.fields[0][i])) ++counts[line][1];
+          if (!row.fields.empty() && std::isnan(row.fields[0][i])) ++counts[line][1];
         }
       });
     });

@@ -31,7 +31,7 @@ struct ErrorGrid {
 struct ErrorMap {
   core::FieldMap map;         ///< in the middles of the cells; NaN outside the workspace
   std::size_t reachable = 0;  ///< cells with a posture
-  std::size_t undefined = 0;  ///< of those, cells on a locus to the last bit: no error there
+  std::size_t undefined = 0;  ///< of those, cells on a locus to rounding: no error there
   /// Joints whose reaction is zero in every pose, to rounding: their take-up is undefined everywhere, and the map has
   /// the worst case alone.
   std::vector<std::string> never_loaded;

@@ -1,9 +1,11 @@
 #include "numeric/error_samples.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/errors.hpp"
+#include "mechanism/posture_sample.hpp"
 #include "numeric/pose_batch.hpp"
 #include "numeric/reactions.hpp"
 
@@ -25,10 +27,41 @@ std::vector<bool> within_efforts(const NumericModel& model, std::span<const doub
   return within;
 }
 
+/// Beside what |A| usually is: far above its rounding, and rare.
+constexpr double small_determinant = 1e-7;
+
+/// Whether |A| is zero within rounding, also that of the middle of a cell.
+bool is_singular(const NumericModel& model, std::span<const double> pose, std::span<const int> mode) {
+  std::vector<Bounded> at;
+  for (std::size_t c = 0; c < pose.size(); ++c) {
+    const double extent = std::max({std::abs(model.box[c][0]), std::abs(model.box[c][1]), std::abs(pose[c])});
+    at.emplace_back(pose[c], 2 * unit_roundoff * extent);
+  }
+  const Bounded determinant = bounded_numerators(model, at, mode).determinant;
+  return !(std::abs(determinant.value) > determinant.error);
+}
+
 }  // namespace
 
+double usual_determinant(const NumericModel& model, std::span<const int> mode) {
+  PoseBatch batch(model, mode);
+  double largest = 0;
+  const std::vector<std::vector<double>> poses = mechanism::spread_poses(model.mechanism, 8 * PoseBatch::lanes);
+  for (std::size_t first = 0; first < poses.size(); first += PoseBatch::lanes) {
+    for (int l = 0; l < PoseBatch::lanes; ++l)
+      for (std::size_t c = 0; c < model.box.size(); ++c)
+        batch.input(c, l) = poses[first + static_cast<std::size_t>(l)][c];
+    batch.run_tape();
+    batch.find_influence();
+    for (int l = 0; l < PoseBatch::lanes; ++l)
+      if (batch.reachable(l) && std::isfinite(batch.determinant(l)))
+        largest = std::max(largest, std::abs(batch.determinant(l)));
+  }
+  return largest > 0 ? largest : std::numeric_limits<double>::infinity();
+}
+
 ErrorSamples error_samples(const NumericModel& model, std::span<const double> poses, std::span<const int> mode,
-                           bool under_load, bool worst_case, double worst_case_accuracy) {
+                           bool under_load, bool worst_case, double worst_case_accuracy, double usual) {
   const std::size_t coordinates = model.box.size();
   core::ensure(coordinates > 0 && poses.size() % coordinates == 0, "a pose has one value for each free coordinate");
   const std::size_t count = poses.size() / coordinates;
@@ -61,6 +94,9 @@ ErrorSamples error_samples(const NumericModel& model, std::span<const double> po
     for (int l = 0; l < used; ++l) {
       const std::size_t pose = first + static_cast<std::size_t>(l);
       if (!samples.reachable[pose]) continue;
+      if (!(std::abs(batch.determinant(l)) > small_determinant * usual) &&
+          is_singular(model, poses.subspan(pose * coordinates, coordinates), mode))
+        continue;
       if (under_load) samples.error[pose] = batch.error(l);
       if (worst_case) samples.worst[pose] = batch.worst(l, worst_case_accuracy);
     }

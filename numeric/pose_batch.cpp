@@ -49,6 +49,7 @@ PoseBatch::PoseBatch(const NumericModel& model, std::span<const int> mode)
     unknowns_of_[static_cast<std::size_t>(model.unknowns[k].joint)].push_back(k);
   }
   for (std::size_t side = 0; side < values_.size(); ++side) add_system(side);
+  determinant_.fill(1);  // of no core
 }
 
 /// As unknown_columns, with registers for what depends on the pose.
@@ -108,13 +109,17 @@ void PoseBatch::solve_small_core(std::size_t side) {
   };
   if (e.core_unknowns.size() == 1) {
     const double *m = value(0), *b = value(1);
-    over_lanes([&, &w = result(0)](std::size_t l) { w[l] = b[l] / m[l]; });
+    over_lanes([&, &w = result(0)](std::size_t l) {
+      determinant_[l] = m[l];
+      w[l] = b[l] / m[l];
+    });
   } else if (e.core_unknowns.size() == 2) {
     const double *m00 = value(0), *m01 = value(1), *b0 = value(2), *m10 = value(3), *m11 = value(4), *b1 = value(5);
     over_lanes([&, &w0 = result(0), &w1 = result(1)](std::size_t l) {
       const double determinant = m00[l] * m11[l] - m01[l] * m10[l];
       w0[l] = (b0[l] * m11[l] - m01[l] * b1[l]) / determinant;
       w1[l] = (m00[l] * b1[l] - b0[l] * m10[l]) / determinant;
+      determinant_[l] = determinant;
     });
   }
 }
@@ -134,6 +139,7 @@ void PoseBatch::solve_core(const System& system) {
         right_(row, s) = entry(elimination(system.sides[static_cast<std::size_t>(s)]), row, size, lane);
     }
     lu_.compute(matrix_);
+    determinant_[static_cast<std::size_t>(lane)] = lu_.matrixLU().diagonal().prod();
     solved_ = lu_.solve(right_);
     for (std::size_t s = 0; s < system.sides.size(); ++s)
       for (Eigen::Index i = 0; i < size; ++i)

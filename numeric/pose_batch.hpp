@@ -30,6 +30,8 @@ class PoseBatch {
   void find_reaches();
 
   bool reachable(int lane) const { return evaluator_.reachable(lane); }
+  /// |A| but for its sign. Needs the influence.
+  double determinant(int lane) const { return determinant_[static_cast<std::size_t>(lane)]; }
   /// NaN where some take-up is undefined.
   PoseError error(int lane) const;
   /// Without the rotation's size. `accuracy`: relative, of the largest |Δp|.
@@ -89,6 +91,7 @@ class PoseBatch {
   std::vector<Way> ways_;                              ///< of every unknown
   std::vector<std::vector<std::size_t>> unknowns_of_;  ///< of every joint
   Evaluator<double, lanes> evaluator_;
+  Lane determinant_{};
   std::vector<std::vector<Lane>> values_;  ///< of every unknown: to the unit wrenches, then to the loads
   std::vector<System> systems_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

@@ -263,7 +263,7 @@ bool TaskWitness::differs(std::span<const double> a, std::span<const double> b, 
   return false;
 }
 
-bool TaskWitness::is_never_loaded(int demand, const std::vector<std::vector<double>>& poses) const {
+TaskWitness::Loaded TaskWitness::is_loaded(int demand, const std::vector<std::vector<double>>& poses) const {
   // Of all poses: at one where nearly all reactions vanish, none is large beside its rounding.
   double usual = 0, error = 0;
   std::size_t seen = 0;
@@ -275,11 +275,11 @@ bool TaskWitness::is_never_loaded(int demand, const std::vector<std::vector<doub
     for (const BoundedNumerators& load : all)
       for (const Bounded& part :
            demanded_parts(*loads_.ends.front(), demands_[static_cast<std::size_t>(demand)], load)) {
-        if (!is_zero(part)) return false;
+        if (!is_zero(part)) return Loaded::sometimes;
         error = std::max(error, part.error);
       }
   }
-  return seen > 0 && error <= known_zero * usual;
+  return seen > 0 && error <= known_zero * usual ? Loaded::never : Loaded::perhaps;
 }
 
 }  // namespace clearloci::numeric

@@ -79,8 +79,10 @@ class TaskWitness {
   /// of its part along the pins of a two-force link, or of |A|.
   bool differs(std::span<const double> a, std::span<const double> b, int demand) const;
 
-  /// Whether a reaction is zero, to rounding, at every pose.
-  bool is_never_loaded(int demand, const std::vector<std::vector<double>>& poses) const;
+  /// Of a reaction at some poses: zero at all of them, as closely as rounding lets tell; within the bounds of rounding
+  /// only; or other than zero at one.
+  enum class Loaded { never, perhaps, sometimes };
+  Loaded is_loaded(int demand, const std::vector<std::vector<double>>& poses) const;
 
   const std::vector<core::TaskDemand>& demands() const { return demands_; }
 

@@ -16,14 +16,6 @@ constexpr std::size_t longest_factor = 2000;
 /// Of so many links that bear loads, those of every set are summed.
 constexpr std::size_t most_loaded = 6;
 
-/// Numbers that follow no pattern, the same in every run.
-Residue scattered(unsigned long seed) {
-  seed += 0x9E3779B97F4A7C15UL;
-  seed = (seed ^ (seed >> 30)) * 0xBF58476D1CE4E5B9UL;
-  seed = (seed ^ (seed >> 27)) * 0x94D049BB133111EBUL;
-  return {(seed ^ (seed >> 31)) % Residue::prime, 0};
-}
-
 std::size_t place(PointIndex point) { return static_cast<std::size_t>(point); }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -36,8 +28,9 @@ std::string joined(const std::vector<std::string>& names) {
 }  // namespace
 
 LinesOfAction::LinesOfAction(const Geometry& geometry, const NewtonEulerEquations& equations)
-    : geometry_(geometry), planar_(geometry.mechanism().space == mechanism::Space::planar) {
-  take_poses();
+    : geometry_(geometry),
+      planar_(geometry.mechanism().space == mechanism::Space::planar),
+      at_{ResiduePose(geometry, 0), ResiduePose(geometry, 1)} {
   for (std::size_t i = 0; i < geometry.mechanism().points.size(); ++i) {
     const auto& p = geometry.natural(static_cast<PointIndex>(i));
     points_.push_back({{values(p[0]), values(p[1]), values(p[2])}});
@@ -57,36 +50,9 @@ LinesOfAction::LinesOfAction(const Geometry& geometry, const NewtonEulerEquation
   });
 }
 
-void LinesOfAction::take_poses() {
-  const Ring& ring = geometry_.ring();
-  const auto variables = static_cast<std::size_t>(ring.size());
-  for (std::size_t pose = 0; pose < poses; ++pose) {
-    at_[pose].resize(variables);
-    for (std::size_t v = 0; v < variables; ++v) at_[pose][v] = scattered(pose * variables + v + 1);
-    // Cosine and sine are a point of the unit circle: (1 - t^2, 2 t) / (1 + t^2).
-    for (const mechanism::Coordinate& coordinate : geometry_.mechanism().coordinates) {
-      const int cosine = ring.index("cos(" + coordinate.name + ")"), sine = ring.index("sin(" + coordinate.name + ")");
-      if (cosine < 0 || sine < 0) continue;
-      const Residue t = at_[pose][static_cast<std::size_t>(cosine)], one{1, 0}, below = inverse(one + t * t);
-      at_[pose][static_cast<std::size_t>(cosine)] = (one + -(t * t)) * below;
-      at_[pose][static_cast<std::size_t>(sine)] = (t + t) * below;
-    }
-  }
-}
-
 LinesOfAction::Values LinesOfAction::values(const Poly& p) const {
-  Values result;
   const core::Polynomial plain = p.plain();
-  for (const core::Term& term : plain.terms) {
-    const Residue coefficient{residue(term.coefficient), 0};
-    for (std::size_t pose = 0; pose < poses; ++pose) {
-      Residue product = coefficient;
-      for (std::size_t v = 0; v < term.exponents.size(); ++v)
-        if (term.exponents[v] > 0) product = product * power(at_[pose][v], term.exponents[v]);
-      result[pose] = result[pose] + product;
-    }
-  }
-  return result;
+  return {at_[0].value(plain), at_[1].value(plain)};
 }
 
 LinesOfAction::Values LinesOfAction::values(const GiNaC::ex& expression) const {

@@ -13,7 +13,7 @@
 
 #include "symbolic/geometry.hpp"
 #include "symbolic/newton_euler.hpp"
-#include "symbolic/residue.hpp"
+#include "symbolic/residue_pose.hpp"
 
 namespace clearloci::symbolic {
 
@@ -50,7 +50,6 @@ class LinesOfAction {
     bool of_loads;
   };
 
-  void take_poses();
   Values values(const Poly& p) const;
   Values values(const GiNaC::ex& expression) const;
   Vector vector(const mechanism::VectorExpression& written) const;
@@ -78,7 +77,7 @@ class LinesOfAction {
 
   const Geometry& geometry_;
   bool planar_ = true;
-  std::array<std::vector<Residue>, poses> at_;  ///< values of the ring's variables
+  std::array<ResiduePose, poses> at_;
   std::vector<Vector> points_;
   std::vector<Line> lines_;  ///< all there before the conditions, which point at them
   /// Of every link that bears any, the sum of its loads and weights, and of springs and motors of known effort.

@@ -419,5 +419,77 @@ TEST(ZonesOverTwoLengths, AreTheSameAtACoarseTolerance) {
   }
 }
 
+TEST(ZonesByCells, KnowPinsThatBearNothingWhereRoundingCannotTell) {
+  // A six-bar whose load acts on one end of the dyad l4-l5: its other pins bear nothing. The bounds on the rounding of
+  // their forces are too wide to say so.
+  const Zones map = find_zones(Model::parse(R"(format: 1
+name: dr
+workspace:
+  th:
+    angle: [-0.122386514426961, 2.87761348557304]
+    of: l2
+drawn:
+  P0: [-0.027, -0.195]
+  P1: [0.54, -0.293]
+  P2: [-0.126, -0.563]
+  P3: [0.112, 0.35]
+  P4: [0.017, 0.168]
+  P5: [0.457, -0.153]
+  P6: [0.297, -0.444]
+  P7: [-0.412, -0.581]
+links:
+  l1:
+    points: [P0, P1, P2]
+  l2:
+    points: [P2, P4, P5]
+  l3:
+    points: [P4, P3, P6]
+  l4:
+    points: [P5, P7]
+  l5:
+    points: [P7, P6]
+joints:
+  P0:
+    revolute: [ground, l1]
+    at: P0
+    clearance: {radial: 1.0e-05, angular: 0.0002}
+    actuated: true
+  P2:
+    revolute: [l1, l2]
+    at: P2
+    clearance: {radial: 1.0e-05}
+  P4:
+    revolute: [l2, l3]
+    at: P4
+    clearance: {radial: 1.0e-05}
+  P3:
+    revolute: [l3, ground]
+    at: P3
+    clearance: {radial: 1.0e-05}
+  P5:
+    revolute: [l2, l4]
+    at: P5
+    clearance: {radial: 1.0e-05}
+  P7:
+    revolute: [l4, l5]
+    at: P7
+    clearance: {radial: 1.0e-05}
+  P6:
+    revolute: [l5, l3]
+    at: P6
+    clearance: {radial: 1.0e-05}
+end_effector: {link: l5, at: P6}
+loads:
+- link: l5
+  at: P6
+  force: [100.0, 20.0]
+)"));
+  EXPECT_TRUE(map.loci.complete);
+  EXPECT_EQ(map.zones.size(), 4U);
+  for (const std::string pin : {"f_P5", "f_P7"})
+    EXPECT_EQ(
+        std::count(map.loci.notes.begin(), map.loci.notes.end(), pin + " is zero in every pose under these loads"), 1);
+}
+
 }  // namespace
 }  // namespace clearloci

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "mechanism/read.hpp"
 #include "tests/numeric/designs.hpp"
 
 namespace clearloci::numeric {
@@ -103,6 +104,51 @@ TEST(ErrorMap, LeavesCellsOnALocusOut) {
   EXPECT_TRUE(std::isnan(field(errors.map, "dy").values[errors.map.index({0, 1})]));
   EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index({0, 0})], 1e-3 * 1);
   EXPECT_EQ(field(errors.map, "dalpha").values[errors.map.index({0, 2})], -1e-3 * 1);
+}
+
+TEST(ErrorMap, LeavesSingularCellsOutToRounding) {
+  // 3-RPR whose base and whose platform are in line: |A| = 0 wherever phi = 0, and rounding leaves a pivot of noise.
+  const NumericModel model = compile(mechanism::parse_mechanism(
+      R"(format: 1
+workspace: {x: [-0.5, 0.5], y: [-0.5, 0.5], phi: {angle: [-0.5, 0.5]}}
+points:
+  P: [x, y]
+  A1: [-0.75, -0.5]
+  A2: [0.75, -0.5]
+  A3: [0, -0.5]
+  B1: [x - cos(phi)/4, y - sin(phi)/4]
+  B2: [x + cos(phi)/4, y + sin(phi)/4]
+links:
+  plate: {points: [P, B1, B2]}
+  c1: {points: [A1]}
+  c2: {points: [A2]}
+  c3: {points: [A3]}
+  r1: {points: [B1]}
+  r2: {points: [B2]}
+  r3: {points: [P]}
+joints:
+  A1: {revolute: [ground, c1], at: A1, clearance: {radial: 1e-5}}
+  A2: {revolute: [ground, c2], at: A2, clearance: {radial: 1e-5}}
+  A3: {revolute: [ground, c3], at: A3, clearance: {radial: 1e-5}}
+  S1: {prismatic: [c1, r1], at: B1, axis: [A1, B1], actuated: true}
+  S2: {prismatic: [c2, r2], at: B2, axis: [A2, B2], actuated: true}
+  S3: {prismatic: [c3, r3], at: P, axis: [A3, P], actuated: true}
+  B1: {revolute: [r1, plate], at: B1, clearance: {radial: 1e-5}}
+  B2: {revolute: [r2, plate], at: B2, clearance: {radial: 1e-5}}
+  B3: {revolute: [r3, plate], at: P, clearance: {radial: 1e-5}}
+end_effector: {link: plate, at: P}
+loads: [{link: plate, at: P, force: [10, -50], couple: 5}]
+)",
+      "in_line.yaml"));
+  for (const bool worst_case : {false, true}) {
+    const ErrorMap errors =
+        error_map(model, mechanism::working_mode(model.mechanism), {.cells = {7, 8, 7}, .worst_case = worst_case});
+    EXPECT_EQ(errors.reachable, 392u);
+    EXPECT_EQ(errors.undefined, 56u);
+    for (const core::Field& f : errors.map.fields)
+      for (std::size_t k = 0; k < f.values.size(); ++k)
+        EXPECT_EQ(std::isnan(f.values[k]), errors.map.cell(k)[2] == 3) << f.name << " " << k;
+  }
 }
 
 TEST(ErrorMap, RefusesWhatHasNoMap) {
