@@ -212,11 +212,15 @@ bool all_is_certain(const core::Zones& map) {
 
 }  // namespace
 
+bool has_zones_by_cells(const mechanism::Mechanism& mechanism) {
+  const bool chosen = !mechanism::joints_without_preload(mechanism).empty();
+  return !mechanism::is_plane(mechanism) || !mechanism.groups.empty() ||
+         (mechanism::has_effort_bounds(mechanism) && !chosen);
+}
+
 core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest& request,
                        core::Certificate* certificate, const symbolic::LocusFamily* family) {
-  const bool chosen = !mechanism::joints_without_preload(mechanism).empty();
-  if (request.by_cells || !mechanism::is_plane(mechanism) || !mechanism.groups.empty() ||
-      (mechanism::has_effort_bounds(mechanism) && !chosen))
+  if (request.by_cells || has_zones_by_cells(mechanism))
     return zones_by_cells(mechanism::with_bounded_belts(mechanism), request);
   const std::optional<Framed> scaled = framed(mechanism);
   const PreloadLabel label = label_of_preload(mechanism, scaled ? scaled->frame : mechanism::Frame{});

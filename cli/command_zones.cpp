@@ -35,7 +35,7 @@ struct ZonesCommand {
 int run(const ZonesCommand& arguments, TimeLimit& limit) {
   const mechanism::Mechanism mechanism = read_model(arguments.common);
   const std::set<std::string> formats = parse_formats(
-      arguments.formats, report::zone_formats(mechanism.coordinates.size(), !mechanism::is_plane(mechanism)));
+      arguments.formats, report::zone_formats(mechanism.coordinates.size(), has_zones_by_cells(mechanism)));
   const std::future<void> letters = report::prepare_pictures(formats);
   const bool certify = !arguments.certificate.empty();
   if (certify) require_certifiable(mechanism);
@@ -77,11 +77,12 @@ Command add_zones_command(CLI::App& program) {
   add_controlled_argument(*app, arguments->loci);
   add_export_argument(
       *app, arguments->formats,
-      fmt::format("Files besides zones.json, comma-separated: {}; over other than two lengths {}",
+      fmt::format("Files besides zones.json, comma-separated: {}; by cells {}",
                   fmt::join(report::zone_formats(2, false), ", "), fmt::join(report::zone_formats(3, true), ", ")));
-  app->add_option("--cells", arguments->cells,
-                  "Over one to three coordinates that are not two lengths: the number of cells in each mode; more "
-                  "cells leave less in doubt")
+  app->add_option(
+         "--cells", arguments->cells,
+         "By cells, which is over other than two lengths, and where determined efforts or tensions have bounds "
+         "or points close together: the number of cells in each mode; more cells leave less in doubt")
       ->check(CLI::Range(1L, 100'000'000L))
       ->capture_default_str();
   add_certificate_argument(*app, arguments->certificate, certified_mechanisms);

@@ -30,16 +30,52 @@ bool PlanarGroups::put_group() {
   Parts parts;
   for (PointIndex p = 0; p < static_cast<PointIndex>(d_.points.size()); ++p)
     if (is_shared(p)) parts.use[p] = Use::free;
-  std::vector<std::pair<std::size_t, LinkIndex>> links;  // those with most points first
-  for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
-    if (const std::size_t count = shared_of(static_cast<LinkIndex>(l), parts).size(); count > 0)
-      links.emplace_back(count, static_cast<LinkIndex>(l));
-  std::stable_sort(links.begin(), links.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& link : links)
-    if (!add_link(link.second, parts)) return false;
+  std::vector<LinkIndex> links = links_with_shared_points(parts);
+  while (!links.empty()) {
+    const auto next = next_link(links, parts);
+    if (!add_link(*next, parts)) return false;
+    links.erase(next);
+  }
   add_known_guides(parts);
   add_moving_guides(parts.held);
   return put_smallest(parts);
+}
+
+/// Links whose direction is known first, since each has but one point that others may place; then those with most
+/// points. The order in the file says nothing.
+std::vector<LinkIndex> PlanarGroups::links_with_shared_points(const Parts& parts) const {
+  struct Ranked {
+    LinkIndex link;
+    bool turned;
+    std::vector<PointIndex> points;
+  };
+  std::vector<Ranked> ranked;
+  for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l) {
+    const auto link = static_cast<LinkIndex>(l);
+    Ranked next{link, orientation(link) != nullptr, shared_of(link, parts)};
+    std::sort(next.points.begin(), next.points.end());
+    if (!next.points.empty()) ranked.push_back(std::move(next));
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    if (a.turned != b.turned) return a.turned;
+    if (a.points.size() != b.points.size()) return a.points.size() > b.points.size();
+    return a.points < b.points;
+  });
+  std::vector<LinkIndex> links;
+  for (const Ranked& next : ranked) links.push_back(next.link);
+  return links;
+}
+
+/// Of links whose direction is known one that begins at a point already placed, so that only those in a closed loop
+/// find two points of theirs placed.
+std::vector<LinkIndex>::const_iterator PlanarGroups::next_link(const std::vector<LinkIndex>& links,
+                                                               const Parts& parts) const {
+  const auto begins = std::find_if(links.begin(), links.end(), [&](LinkIndex link) {
+    const std::vector<PointIndex> points = shared_of(link, parts);
+    return orientation(link) != nullptr &&
+           std::any_of(points.begin(), points.end(), [&](PointIndex p) { return parts.use.at(p) != Use::free; });
+  });
+  return begins == links.end() ? links.begin() : begins;
 }
 
 std::vector<PointIndex> PlanarGroups::shared_of(LinkIndex link, const Parts& parts) const {

@@ -43,6 +43,8 @@ class PlanarGroups : public PlanarLoci {
   const std::string& name_of(PointIndex point) const;
   /// Unknown points that more than one link has, or that something else holds.
   bool is_shared(PointIndex point) const;
+  std::vector<LinkIndex> links_with_shared_points(const Parts& parts) const;
+  std::vector<LinkIndex>::const_iterator next_link(const std::vector<LinkIndex>& links, const Parts& parts) const;
   std::vector<PointIndex> shared_of(LinkIndex link, const Parts& parts) const;
   void add_distance(LinkIndex link, PointIndex a, PointIndex b, Parts& parts) const;
   bool is_held_by_lengths(LinkIndex link, PointIndex a, PointIndex b, PointIndex point) const;

@@ -41,6 +41,10 @@ class WrongCalls(InOwnFolder):
         self.assertIn("--grid: ", self.complaint("validate", FOUR_BAR, "--grid", "40x40"))
         self.assertIn("unknown format 'geojson'", self.complaint("zones", FOUR_BAR, "--export", "geojson"))
         self.assertIn("unknown format 'vtk'", self.complaint("zones", FIVE_BAR, "--export", "vtk"))
+        # By cells over two lengths: tensions have bounds.
+        hanging = examples / "cables" / "hanging.yaml"
+        self.assertIn("unknown format 'geojson'", self.complaint("zones", hanging, "--export", "geojson"))
+        self.assertIn("choose from json, svg, png, pdf, vtk", self.complaint("zones", hanging, "--export", "html"))
         self.assertIn("dxf does not hold loci over 3 free coordinates",
                       self.complaint("loci", examples / "three_upu.yaml", "--export", "dxf"))
         self.assertIn("stl does not hold loci over 2 free coordinates", self.complaint("loci", FIVE_BAR, "--export", "stl"))

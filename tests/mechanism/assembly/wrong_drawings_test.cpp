@@ -1,4 +1,7 @@
 // Wrong drawings: each is answered in one line that names the element and says how to mend it.
+#include <algorithm>
+#include <set>
+
 #include "tests/mechanism/assembly/assembly_text.hpp"
 
 namespace clearloci::mechanism {
@@ -194,6 +197,39 @@ TEST(WrongDrawings, ClosesAGroup) {
   // The same driven from the other end closes, dyad by dyad.
   std::string other = with_line(text, "of: GH", "of: AB");
   EXPECT_TRUE(parse_mechanism(other, "sketch.yaml").groups.empty());
+}
+
+TEST(DrawnGroups, DoNotDependOnTheOrderOfLinks) {
+  // The direction of a floating link is the coordinate.
+  const std::string head =
+      "format: 1\nname: drawn six-bar\n"
+      "workspace: {th: {angle: [-0.7, 0.3], of: l5}}\n"
+      "drawn: {P0: [-0.2, 0.2], P2: [0.4, 0.1], P3: [0.3, 0.6], P4: [0.5, 0.6], P5: [0.3, -0.5], P6: [0.0, -0.4], "
+      "P7: [-0.5, -0.3]}\n"
+      "links:\n";
+  std::vector<std::string> links = {"  l1: {points: [P0, P3, P6]}\n", "  l2: {points: [P2, P4]}\n",
+                                    "  l3: {points: [P4, P3, P5]}\n", "  l4: {points: [P5, P7]}\n",
+                                    "  l5: {points: [P7, P6]}\n"};
+  const std::string tail =
+      "joints:\n"
+      "  P0: {revolute: [ground, l1], at: P0, actuated: true}\n"
+      "  P2: {revolute: [ground, l2], at: P2}\n"
+      "  P4: {revolute: [l2, l3], at: P4}\n"
+      "  P3: {revolute: [l3, l1], at: P3}\n"
+      "  P5: {revolute: [l3, l4], at: P5}\n"
+      "  P7: {revolute: [l4, l5], at: P7}\n"
+      "  P6: {revolute: [l5, l1], at: P6}\n"
+      "end_effector: {link: l2, at: P2}\n"
+      "loads: [{link: l2, at: P2, force: [30, -50]}]\n";
+  std::set<std::string> names;
+  do {
+    std::string text = head;
+    for (const std::string& link : links) text += link;
+    const Mechanism found = parse_mechanism(text + tail, "sketch.yaml");
+    ASSERT_EQ(found.groups.size(), 1U);
+    names.insert(found.groups.front().name);
+  } while (std::next_permutation(links.begin(), links.end()));
+  EXPECT_EQ(names.size(), 1U);
 }
 
 }  // namespace
