@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -149,9 +150,9 @@ class Ends {
     };
     // Where reactions grow without bound nothing tells them from zero in the last cells: what bounds them comes first,
     // unless it is elsewhere in a stretch that is in doubt.
-    const std::optional<core::LocusKind> passed =
-        std::abs(beyond - at) <= widest_end * apart ? gravest_between(before, behind) : std::nullopt;
-    if (holds(Doubt::workspace) || passed == core::LocusKind::workspace_boundary) {
+    const Passed passed =
+        std::abs(beyond - at) <= widest_end * apart ? passed_between(before, behind) : Passed::nothing;
+    if (holds(Doubt::workspace) || passed == Passed::boundary) {
       end.kind = core::LocusKind::workspace_boundary;
       for (const double beside_it : {at - apart, at + apart})  // the one beyond the end breaks the limit
         if (end.limit.empty())
@@ -163,8 +164,7 @@ class Ends {
         }
       return end;
     }
-    if (holds(Doubt::singularity) || passed == core::LocusKind::direct_singularity ||
-        grows_between(before, behind, open)) {
+    if (holds(Doubt::singularity) || passed == Passed::singularity || grows_between(before, behind, open)) {
       end.kind = core::LocusKind::direct_singularity;
       return end;
     }
@@ -177,13 +177,14 @@ class Ends {
     return end;
   }
 
-  /// The boundary of the workspace or |A| = 0, where one is passed from one pose to the other.
-  std::optional<core::LocusKind> gravest_between(const std::vector<double>& before, const std::vector<double>& behind) {
+  enum class Passed : std::uint8_t { nothing, boundary, singularity };
+
+  /// Which of both lies between two poses, as they tell.
+  Passed passed_between(const std::vector<double>& before, const std::vector<double>& behind) {
     const auto one = cell_.at(before), other = cell_.at(behind);
-    if (one.has_value() != other.has_value()) return core::LocusKind::workspace_boundary;
-    if (one && one->orientation == other->orientation && one->determinant * other->determinant < 0)
-      return core::LocusKind::direct_singularity;
-    return std::nullopt;
+    if (one.has_value() != other.has_value()) return Passed::boundary;
+    const bool alike = one && one->orientation == other->orientation;
+    return alike && one->determinant * other->determinant < 0 ? Passed::singularity : Passed::nothing;
   }
 
   /// Whether something in doubt turns from one pose to the other where it has no bound instead of a zero: |A| vanishes
