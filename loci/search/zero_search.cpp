@@ -42,7 +42,7 @@ constexpr std::size_t few_candidates = 3;
 // What mean-value forms leave of a cell is not made more slender than this. Where it is so much smaller in both
 // coordinates it is looked at again before it is cut.
 constexpr double thinnest = 1.0 / 16, much_smaller = 0.5;
-constexpr int sweeps = 2, most_local_coordinates = 16;
+constexpr int sweeps = 2;
 
 const Interval everything(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
 
@@ -230,35 +230,30 @@ void ZeroSearch::count_in_box(Candidate& candidate, SheetCell& cell, bool has_bo
 }
 
 /// Each equation, linear but for its slopes, is solved for each coordinate along which it is proven to change.
+/// Required: no root of the cell is lifted.
 void ZeroSearch::contract(Candidate& candidate, const SheetCell& cell) const {
-  const int n = cell.dimension();
-  if (n > most_local_coordinates) return;
-  std::array<Interval, most_local_coordinates> places, offsets, terms;
+  constexpr int n = 2;
+  std::array<Interval, n> places, offsets, terms;
   const auto put = [&](int c, const Interval& place) {
     places[c] = place;
     offsets[c] = place - Interval(cell.middle(c));
   };
-  for (int c = 0; c < n; ++c) put(c, candidate.all[c < 2 ? c : 2 + cell.lifted()[c - 2]]);
-  const auto solve = [&](const Interval& middle_value, const auto& slope) {
-    for (int c = 0; c < n; ++c) terms[c] = slope(c) * offsets[c];
+  for (int c = 0; c < n; ++c) put(c, candidate.all[c]);
+  const auto solve = [&](int f) {
+    for (int c = 0; c < n; ++c) terms[c] = cell.slope(f, c) * offsets[c];
     for (int c = 0; c < n; ++c) {
-      if (places[c].width() == 0 || slope(c).contains_zero()) continue;
-      Interval rest = middle_value;
-      for (int other = 0; other < n; ++other)
-        if (other != c) rest = rest + terms[other];
-      const Interval solved = Interval(cell.middle(c)) - rest * inverse(slope(c));
+      if (places[c].width() == 0 || cell.slope(f, c).contains_zero()) continue;
+      const Interval rest = cell.middle_value(f) + terms[1 - c];
+      const Interval solved = Interval(cell.middle(c)) - rest * inverse(cell.slope(f, c));
       if (disjoint(solved, places[c])) return false;
       put(c, meet(solved, places[c]));
-      terms[c] = slope(c) * offsets[c];
+      terms[c] = cell.slope(f, c) * offsets[c];
     }
     return true;
   };
   const auto solve_all = [&] {
-    for (int l = 0; l < static_cast<int>(cell.lifted().size()); ++l)
-      if (!solve(cell.middle_bond(l), [&](int c) -> const Interval& { return cell.bond_slope(l, c); })) return false;
     for (const std::vector<int>* functions : {&system_.functions, &system_.also})
-      for (const int f : *functions)
-        if (!solve(cell.middle_value(f), [&](int c) -> const Interval& { return cell.slope(f, c); })) return false;
+      if (!std::all_of(functions->begin(), functions->end(), solve)) return false;
     return true;
   };
   for (int sweep = 0; sweep < sweeps && !candidate.excluded; ++sweep) candidate.excluded = !solve_all();
@@ -270,7 +265,7 @@ void ZeroSearch::contract(Candidate& candidate, const SheetCell& cell) const {
   };
   candidate.all[0] = kept(0);
   candidate.all[1] = kept(1);
-  if (candidate.axis < 2) candidate.axis = candidate.all[0].width() > candidate.all[1].width() ? 0 : 1;
+  candidate.axis = candidate.all[0].width() > candidate.all[1].width() ? 0 : 1;
 }
 
 void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& next) {
