@@ -239,7 +239,7 @@ int rounds(const SheetProgram& program, const System& system, const PlaneCell& c
   return asked;
 }
 
-// Along y = x^3 the line is met far from either end: what mean-value forms leave of cells is cut, not the cells.
+// The curve y^3 + y = x meets the line far from either end: what mean-value forms leave of cells is cut, not the cells.
 TEST(ZeroSearch, CutsWhatMeanValueFormsLeave) {
   const Ring r{2};
   const auto x = r.x(), y = r.y();
