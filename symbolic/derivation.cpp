@@ -12,38 +12,36 @@ using core::LocusFactor;
 using core::Quantity;
 using core::Vanishing;
 
-namespace {
-
-FactoredDeterminants determinants_of(const Geometry& geometry, const Family* family) {
-  if (family != nullptr)
-    if (std::optional<FactoredDeterminants> from_family = family->at(geometry)) return std::move(*from_family);
-  return factored_determinants(geometry);
+core::LocusProblem problem_without_modes(const Geometry& geometry, const std::vector<ChartRange>& pieces) {
+  core::LocusProblem problem;
+  problem.tower = StraightLines(geometry).tower();
+  auto piece = pieces.begin();
+  for (const auto& coordinate : geometry.mechanism().coordinates) {
+    problem.lower.push_back(coordinate.angle ? piece->lower : coordinate.lower);
+    problem.upper.push_back(coordinate.angle ? piece->upper : coordinate.upper);
+    if (coordinate.angle) ++piece;
+  }
+  if (!pieces.empty()) problem.charts = geometry.charts();
+  return problem;
 }
-}  // namespace
 
 Derivation::Derivation(const mechanism::Mechanism& m, const Selection& asked, const std::vector<ChartRange>& pieces,
-                       const Family* family, SheetGeometry sheet, KnownEliminations* known)
+                       FactoredDeterminants found, SheetGeometry sheet, KnownEliminations* known)
     : mechanism(m),
       selection(asked),
       modes(std::move(sheet.modes)),
       geometry(std::move(sheet.geometry)),
-      determinants(determinants_of(geometry, family)),
+      determinants(std::move(found)),
       elimination(geometry, known),
       causes(geometry, &determinants.equations),
       words(mechanism, geometry),
       lines(geometry) {
   write_reactions();
   lines.know(determinants.forms);
+  result.problem = problem_without_modes(geometry, pieces);
   result.problem.tower = lines.tower();
   state_demands(m, selection, result.problem);
   for (const Sides& sides : modes) result.problem.modes.push_back(mode_of(sides));
-  auto piece = pieces.begin();
-  for (const auto& coordinate : m.coordinates) {
-    result.problem.lower.push_back(coordinate.angle ? piece->lower : coordinate.lower);
-    result.problem.upper.push_back(coordinate.angle ? piece->upper : coordinate.upper);
-    if (coordinate.angle) ++piece;
-  }
-  if (!pieces.empty()) result.problem.charts = geometry.charts();
 }
 
 core::WorkingMode Derivation::mode_of(const Sides& sides) const {

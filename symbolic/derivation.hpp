@@ -43,11 +43,13 @@ struct DeterminantPart {
   bool chosen = false;  ///< other efforts free, A is regular there
 };
 
+/// A sheet of which nothing is asked. `pieces`: of the ranges of the angles, in the order of the coordinates.
+core::LocusProblem problem_without_modes(const Geometry& geometry, const std::vector<ChartRange>& pieces);
+
 struct Derivation {
-  /// `pieces`: of the ranges of the angles, in the order of the coordinates. `family`: of which the mechanism is a
-  /// member; may be null. `known`: of other sheets of the mechanism; may be null.
+  /// `found`: of the sheet's geometry. `known`: of other sheets of the mechanism; may be null.
   Derivation(const mechanism::Mechanism& m, const Selection& asked, const std::vector<ChartRange>& pieces,
-             const Family* family, SheetGeometry sheet, KnownEliminations* known = nullptr);
+             FactoredDeterminants found, SheetGeometry sheet, KnownEliminations* known);
   Derivation(const Derivation&) = delete;
   Derivation& operator=(const Derivation&) = delete;
 

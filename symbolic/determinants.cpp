@@ -9,7 +9,7 @@ namespace clearloci::symbolic {
 
 namespace {
 
-/// `most_terms`: none where any number will do.
+/// `most_terms`: none where any number will do. Nothing where there would be more, or |A| is zero as it stands.
 std::optional<FactoredDeterminants> derived(std::optional<std::size_t> most_terms, const Geometry& geometry,
                                             NewtonEulerEquations equations) {
   std::vector<std::vector<Poly>> matrix;
@@ -23,11 +23,7 @@ std::optional<FactoredDeterminants> derived(std::optional<std::size_t> most_term
       most_terms ? cramer_determinants_within(*most_terms, geometry.ring(), matrix, loads)
                  : cramer_determinants(geometry.ring(), matrix, loads);
   if (!cramer) return std::nullopt;
-  if (cramer->determinant.is_zero()) {
-    const mechanism::Advice advice = mechanism::misplaced(geometry.mechanism());
-    throw core::InputError({geometry.mechanism().file},
-                           "the equations are singular in every pose: |A| = 0" + advice.problem, advice.mend);
-  }
+  if (cramer->determinant.is_zero()) return std::nullopt;
   for (const ColumnDivisor& shared : equations.divisors) {
     const FactoredPoly divisor = factored(shared.divisor, cramer->determinant.factors);
     multiply(cramer->determinant, divisor, -1);
@@ -39,18 +35,34 @@ std::optional<FactoredDeterminants> derived(std::optional<std::size_t> most_term
                               std::move(cramer->forms)};
 }
 
+FactoredDeterminants required(const Geometry& geometry, NewtonEulerEquations equations) {
+  std::optional<FactoredDeterminants> found = derived(std::nullopt, geometry, std::move(equations));
+  if (!found) throw_singular(geometry.mechanism());
+  return std::move(*found);
+}
+
 }  // namespace
+
+void throw_singular(const mechanism::Mechanism& mechanism) {
+  const mechanism::Advice advice = mechanism::misplaced(mechanism);
+  throw core::InputError({mechanism.file}, "the equations are singular in every pose: |A| = 0" + advice.problem,
+                         advice.mend);
+}
+
+std::optional<FactoredDeterminants> regular_determinants(const Geometry& geometry) {
+  return derived(std::nullopt, geometry, newton_euler_equations(geometry));
+}
 
 FactoredDeterminants factored_determinants(const Geometry& geometry, const Geometry* loaded) {
   NewtonEulerEquations equations = newton_euler_equations(geometry);
   if (loaded != nullptr) equations.loads = newton_euler_equations(*loaded).loads;
-  return *derived(std::nullopt, geometry, std::move(equations));
+  return required(geometry, std::move(equations));
 }
 
 FactoredDeterminants effort_determinants(const Geometry& geometry, std::size_t effort) {
   NewtonEulerEquations equations = newton_euler_equations(geometry);
   equations.loads = equations.efforts.at(effort);
-  return *derived(std::nullopt, geometry, std::move(equations));
+  return required(geometry, std::move(equations));
 }
 
 FactoredDeterminants probed_determinants(const Geometry& geometry) {
@@ -58,7 +70,7 @@ FactoredDeterminants probed_determinants(const Geometry& geometry) {
   NewtonEulerEquations equations = newton_euler_equations(geometry);
   for (unsigned i = 0; i < equations.loads.rows(); ++i)
     equations.loads(i, 0) = probes[(i + i / probes.size()) % probes.size()];
-  return *derived(std::nullopt, geometry, std::move(equations));
+  return required(geometry, std::move(equations));
 }
 
 std::optional<FactoredDeterminants> factored_determinants_within(std::size_t most_terms, const Geometry& geometry) {

@@ -45,26 +45,24 @@ std::vector<std::vector<ChartRange>> all_pieces(const Mechanism& m) {
   return all;
 }
 
-/// What makes |A| vanish in every pose of the modes; nothing where it does not.
-std::optional<std::string> singular(const Derivation& d) {
-  return vanishing_factor(d.determinants.determinant, d.geometry, d.elimination, d.causes);
-}
-
-/// "B1 right, B2 right where x > 0".
-std::string mode_text(const Derivation& d, const Sides& sides) {
-  std::string list = mode_words(d.mechanism, sides);
-  for (std::size_t k = 0; k < d.geometry.folds().size(); ++k)
-    list += (k == 0 ? " where " : " and ") + d.words.of(d.geometry.folds()[k].where) + " > 0";
+/// Of every sheet's modes that |A| = 0 in all their poses: "the working mode B1 right, B2 right where x > 0 is ...".
+std::vector<std::string> words_of_singular(const Mechanism& mechanism, const Geometry& geometry,
+                                           const std::vector<Sides>& modes, const std::string& why) {
+  std::string where;
+  FactorText words(mechanism, geometry);
+  for (const Fold& fold : geometry.folds())
+    where += (where.empty() ? " where " : " and ") + words.of(fold.where) + " > 0";
+  std::vector<std::string> list;
+  for (const Sides& sides : modes)
+    list.push_back("the working mode " + mode_words(mechanism, sides) + where +
+                   " is singular in every pose: |A| = 0, for " + why);
   return list;
 }
 
-DerivedProblem without_modes(const Derivation& d) {
-  DerivedProblem empty;
-  empty.problem.tower = d.result.problem.tower;
-  empty.problem.charts = d.result.problem.charts;
-  empty.problem.lower = d.result.problem.lower;
-  empty.problem.upper = d.result.problem.upper;
-  return empty;
+std::optional<FactoredDeterminants> determinants_of(const Geometry& geometry, const Family* family) {
+  if (family != nullptr)
+    if (std::optional<FactoredDeterminants> from_family = family->at(geometry)) return from_family;
+  return regular_determinants(geometry);
 }
 
 void emit_factors(Derivation& d) {
@@ -110,21 +108,27 @@ Piece problems_of(const Mechanism& mechanism, const Selection& selection, const 
   Piece piece;
   const Charts half_angles = charts_of(mechanism, charts);
   std::vector<SheetGeometry> sheets = sheet_geometries(mechanism, half_angles, modes, &piece.bent);
-  if (sheets.empty())
-    piece.without_modes = without_modes(Derivation(mechanism, selection, charts, family,
-                                                   {Geometry(mechanism, false, half_angles, {modes.front()}), {}}));
+  piece.without_modes.problem = problem_without_modes(Geometry(mechanism, false, half_angles, {modes.front()}), charts);
   KnownEliminations known;
   KnownEliminations* const shared = sheets.size() > 1 ? &known : nullptr;
+  const auto refuse = [&](const Geometry& geometry, const std::vector<Sides>& singular, const std::string& why) {
+    for (std::string& words : words_of_singular(mechanism, geometry, singular, why))
+      piece.refused.push_back(std::move(words));
+  };
   for (SheetGeometry& sheet : sheets) {
-    Derivation derivation(mechanism, selection, charts, family, std::move(sheet), shared);
-    if (const std::optional<std::string> why = singular(derivation)) {
+    std::optional<FactoredDeterminants> determinants = determinants_of(sheet.geometry, family);
+    if (!determinants) {
+      if (!sheet.geometry.has_dependent_roots()) throw_singular(mechanism);
+      refuse(sheet.geometry, sheet.modes, "its determinant is zero as it stands");
+      continue;
+    }
+    Derivation derivation(mechanism, selection, charts, std::move(*determinants), std::move(sheet), shared);
+    if (const std::optional<std::string> why = vanishing_factor(
+            derivation.determinants.determinant, derivation.geometry, derivation.elimination, derivation.causes)) {
       if (!derivation.geometry.has_dependent_roots())
         throw core::InputError({mechanism.file}, "the equations are singular in every pose: |A| = 0 on the closure",
                                "check the lengths, the joints and which of them are actuated");
-      for (const Sides& sides : derivation.modes)
-        piece.refused.push_back("the working mode " + mode_text(derivation, sides) +
-                                " is singular in every pose: |A| = 0, for " + *why);
-      piece.without_modes = without_modes(derivation);
+      refuse(derivation.geometry, derivation.modes, *why);
       continue;
     }
     const double preparation = seconds_since(start);

@@ -12,14 +12,11 @@ std::optional<std::string> why_singular(const mechanism::Mechanism& mechanism, c
   std::optional<std::string> why;
   for (const Charts& charts : all_charts(mechanism)) {
     for (const SheetGeometry& sheet : sheet_geometries(mechanism, charts, {sides})) {
-      FactoredPoly determinant;
-      try {
-        determinant = factored_determinants(sheet.geometry).determinant;
-      } catch (const core::InputError& singular) {
-        return singular.what();
-      }
+      const std::optional<FactoredDeterminants> found = regular_determinants(sheet.geometry);
+      if (!found && !sheet.geometry.has_dependent_roots()) throw_singular(mechanism);
       const Elimination elimination(sheet.geometry);
-      why = vanishing_factor(determinant, sheet.geometry, elimination, Causes(sheet.geometry));
+      why = vanishing_factor(found ? found->determinant : FactoredPoly{0, {}}, sheet.geometry, elimination,
+                             Causes(sheet.geometry));
       if (!why) return std::nullopt;
     }
   }

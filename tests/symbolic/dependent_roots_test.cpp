@@ -89,6 +89,20 @@ TEST(CoincidentLegs, ModesThatAreSingularEverywhereAreLeftOut) {
       2);
 }
 
+TEST(Rhombus, IsLeftOutOnTheSideOfItsFoldWhereItIsSingular) {
+  for (const char* name : {"rhombus_of_one_side", "rhombus_crank"}) {
+    const mechanism::Mechanism m = corpus(name);
+    EXPECT_FALSE(why_singular(m, mechanism::working_mode(m)).has_value()) << name;
+    std::size_t modes = 0, notes = 0;
+    for (const DerivedProblem& each : locus_problems(m, {})) {
+      modes += each.problem.modes.size();
+      for (const std::string& note : each.notes) notes += note.find("singular in every pose") != std::string::npos;
+    }
+    EXPECT_GE(modes, 1u) << name;
+    EXPECT_GE(notes, 1u) << name;
+  }
+}
+
 TEST(Parallelogram, IsCutWhereItIsFlat) {
   const mechanism::Mechanism m = corpus("parallelogram");
   const Geometry geometry(m, false);
