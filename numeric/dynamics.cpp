@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "core/shown_units.hpp"
@@ -36,36 +37,33 @@ const mechanism::Group* lost_group(const Motion& motion, const Instant& at) {
   return nullptr;
 }
 
-void check_instants(const Motion& motion, const std::vector<std::vector<Instant>>& all) {
+[[noreturn]] void throw_singular(const Motion& motion, const Instant& at) {
+  throw core::InputError({motion.timeline.trajectory.file, 0, 0},
+                         "the path meets a direct singularity near " + place_words(motion, at),
+                         "move the waypoints, or choose another working mode");
+}
+
+void require_regular(const Motion& motion, const Instant& at) {
   const std::string& file = motion.timeline.trajectory.file;
-  const Instant* before = nullptr;
-  for (const auto& instants : all) {
-    for (const Instant& at : instants) {
-      if (at.broken) {
-        const mechanism::Mechanism& m = motion.model.mechanism;
-        throw core::InputError({file, 0, 0},
-                               "the path is beyond the limit of the " +
-                                   mechanism::words_of_end(m, at.broken->limit, at.broken->upper) + ", at " +
-                                   place_words(motion, at),
-                               "move the waypoints, or choose another working mode");
-      }
-      const mechanism::Group* const group = at.reachable ? nullptr : lost_group(motion, at);
-      if (group != nullptr)
-        throw core::InputError({file, 0, 0},
-                               "group " + group->name + " does not close at " + place_words(motion, at) +
-                                   ": between its posture and there it comes to a dead centre",
-                               "move the waypoints, or give another posture ('near')");
-      if (!at.reachable)
-        throw core::InputError({file, 0, 0},
-                               "the path leaves the workspace, or touches its boundary, at " + place_words(motion, at),
-                               "move the waypoints, or choose another working mode");
-      const bool crossed = before != nullptr && (before->determinant < 0) != (at.determinant < 0);
-      if (crossed || at.determinant == 0 || !at.at_rest.allFinite() || !at.inertial.allFinite())
-        throw core::InputError({file, 0, 0}, "the path meets a direct singularity near " + place_words(motion, at),
-                               "move the waypoints, or choose another working mode");
-      before = &at;
-    }
+  if (at.broken) {
+    const mechanism::Mechanism& m = motion.model.mechanism;
+    throw core::InputError({file, 0, 0},
+                           "the path is beyond the limit of the " +
+                               mechanism::words_of_end(m, at.broken->limit, at.broken->upper) + ", at " +
+                               place_words(motion, at),
+                           "move the waypoints, or choose another working mode");
   }
+  const mechanism::Group* const group = at.reachable ? nullptr : lost_group(motion, at);
+  if (group != nullptr)
+    throw core::InputError({file, 0, 0},
+                           "group " + group->name + " does not close at " + place_words(motion, at) +
+                               ": between its posture and there it comes to a dead centre",
+                           "move the waypoints, or give another posture ('near')");
+  if (!at.reachable)
+    throw core::InputError({file, 0, 0},
+                           "the path leaves the workspace, or touches its boundary, at " + place_words(motion, at),
+                           "move the waypoints, or choose another working mode");
+  if (at.determinant == 0 || !at.at_rest.allFinite() || !at.inertial.allFinite()) throw_singular(motion, at);
 }
 
 /// Places, and the equations there, of coordinates that are known.
@@ -82,6 +80,9 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result, st
     return PointSeries{at(0), at(1), at(2)};
   };
   result.reachable = true;
+  for (int i = 0; i < model.equations_size; ++i)
+    if (const Instruction& code = model.tape.code[static_cast<std::size_t>(i)]; code.op == Op::sqrt)
+      result.rooms.push_back(registers[static_cast<std::size_t>(code.a)].value());
   for (const Triple& point : model.points) {
     result.points.push_back(vector(point));
     for (const Series& s : result.points.back())
@@ -89,9 +90,11 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result, st
   }
   for (std::size_t i = 0; i < model.slack.size() && result.reachable; ++i)
     for (const bool upper : {false, true})
-      if (const auto& end = model.slack[i][upper ? 1 : 0];
-          end && !(registers[static_cast<std::size_t>(*end)].value() >= 0) && !result.broken)
-        result.broken = LimitEnd{i, upper, registers[static_cast<std::size_t>(*end)].value()};
+      if (const auto& end = model.slack[i][upper ? 1 : 0]) {
+        const double left = registers[static_cast<std::size_t>(*end)].value();
+        result.rooms.push_back(left);
+        if (!(left >= 0) && !result.broken) result.broken = LimitEnd{i, upper, left};
+      }
   result.reachable = result.reachable && !result.broken;
   for (const auto& axis : model.axes) {
     const PointSeries u = axis ? vector(*axis) : PointSeries{};
@@ -128,7 +131,9 @@ Instant instant(const Motion& motion, std::size_t interval, double tau, std::vec
 }  // namespace
 
 Instant instant(const Motion& motion, std::size_t interval, double tau) {
-  return instant(motion, interval, tau, nullptr);
+  Instant at = instant(motion, interval, tau, nullptr);
+  require_regular(motion, at);
+  return at;
 }
 
 std::vector<bool> idle_unknowns(const Motion& motion) {
@@ -195,6 +200,73 @@ InstantError instant_error(const Motion& motion, const Instant& at, double perio
   return result;
 }
 
+namespace {
+
+/// Where the path comes nearer to the end of its workspace, or to a singularity, than at any sample: what is left of
+/// limits, the squares of roots, and |A|, followed to their minima between the samples of an interval.
+class BetweenSamples {
+ public:
+  BetweenSamples(const Motion& motion, const std::vector<Instant>& instants) : motion_(motion), instants_(instants) {}
+
+  void check() const {
+    for (std::size_t i = 1; i < instants_.size(); ++i)
+      if ((instants_[i - 1].determinant < 0) != (instants_[i].determinant < 0)) throw_singular(motion_, instants_[i]);
+    for (std::size_t room = 0; room <= instants_.front().rooms.size(); ++room)
+      for (std::size_t i = 0; i < instants_.size(); ++i) check_around(room, i);
+  }
+
+ private:
+  /// `room`: its place; behind the last of them |A|.
+  double left(std::size_t room, const Instant& at) const {
+    if (room < at.rooms.size()) return at.rooms[room];
+    return instants_.front().determinant < 0 ? -at.determinant : at.determinant;
+  }
+
+  /// Around a sample at which it is least, unless a parabola through three samples keeps half of it.
+  void check_around(std::size_t room, std::size_t i) const {
+    const std::size_t last = instants_.size() - 1, middle = std::clamp<std::size_t>(i, 1, last - 1);
+    const Instant &before = instants_[middle - 1], &at = instants_[middle], &behind = instants_[middle + 1];
+    const double f[] = {left(room, before), left(room, at), left(room, behind)};
+    const double here = left(room, instants_[i]);
+    if ((i > 0 && left(room, instants_[i - 1]) < here) || (i < last && left(room, instants_[i + 1]) < here)) return;
+    const double slope = (f[2] - f[0]) / 2, bend = f[2] - 2 * f[1] + f[0];
+    if (!(bend > 0) || std::abs(slope) > 2 * bend) return;
+    if (f[1] - slope * slope / (2 * bend) > here / 2) return;
+    const double least = least_between(room, before.tau, behind.tau);
+    constexpr double touches = 1e-9;
+    if (least > touches * std::max(f[0], f[2])) return;
+    throw core::InputError({motion_.timeline.trajectory.file, 0, 0},
+                           "the path touches the end of the workspace, or a direct singularity, near " +
+                               place_words(motion_, instants_[i]),
+                           "move the waypoints, or choose another working mode");
+  }
+
+  /// By thirds, until nothing is gained.
+  double least_between(std::size_t room, double a, double b) const {
+    constexpr int most = 60;
+    const std::size_t interval = instants_.front().interval;
+    const auto at = [&](double tau) {
+      const Instant between = instant(motion_, interval, tau);
+      const double value = left(room, between);
+      if (room == between.rooms.size() && value < 0) throw_singular(motion_, between);
+      return value;
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < most; ++k) {
+      const double p = a + (b - a) / 3, q = b - (b - a) / 3;
+      const double first = at(p), second = at(q);
+      least = std::min({least, first, second});
+      (first < second ? b : a) = first < second ? q : p;
+    }
+    return least;
+  }
+
+  const Motion& motion_;
+  const std::vector<Instant>& instants_;
+};
+
+}  // namespace
+
 std::vector<std::vector<Instant>> sample(const Motion& motion, int count) {
   const auto& intervals = motion.timeline.intervals;
   std::vector<std::vector<Instant>> all(intervals.size());
@@ -207,9 +279,15 @@ std::vector<std::vector<Instant>> sample(const Motion& motion, int count) {
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t job) {
     const auto [k, i] = jobs[job];
     const double part = static_cast<double>(i) / static_cast<double>(all[k].size() - 1);
-    all[k][i] = instant(motion, k, intervals[k].begin + part * (intervals[k].end - intervals[k].begin));
+    all[k][i] = instant(motion, k, intervals[k].begin + part * (intervals[k].end - intervals[k].begin), nullptr);
   });
-  check_instants(motion, all);
+  for (const std::vector<Instant>& instants : all)
+    for (const Instant& at : instants) require_regular(motion, at);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (k > 0 && (all[k].front().determinant < 0) != (all[k - 1].back().determinant < 0))
+      throw_singular(motion, all[k].front());
+    BetweenSamples(motion, all[k]).check();
+  }
   return all;
 }
 

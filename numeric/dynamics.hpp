@@ -66,6 +66,7 @@ struct Instant {
   std::vector<Vector3d> axes_rate;              ///< derivatives of the axes
   std::optional<LimitEnd> broken;               ///< a limit that the pose is beyond; then not reachable
   bool reachable = false;                       ///< everything below only then
+  std::vector<double> rooms;                    ///< squares of roots and what is left of limits: positive within reach
   double determinant = 0;                       ///< |A|
   Eigen::VectorXd at_rest, inertial;            ///< w_s, w_i in the order of the unknowns
   Eigen::VectorXd at_rest_rate, inertial_rate;  ///< their derivatives
@@ -98,7 +99,8 @@ struct PressingForce {
 PressingForce pressing_force(const Motion& motion, const Instant& at, mechanism::JointIndex joint,
                              const Eigen::VectorXd& values, const Eigen::VectorXd& rates);
 
-/// By the pieces of the given interval; at its ends the one-sided limit.
+/// By the pieces of the given interval; at its ends the one-sided limit. Throws core::InputError where the path leaves
+/// the workspace or is singular there.
 Instant instant(const Motion& motion, std::size_t interval, double tau);
 
 /// Take-up and pose error at an instant of a cycle of the given period; NaN where a take-up is undefined.

@@ -1,4 +1,5 @@
 // Laws of motion, paths, exact derivatives, dynamics and contact losses along trajectories.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -422,6 +423,60 @@ TEST(PickAndPlace, LosesContactNearTheEndsOfTheStagesAtShortPeriodsOnly) {
   }
   EXPECT_FALSE(contact_losses(motion, samples, 0.76, thresholds).empty());
   EXPECT_TRUE(contact_losses(motion, samples, 2.3, thresholds).empty());
+}
+
+/// Why a motion is refused; empty where it is followed.
+std::string refusal(const std::string& mechanism, const std::string& law, int count) {
+  const auto m = mechanism::parse_mechanism(mechanism, "m.yaml");
+  const auto path = mechanism::parse_trajectory(
+      "format: 1\nmotion: {law: expression, coordinate: '" + law + "'}\nperiod: 1\n", "t.yaml", m);
+  try {
+    const Motion motion = compile_motion(m, path, mechanism::working_mode(m));
+    const auto samples = sample(motion, count);
+    (void)contact_losses(motion, samples, 1, default_thresholds(motion, samples));
+    return {};
+  } catch (const core::InputError& error) {
+    return error.problem();
+  }
+}
+
+/// Half a turn off the rest of its torsion spring a crank passes a slit of 0.2 deg between two instants.
+TEST(Samples, SkipNoLimitBetweenThem) {
+  const std::string four_bar = R"(format: 1
+workspace: {q: {angle: [-720 deg, 720 deg]}}
+points: {A: [0, 0], D: [0.5, 0], B: '[0.1*cos(q), 0.1*sin(q)]', C: {dyad: [B, D], lengths: [0.45, 0.3], side: left}}
+links: {AB: {points: [A, B]}, BC: {points: [B, C]}, CD: {points: [C, D], mass: 1}}
+joints:
+  A: {revolute: [ground, AB], at: A, actuated: true}
+  B: {revolute: [AB, BC], at: B, clearance: {radial: 1e-5}}
+  C: {revolute: [BC, CD], at: C}
+  D: {revolute: [ground, CD], at: D}
+springs: [{joint: A, stiffness: 1, rest: 0}]
+end_effector: {link: CD, at: C}
+loads: [{link: CD, at: C, force: [0, -20]}]
+)";
+  for (const int count : {300, 500, 1500, 2000})
+    EXPECT_THAT(refusal(four_bar, "4*pi*t + 0.304", count), testing::HasSubstr("torsion spring")) << count;
+  EXPECT_EQ(refusal(four_bar, "1 + sin(2*pi*t)", 300), "");
+}
+
+/// The crank is stretched at x = 1: the path comes there between two instants, goes beyond, or keeps away.
+TEST(Samples, SkipNoBoundaryBetweenThem) {
+  const std::string slider_crank = R"(format: 1
+workspace: {x: [0.5, 1.1]}
+points: {A: [0, 0], P: [x, 0], B: {dyad: [A, P], lengths: [0.4, 0.6], side: left}}
+links: {AB: {points: [A, B]}, BP: {points: [B, P], mass: 1}, block: {points: [P]}}
+joints:
+  A: {revolute: [ground, AB], at: A, actuated: true}
+  B: {revolute: [AB, BP], at: B, clearance: {radial: 1e-5}}
+  P: {revolute: [BP, block], at: P}
+  G: {prismatic: [ground, block], at: P, axis: [1, 0]}
+end_effector: {link: block, at: P}
+loads: [{link: block, at: P, force: [-20, -5]}]
+)";
+  EXPECT_NE(refusal(slider_crank, "1.00000001 - (t - 0.50013)^2", 1000), "");
+  EXPECT_NE(refusal(slider_crank, "1 - (t - 0.50013)^2", 1000), "");
+  EXPECT_EQ(refusal(slider_crank, "0.9999 - (t - 0.50013)^2", 1000), "");
 }
 
 }  // namespace
