@@ -48,7 +48,8 @@ SourcePosition place_of_word(const Value& value, const std::string& word) {
                                          [&name](const Coordinate& c) { return c.name == name; });
   if (is_coordinate)
     throw InputError(place, value.what + " depends on the free coordinate '" + name + "'",
-                     "only coordinates of points may; write a number or parameters here");
+                     "only coordinates of points may, and ways such as {from: A, by: [x, 0]}; write a number or "
+                     "parameters here");
   const bool both = scope == Scope::parameters_and_coordinates;
   throw InputError(
       place, value.what + ": '" + name + "' is neither a number nor a parameter" + (both ? " nor a coordinate" : ""),

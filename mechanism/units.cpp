@@ -152,6 +152,13 @@ UnitSize file_size(const Units& units, const Dimension& d) {
          power(size(units.mass), d.mass);
 }
 
+/// The same of an expression that measures `d`, for a field: an angle that one of them has and the other has not is in
+/// rad, for R*theta is a length and 3 N m a couple for each radian. Plain numbers are in the unit of the field.
+UnitSize written_size(const Units& units, const Dimension& d, Dimension field) {
+  if (d != Dimension{}) field.angle = d.angle;
+  return file_size(units, field);
+}
+
 constexpr const char* unit_mark = "unit ";  // names of a file have no blank
 
 /// A unit, or a whole power of one.
@@ -413,10 +420,9 @@ InSi in_si(const Expression& written, const Mechanism& mechanism, const std::opt
     return result;
   }
   if (!field) return convert(written, {});
-  if (is_simple(*field)) return convert(written, file_size(mechanism.units, *field));
   InSi result = convert(written, {});
-  if (alike(result.dimension, {})) return result;
-  return convert(written, file_size(mechanism.units, *field));
+  if (!is_simple(*field) && alike(result.dimension, {})) return result;
+  return convert(written, written_size(mechanism.units, result.dimension, *field));
 }
 
 namespace {
@@ -447,7 +453,8 @@ void check_lone(const Expression& written, const Dimension& d, const Dimension& 
 InSi in_si(const Expression& written, const Mechanism& mechanism, const Value& value) {
   const std::optional<Dimension> field = dimension_of(value.field);
   InSi result = in_si(written, mechanism, field);
-  if (is_coherent(value.field)) result = Conversion(mechanism)(written, file_size(mechanism.units, *field));
+  if (is_coherent(value.field))
+    result = Conversion(mechanism)(written, written_size(mechanism.units, result.dimension, *field));
   const std::string text = value.node.Scalar();
   if (result.unlike && result.has_unit)
     throw InputError(value.where, value.what + ": '" + text + "' adds what does not measure the same",

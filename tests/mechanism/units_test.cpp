@@ -80,6 +80,23 @@ TEST(Units, EveryFieldConvertsByItsDimension) {
   EXPECT_EQ(value(m, m.gravity[1]), Rational(-981, 100));
 }
 
+TEST(Units, AnAngleThatIsMissingOrLeftOverIsInRadians) {
+  const auto read = [](const std::string& stiffness) {
+    std::string text = in_mm + "springs: [{joint: A2, stiffness: " + stiffness + ", rest: 30}]\n";
+    text.replace(text.find("k: 2}"), 5, "k: 2, kt: 3 N m, phi: pi/6 rad, R: 0.1 m}");
+    text.replace(text.find("A2: [d, 0]"), 10, "A2: [R*phi, 0]");
+    return parse_mechanism(text, "m.yaml");
+  };
+  for (const char* stiffness : {"3", "3 N m", "3 N m/rad", "kt", "3000 N mm"}) {
+    const Mechanism m = read(stiffness);
+    EXPECT_NEAR(core::to_double(value(m, m.springs.at(0).stiffness)), 3, 1e-12) << stiffness;
+  }
+  const Mechanism m = read("3 N m/deg");
+  EXPECT_NEAR(core::to_double(value(m, m.springs.at(0).stiffness)), 540 / std::numbers::pi, 1e-9);
+  const auto& place = std::get<ExplicitPoint>(m.points.at(1).form).coordinates;
+  EXPECT_NEAR(core::to_double(value(m, place[0])), 0.1 * std::numbers::pi / 6, 1e-12);
+}
+
 TEST(Units, ExpressionsOfTheCoordinatesStayPolynomialsInMetres) {
   std::string text = with(in_mm, "P: [x, y]", "P: [2*x + 30 - 3 cm, x*y/100]");
   Mechanism m = parse_mechanism(text, "m.yaml");
