@@ -80,6 +80,10 @@ class PoseRangeCheck {
             return candidate.from < point.at && point.at < candidate.to;
           }))
         throw FalseClaim("points: one is where no locus is, at " + place(point.at, point.at));
+      if (std::count_if(mode.points.begin(), mode.points.end(), [&](const auto& other) {
+            return other.kind == point.kind && other.at == point.at && other.vanishing == point.vanishing;
+          }) > 1)
+        throw FalseClaim(words_of(point) + " is listed twice");
     }
   }
 
@@ -230,6 +234,7 @@ class PoseRangeCheck {
         if (d && holds(with_demand(mode, *d, from, to), Holding::clear)) refuted = name;
         unknown += (unknown.empty() ? "" : ", ") + name;
       }
+      if (!singular) require_named(mode, before, behind, from, to);
       if (!unknown.empty() && refuted.empty()) return leave(what + ": that " + unknown + " vanishes");
       if (refuted.empty()) ++examination_.points;
     } catch (const FalseClaim& claim) {
@@ -237,6 +242,22 @@ class PoseRangeCheck {
       throw FalseClaim(what + ": " + claim.what());
     }
     if (!refuted.empty()) throw FalseClaim(what + ": " + refuted + " does not vanish");
+  }
+
+  /// Whatever changes its sign between two poses vanishes there, where |A| does not.
+  void require_named(const PoseRangeClaim::Mode& mode, const PoseSigns& before, const PoseSigns& behind,
+                     const Rational& from, const Rational& to) const {
+    for (std::size_t d = 0; d < mode.demands.size(); ++d) {
+      const core::TaskDemand& demand = mode.demands[d];
+      if (demand.least > 0 || demand.bound || before.demands[d] * behind.demands[d] >= 0) continue;
+      const Reaction reaction{demand.joint, demand.quantity};
+      if (std::none_of(mode.points.begin(), mode.points.end(), [&](const PoseRangeClaim::Point& point) {
+            return point.at >= from && point.at <= to &&
+                   std::find(point.vanishing.begin(), point.vanishing.end(), reaction) != point.vanishing.end();
+          }))
+        throw FalseClaim(fmt::format("points: {}_{} vanishes at {}, and none names it",
+                                     core::to_string(demand.quantity), demand.joint, place(from, to)));
+    }
   }
 
   const Mechanism& m_;

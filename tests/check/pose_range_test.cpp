@@ -91,6 +91,9 @@ TEST(PoseRangeCertificate, IsRejectedWhereAClaimIsMadeFalse) {
       {"a point beyond the range", [&](Json& c) { mode(c)["points"][0]["at"] = "20"; }},
       {"another kind", [&](Json& c) { point_of(mode(c), "backlash")["kind"] = "contact-loss"; }},
       {"what vanishes of no joint", [&](Json& c) { point_of(mode(c), "backlash")["vanishing"][0][0] = "ZZ"; }},
+      {"a reaction that vanishes and is left out",
+       [&](Json& c) { point_of(mode(c), "contact-loss")["vanishing"].erase(0); }},
+      {"a point that is there twice", [&](Json& c) { mode(c)["points"].push_back(mode(c)["points"][0]); }},
       {"nothing that vanishes", [&](Json& c) { point_of(mode(c), "backlash")["vanishing"] = Json::array(); }},
       {"a zero of a reaction that keeps its sign",
        [&](Json& c) {
