@@ -59,7 +59,8 @@ core::LocusMap carried_inside(const core::LocusMap& last, const mechanism::Mecha
 
 core::LocusMap carried_loci(const core::LocusMap& last, const mechanism::Mechanism& mechanism,
                             const std::optional<Framed>& framed, const std::vector<symbolic::DerivedProblem>& derived) {
-  if (last.tower.coordinates.size() != mechanism.coordinates.size()) return empty_map(mechanism);
+  if (last.tower.coordinates.size() != mechanism.coordinates.size())
+    return unfinished_map(mechanism, "loci over another number of coordinates are not carried over");
   if (!framed) return carried_inside(last, mechanism, derived);
   core::LocusMap inside = last;
   Inward(mechanism, framed->frame).move(inside);

@@ -119,6 +119,11 @@ class ModeSurfaces {
   }
 
   std::size_t size() const { return wholes_.size(); }
+  /// A surface may be missing altogether.
+  bool is_within_resolution() const {
+    return std::all_of(meshed_.begin(), meshed_.end(),
+                       [](const auto& meshed) { return !meshed || meshed->unexplained == 0; });
+  }
 
   /// Grows with the time that a factor takes.
   std::size_t cost(std::size_t f) const {
@@ -349,8 +354,8 @@ LocusMap trace_surfaces(const std::vector<const LocusProblem*>& charts, const Su
   } catch (const core::LimitReached&) {
     map.out_of_time = true;
   }
-  map.complete = !map.out_of_time && std::all_of(map.surfaces.begin(), map.surfaces.end(),
-                                                 [](const auto& surface) { return surface.within_resolution; });
+  map.complete = !map.out_of_time &&
+                 std::all_of(modes.begin(), modes.end(), [](const auto& mode) { return mode->is_within_resolution(); });
   map.tower = names_of(problem.tower);
   map.lower = problem.lower;
   map.upper = problem.upper;

@@ -101,6 +101,12 @@ TEST(CarriedLoci, AreToldBeforeTheProof) {
   }
 }
 
+TEST(CarriedLoci, OverAnotherNumberOfCoordinatesAreNotComplete) {
+  const LocusMap map = carry_loci(trace_loci(example_model("four_bar.yaml")), example_model("five_bar.yaml"));
+  EXPECT_FALSE(map.complete);
+  EXPECT_FALSE(map.notes.empty());
+}
+
 TEST(CarriedLoci, OverOneCoordinateAreTheNewValues) {
   const Model model = example_model("four_bar.yaml");
   std::string text = model.text();

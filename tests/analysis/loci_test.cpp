@@ -129,5 +129,14 @@ TEST(FoldedFourBar, HasTheLociOfBothSidesBesideASpring) {
   EXPECT_THAT(losses, testing::Pointwise(testing::DoubleNear(1e-4), {-122.178143, 27.2006346}));
 }
 
+/// Where a whole surface may be missing, the others make no complete answer.
+TEST(SurfacesOfAModel, AreNotCompleteWithoutTheOneOnASeamOfCharts) {
+  const Model model = Model::read(source_dir() + "/tests/corpus/loci/arm_on_a_seam.yaml");
+  constexpr double coarse = 0.25;
+  const LocusMap map = trace_loci(model, {.joints = {"O"}, .quantities = {Quantity::M}, .mesh_size = coarse});
+  EXPECT_FALSE(map.complete);
+  EXPECT_THAT(map.notes, testing::Contains(testing::HasSubstr("M_O: further parts")));
+}
+
 }  // namespace
 }  // namespace clearloci
