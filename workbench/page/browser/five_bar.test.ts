@@ -287,6 +287,18 @@ describe("a task", () => {
   });
 });
 
+describe("a verdict", () => {
+  it("is asked for again where a joint is switched off", async () => {
+    const page = await start();
+    await page.getByText("Task", { exact: true }).click();
+    await page.getByRole("button", { name: "box", exact: true }).click();
+    await expect.poll(() => page.locator(".verdict").textContent()).toContain("Verified");
+    const asked = page.waitForRequest((request) => request.url().endsWith("/api/verify"));
+    await page.locator("label", { hasText: /^A1$/ }).locator("input").first().evaluate((box: HTMLInputElement) => box.click());
+    expect(((await asked).postDataJSON() as { joints: string[] }).joints).not.toContain("A1");
+  });
+});
+
 describe("exports", () => {
   it("are downloaded", async () => {
     const page = await start();

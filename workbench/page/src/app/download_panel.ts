@@ -17,11 +17,10 @@ export function downloadPanel(bench: Workbench): Panel {
   const body = h("div", {});
   const fetchFiles = async (what: string, format: string): Promise<void> => {
     fault.textContent = "";
-    const { text, mode, file, task, joints, quantities } = bench.state;
+    const { task } = bench.state;
     try {
       const answer = await ask<Files>("export", {
-        text, file, mode: mode ?? [], what, format, with_loci: true, lane: `export${what}${format}`,
-        ...(joints ? { joints } : {}), ...(quantities ? { quantities } : {}),
+        ...bench.lociQuestion(), what, format, with_loci: true, lane: `export${what}${format}`,
         ...(what === "verification" && task ? { task: bench.taskFile(task) } : {}),
       });
       for (const one of answer.files) download(one.name, bytesOf(one.base64), "application/octet-stream");
@@ -32,9 +31,9 @@ export function downloadPanel(bench: Workbench): Panel {
   };
   const fetchConstructed = async (): Promise<void> => {
     fault.textContent = "";
-    const { text, file } = bench.state;
+    const { file } = bench.state;
     try {
-      const answer = await ask<{ text: string; notes: string[] }>("normalize", { text, file, lane: "normalize" });
+      const answer = await ask<{ text: string; notes: string[] }>("normalize", { ...bench.lociQuestion(), lane: "normalize" });
       download(`constructed_${file}`, answer.text, "application/yaml");
     } catch (error) {
       if (!(error instanceof AskingError)) throw error;

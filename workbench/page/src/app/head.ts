@@ -34,7 +34,7 @@ export function buildHead(bench: Workbench): HTMLElement {
   });
   const undo = h("button", { type: "button", title: "Undo (Ctrl+Z)", click: () => bench.undo() }, "Undo");
   const redo = h("button", { type: "button", title: "Redo (Ctrl+Shift+Z)", click: () => bench.redo() }, "Redo");
-  const keep = h("button", { type: "button", title: "Keep the loci of this design visible, in faint colours, while you change it", click: () => bench.change({ kept: bench.state.kept ? undefined : { text: bench.state.text, mode: bench.state.mode } }) });
+  const keep = h("button", { type: "button", title: "Keep the loci of this design visible, in faint colours, while you change it", click: () => bench.change({ kept: bench.state.kept ? undefined : { text: bench.state.text, mode: bench.state.mode, preload: bench.state.preload } }) });
   const link = h("button", { type: "button", title: "Copy the address, which contains the mechanism and the view", click: () => void copyLink(link) }, "Copy link");
   const theme = h("button", { type: "button", title: "Light or dark", click: () => {
     localStorage.setItem("clearloci-theme", bench.dark ? "light" : "dark");

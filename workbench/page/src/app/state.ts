@@ -40,7 +40,7 @@ export interface State {
   reactions: boolean;
   takeUp: boolean;
   task: TaskState | undefined;
-  kept: { text: string; mode: number[] | undefined } | undefined;
+  kept: { text: string; mode: number[] | undefined; preload?: Record<string, string> } | undefined;
   trajectory: string | undefined;
   slice: { axis: number; at: number; on: boolean } | undefined;
   /** Whether the mechanism itself is drawn, with tools. */

@@ -21,6 +21,9 @@ export interface ShownFault {
 
 export type Answer = "model" | "loci" | "zones" | "pose" | "verify" | "modes" | "kept" | "sweep" | "trajectory";
 
+/** The state that `lociQuestion` puts together: loci, zones and verdict are asked again where any of it changes. */
+const lociQuestionOf = ["file", "text", "mode", "joints", "quantities", "preload"] as const;
+
 export class Workbench {
   readonly history: History;
   rules: Rules;
@@ -227,18 +230,24 @@ export class Workbench {
   }
 
   private question(state = this.state): object {
-    const preload = this.efforts.map(({ joint, value }) => `${joint}=${value}`);
+    const preload = this.effortsOf(state).map(({ joint, value }) => `${joint}=${value}`);
     return { text: state.text, file: state.file, mode: state.mode ?? [], ...(preload.length > 0 ? { preload } : {}) };
   }
 
   /** Of the free actuators, as they are asked with. */
   get efforts(): (FreeEffort & { value: string })[] {
-    return this.model.freeEfforts.map((one) => ({ ...one, value: this.state.preload[one.joint] ?? usualEffort(one) }));
+    return this.effortsOf(this.state);
   }
 
-  private lociQuestion(): object {
-    const { joints, quantities } = this.state;
-    return { ...this.question(), ...(joints ? { joints } : {}), ...(quantities?.length ? { quantities } : {}) };
+  private effortsOf(state: State): (FreeEffort & { value: string })[] {
+    const model = state.text === this.state.text ? this.model : new ModelText(state.text);
+    return model.freeEfforts.map((one) => ({ ...one, value: state.preload[one.joint] ?? usualEffort(one) }));
+  }
+
+  /** What loci, zones and verdicts are asked with, and every export of them; `lociQuestionOf` names what is in it. */
+  lociQuestion(state = this.state): object {
+    const { joints, quantities } = state;
+    return { ...this.question(state), ...(joints ? { joints } : {}), ...(quantities?.length ? { quantities } : {}) };
   }
 
   private follow(before: State | undefined): void {
@@ -257,7 +266,8 @@ export class Workbench {
       this.atRest();
       return this.tell("state", "kind", "loci", "pose", "zones", "model", "modes", "verify", ...Object.keys(now).map((key) => `state.${key}`));
     }
-    if (changed("file", "text", "mode", "joints", "quantities", "preload") || (now.drawing && !this.picture && !this.fault)) {
+    const otherQuestion = changed(...lociQuestionOf);
+    if (otherQuestion || (now.drawing && !this.picture && !this.fault)) {
       if (this.traceable) this.lanes.loci.want(this.lociQuestion(), made);
       this.zonesStale = true;
       if (!now.zones) this.zones = undefined;
@@ -266,7 +276,7 @@ export class Workbench {
     if (changed("file", "mode") || !this.facts || (now.drawing && changed("text"))) this.lanes.model.want(this.question(), made);
     else if (changed("text")) this.factsStale = true;
     if (changed("text", "mode", "at", "preload") || (changed("task") && this.efforts.length > 0)) this.askPose(made);
-    if (changed("text", "mode", "task", "preload")) this.askVerdict();
+    if (otherQuestion || changed("task")) this.askVerdict();
     if (changed("zones") && now.zones) this.askZones();
     if (changed("kept")) void this.askKept();
     if (changed("trajectory", "text", "mode", "preload")) void this.askTrajectory();
@@ -306,7 +316,7 @@ export class Workbench {
     if (kept) {
       ++this.pending;
       try {
-        const picture = await ask<Picture>("loci", { ...this.question({ ...this.state, ...kept }), lane: "kept" });
+        const picture = await ask<Picture>("loci", { ...this.lociQuestion({ ...this.state, ...kept }), lane: "kept" });
         if (this.state.kept === kept) this.kept = picture;
       } catch (error) {
         if (!(error instanceof AskingError)) throw error;
