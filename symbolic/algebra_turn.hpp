@@ -7,7 +7,8 @@
 
 namespace clearloci::symbolic {
 
-/// Waits for the algebra of other threads to end. To be taken once on the way in, before any expression is made.
-[[nodiscard]] std::unique_lock<std::mutex> algebra_turn();
+/// Waits for the algebra of other threads to end, or throws core::LimitReached (clearloci/work_limit.hpp). To be taken
+/// once on the way in, before any expression is made.
+[[nodiscard]] std::unique_lock<std::timed_mutex> algebra_turn();
 
 }  // namespace clearloci::symbolic

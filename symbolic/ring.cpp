@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "clearloci/work_limit.hpp"
 #include "core/errors.hpp"
 #include "core/thread_end.hpp"
 
@@ -147,6 +148,7 @@ Poly& Poly::operator-=(const Poly& other) {
 }
 
 Poly& Poly::operator*=(const Poly& other) {
+  core::WorkLimit::check();
   fmpq_mpoly_mul(value_, value_, other.value_, ring_->context());
   return *this;
 }
@@ -165,6 +167,7 @@ Poly operator-(const Poly& a, const Poly& b) {
 }
 
 Poly operator*(const Poly& a, const Poly& b) {
+  core::WorkLimit::check();
   Poly result(*a.ring_);
   fmpq_mpoly_mul(result.value_, a.value_, b.value_, a.ring_->context());
   return result;
@@ -230,6 +233,7 @@ double Poly::weighted_degree(const std::vector<double>& weights) const {
 }
 
 bool Poly::divides(const Poly& divisor, Poly& quotient) const {
+  core::WorkLimit::check();
   return fmpq_mpoly_divides(quotient.value_, value_, divisor.value_, ring_->context()) != 0;
 }
 
@@ -361,6 +365,7 @@ std::vector<PolyFactor> Poly::factors(Rational& constant) const {
 }
 
 Poly gcd(const Poly& a, const Poly& b) {
+  core::WorkLimit::check();
   Poly result(*a.ring_);
   core::ensure(fmpq_mpoly_gcd(result.value_, a.value_, b.value_, a.ring_->context()) != 0, "a gcd over Q");
   return result.primitive();

@@ -1,0 +1,29 @@
+#include "clearloci/work_limit.hpp"
+
+#include <utility>
+
+namespace clearloci::inline core {
+namespace {
+
+thread_local WorkLimit* innermost = nullptr;
+thread_local unsigned calls = 0;
+
+}  // namespace
+
+WorkLimit::WorkLimit(std::chrono::steady_clock::time_point deadline, std::function<bool()> abandoned)
+    : deadline_(deadline), abandoned_(std::move(abandoned)), outer_(std::exchange(innermost, this)) {}
+
+WorkLimit::~WorkLimit() { innermost = outer_; }
+
+void WorkLimit::check() {
+  constexpr unsigned seldom = 64;
+  if (innermost != nullptr && ++calls % seldom == 0) check_now();
+}
+
+void WorkLimit::check_now() {
+  if (innermost == nullptr) return;
+  if (std::chrono::steady_clock::now() > innermost->deadline_) throw LimitReached("the time limit was reached");
+  if (innermost->abandoned_()) throw LimitReached("a newer request has taken the place of this one");
+}
+
+}  // namespace clearloci::inline core

@@ -1,0 +1,33 @@
+// A limit of the caller's for work whose request takes none: algebra, whose single steps are short and whose whole may
+// take hours.
+//     const clearloci::WorkLimit limit(deadline, [&] { return cancelled.load(); });
+//     const clearloci::LocusMap map = clearloci::trace_loci(model, request);
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+#include "clearloci/errors.hpp"
+
+namespace clearloci::inline core {
+
+/// While it lives, `check` of this thread ends what runs beyond the deadline, or is no longer wanted.
+class WorkLimit {
+ public:
+  WorkLimit(std::chrono::steady_clock::time_point deadline, std::function<bool()> abandoned);
+  ~WorkLimit();
+  WorkLimit(const WorkLimit&) = delete;
+  WorkLimit& operator=(const WorkLimit&) = delete;
+
+  /// Throws LimitReached. For loops of short steps: most calls cost nothing.
+  static void check();
+  /// The same without saving on calls, where a thread waits.
+  static void check_now();
+
+ private:
+  std::chrono::steady_clock::time_point deadline_;
+  std::function<bool()> abandoned_;
+  WorkLimit* outer_;
+};
+
+}  // namespace clearloci::inline core
