@@ -250,4 +250,10 @@ Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseReq
   return solve_pose(model.content().mechanism, exact_values(at), request);
 }
 
+void require_iterated(const Pose& pose, const std::string& option) {
+  if (pose.actual && !pose.actual->converged)
+    throw core::InputError({.file = option}, "the pose error cannot be iterated: " + pose.actual->reason,
+                           "do without, choose another pose or smaller clearances");
+}
+
 }  // namespace clearloci

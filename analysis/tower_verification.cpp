@@ -427,10 +427,12 @@ Verification verify_by_tower(const mechanism::Mechanism& mechanism, const Task& 
   TowerVerifier verifier(mechanism, task, request.loci);
   Verification result =
       request.depth == VerifyDepth::everything ? verifier.verify(task) : verifier.decide(task, request.depth);
-  if (request.depth == VerifyDepth::everything)
+  if (request.depth == VerifyDepth::everything) {
     add_zones(mechanism, verifier, result);
-  else
+  } else {
     result.map.loci = empty_map(mechanism);  // the box and its units, for a picture without loci
+    result.mode = mode_of(verifier.sides(), result.map.loci.tower);
+  }
   return result;
 }
 

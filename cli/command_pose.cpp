@@ -66,9 +66,7 @@ Pose solve(const PoseCommand& arguments, const mechanism::Mechanism& mechanism) 
   if (!pose.beyond_limit.empty())
     throw core::InputError({.file = "--at"}, "the pose is beyond the limit of the " + pose.beyond_limit,
                            "choose a pose inside the workspace");
-  if (pose.actual && !pose.actual->converged)
-    throw core::InputError({.file = "--iterate"}, "the pose error cannot be iterated: " + pose.actual->reason,
-                           "leave --iterate out, choose another pose or smaller clearances");
+  require_iterated(pose, "--iterate");
   return pose;
 }
 

@@ -27,16 +27,20 @@ struct ViewCommand {
 int run(const ViewCommand& arguments) {
   constexpr double usual_time_limit = 20;
   const bool has_model = !arguments.common.model.empty();
-  if (has_model)
-    read_model(arguments.common);  // complains in the words of every command
-  else if (!arguments.common.overrides.empty())
+  mechanism::ModelText model;
+  if (has_model) {
+    model = mechanism::read_model_text(arguments.common.model);
+    // Complains in the words of every command.
+    (void)mechanism::parse_mechanism(model.text, model.file, parse_overrides(arguments.common.overrides));
+  } else if (!arguments.common.overrides.empty()) {
     throw core::InputError({}, "--set changes a parameter of a mechanism file, and there is none", "name the file");
+  }
   const double time_limit =
       arguments.common.time_limit.empty()
           ? usual_time_limit
           : core::to_double(parse_positive(arguments.common.time_limit, "--time-limit", mechanism::Mechanism{}));
   workbench::Server server({.file = arguments.common.model,
-                            .text = has_model ? mechanism::read_model_text(arguments.common.model).text : "",
+                            .text = model.text,
                             .values = parse_overrides(arguments.common.overrides),
                             .port = arguments.port,
                             .time_limit = time_limit});

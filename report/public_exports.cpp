@@ -7,6 +7,7 @@
 
 #include "analysis/loci.hpp"
 #include "analysis/model.hpp"
+#include "analysis/zones.hpp"
 #include "clearloci/export.hpp"
 #include "core/errors.hpp"
 #include "report/error.hpp"
@@ -98,8 +99,9 @@ std::vector<std::string> loci_formats(std::size_t coordinates) {
   std::erase_if(names, [&](const std::string& name) { return !report::can_hold(name, coordinates); });
   return names;
 }
-std::vector<std::string> zone_formats(std::size_t coordinates, bool by_cells) {
-  return report::zone_formats(coordinates, by_cells || coordinates != 2);
+std::vector<std::string> zone_formats(const Model& model) {
+  const mechanism::Mechanism& mechanism = model.content().mechanism;
+  return report::zone_formats(mechanism.coordinates.size(), has_zones_by_cells(mechanism));
 }
 std::vector<std::string> verification_formats() { return report::format_names<Verification>(); }
 std::vector<std::string> error_formats(std::size_t coordinates) { return report::error_formats(coordinates); }

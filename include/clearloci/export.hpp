@@ -26,10 +26,10 @@
 
 namespace clearloci {
 
-/// The formats that loci over so many free coordinates can be written in, those of zones (over two coordinates by
-/// curves unless `by_cells`), of verifications, of errors over one to three coordinates, and of trajectories.
+/// The formats that loci over so many free coordinates can be written in, those of the zones of a mechanism, of
+/// verifications, of errors over one to three coordinates, and of trajectories.
 std::vector<std::string> loci_formats(std::size_t coordinates = 2);
-std::vector<std::string> zone_formats(std::size_t coordinates = 2, bool by_cells = false);
+std::vector<std::string> zone_formats(const Model& model);
 std::vector<std::string> verification_formats();
 std::vector<std::string> error_formats(std::size_t coordinates = 2);
 std::vector<std::string> trajectory_formats();

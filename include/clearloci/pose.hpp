@@ -182,6 +182,9 @@ struct PoseRequest {
 /// not square, or |A| vanishes in every pose of the working mode.
 Pose solve_pose(const Model& model, const std::vector<double>& at, const PoseRequest& request = {});
 
+/// Throws core::InputError, of `option`, where the pose error was to be iterated and does not settle.
+void require_iterated(const Pose& pose, const std::string& option);
+
 /// The same in every working mode: where a mode has no such pose, why. Throws likewise for what is wrong in all of
 /// them; `request.working_mode` is passed over.
 PoseInModes solve_pose_in_modes(const Model& model, const std::vector<double>& at, const PoseRequest& request = {});

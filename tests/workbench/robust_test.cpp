@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 #include <vector>
 
+#include "clearloci/errors.hpp"
 #include "report/base64.hpp"
 #include "tests/workbench/raw_connection.hpp"
 #include "tests/workbench/running_server.hpp"
@@ -131,6 +134,9 @@ TEST(AVerification, IsDrawnWithoutLoci) {
     body["format"] = format;
     EXPECT_EQ(server.ask("export", body)->status, 200) << format;
   }
+  body["text"] = example("excavator.yaml");  // its tower has roots of its cylinders
+  body["task"] = "format: 1\nbox: {x: [4.27, 4.4], y: [1.7, 1.9]}\n";
+  EXPECT_EQ(server.ask("export", body)->status, 200);
 }
 
 TEST(ALimit, IsTheSameAsThatOfTheCommandLine) {
@@ -140,6 +146,75 @@ TEST(ALimit, IsTheSameAsThatOfTheCommandLine) {
     body["min_force"] = value;
     EXPECT_EQ(server.ask("loci", body)->status, 422) << value;
   }
+  for (const char* value : {"5e-2147483648", "5.0e-2147483648", "5e2147483647", "5e 3", "1/0", "5/", ""}) {
+    body["min_force"] = value;
+    EXPECT_EQ(server.ask("loci", body)->status, 400) << value;
+  }
+  const auto polynomials = [&](const std::string& value) {
+    body["min_force"] = value;
+    std::vector<std::string> all;
+    for (const Json& curve : Json::parse(server.ask("loci", body)->body)["loci"]["curves"])
+      all.push_back(curve["factor"].dump());
+    return all;
+  };
+  const std::string zeros(59, '0');
+  EXPECT_EQ(polynomials("5" + zeros + "/1" + zeros + "0"), polynomials("0.5")) << "every digit is read";
+}
+
+/// The margins of `six_rus` take half a minute of algebra; what waits for its turn keeps its own limit.
+TEST(Algebra, EndsWithItsDeadlineAndHoldsNobodyElse) {
+  const RunningServer server(0.5);
+  Json heavy = {{"text", example("six_rus.yaml")}, {"min_force", "5"}, {"client", "a"}};
+  const auto begun = std::chrono::steady_clock::now();
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    EXPECT_TRUE(server.ask("loci", {{"text", example("five_bar.yaml")}, {"client", "b"}}));
+  });
+  EXPECT_TRUE(server.ask("loci", heavy));
+  other.join();
+  constexpr std::chrono::seconds ample{15};  // of a busy machine
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, ample);
+}
+
+TEST(APort, ThatIsTakenIsRefused) {
+  const RunningServer server;
+  try {
+    const Server second({.file = "", .text = "", .values = {}, .port = server.port(), .time_limit = 20});
+    FAIL() << "two servers listen on one port";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--port"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ATimeLimit, OfMoreThanACenturyIsNone) {
+  const RunningServer server(1e12);
+  const auto answer = server.ask("loci", {{"text", example("five_bar.yaml")}});
+  EXPECT_EQ(Json::parse(answer->body)["loci"]["complete"], true);
+}
+
+TEST(TheNameOfAFile, HasAnEnd) {
+  const RunningServer server;
+  const Json body = {{"text", example("five_bar.yaml")}, {"file", std::string(5000, 'a')}};
+  EXPECT_EQ(server.ask("model", body)->status, 400);
+}
+
+TEST(AHeadOfEvents, EndsWithoutThem) {
+  const RunningServer server;
+  const RawConnection connection(server.port());
+  ASSERT_TRUE(connection.open());
+  connection.send("HEAD " + server.path("api/progress?client=a") +
+                  " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.port()) + "\r\n\r\nGET / HTTP/1.1\r\n\r\n");
+  const std::string answer = connection.receive("400 Bad Request");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
+}
+
+TEST(APose, ThatCannotBeIteratedIsRefused) {
+  const RunningServer server;
+  Json body = {{"text", example("gripper.yaml")}};
+  body["at"] = Json::parse(server.ask("model", body)->body)["sample"];
+  EXPECT_EQ(server.ask("pose", body)->status, 200);
+  body["iterate"] = true;
+  EXPECT_EQ(server.ask("pose", body)->status, 422);
 }
 
 /// With the coarsest tolerance no place has room by what the places along the loci promise.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <stdexcept>
 #include <string_view>
 
 #include "workbench/server/refusal.hpp"
@@ -37,54 +37,17 @@ std::optional<std::string> bytes_of_base64(const std::string& text) {
 
 /// "7/20", "0.35", "1e-3" as the exact number it is.
 std::optional<Rational> exact_number(const std::string& text) {
-  constexpr std::size_t longest = 60;
-  constexpr int largest_power = 300;
-  std::string digits;
-  std::size_t at = 0;
-  int power = 0;
-  bool any = false, fraction = false;
-  for (; at < text.size() && at < longest; ++at) {
-    const char c = text[at];
-    if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
-      digits += c;
-      any = true;
-      if (fraction) --power;
-    } else if (c == '.' && !fraction) {
-      fraction = true;
-    } else {
-      break;
-    }
+  constexpr std::size_t longest = 200;
+  if (text.size() > longest) return std::nullopt;
+  const std::size_t slash = text.find('/');
+  try {
+    Rational value = core::rational_from_decimal(std::string_view(text).substr(0, slash));
+    if (slash == std::string::npos) return value;
+    const Rational below = core::rational_from_decimal(std::string_view(text).substr(slash + 1));
+    return below == 0 ? std::nullopt : std::optional(Rational(value / below));
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
   }
-  if (!any) return std::nullopt;
-  std::string below = "1";
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-    std::size_t read = 0;
-    int exponent = 0;
-    try {
-      exponent = std::stoi(text.substr(at + 1), &read);
-    } catch (const std::exception&) {
-      return std::nullopt;
-    }
-    if (std::abs(exponent) > largest_power) return std::nullopt;
-    power += exponent;
-    at += 1 + read;
-  } else if (at < text.size() && text[at] == '/' && !fraction) {
-    below = text.substr(at + 1, longest);
-    const bool whole =
-        !below.empty() && std::all_of(below.begin(), below.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-    if (!whole || Integer(below) == 0) return std::nullopt;
-    at = text.size();
-  }
-  if (at != text.size()) return std::nullopt;
-  Rational value{Integer(digits), Integer(below)};
-  Integer ten;
-  mpz_ui_pow_ui(ten.get_mpz_t(), 10, static_cast<unsigned long>(std::abs(power)));
-  if (power < 0)
-    value /= Rational(ten);
-  else
-    value *= Rational(ten);
-  value.canonicalize();
-  return value;
 }
 
 }  // namespace

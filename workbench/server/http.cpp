@@ -13,6 +13,7 @@
 #include <boost/beast/http.hpp>
 #include <list>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace clearloci::workbench {
@@ -240,7 +241,7 @@ void Connection::answer(HttpAnswer given, bool keep) {
     if (ahead_ == Ahead::sent) send_rest();
     return;
   }
-  const bool stream = static_cast<bool>(given.events);
+  const bool stream = given.events && head_.method != "HEAD";
   auto response =
       std::make_shared<http::response<http::string_body>>(http::int_to_status(static_cast<unsigned>(given.status)), 11);
   add_common_fields(*response);
@@ -362,8 +363,11 @@ HttpServer::HttpServer(int port, HttpService service, HttpLimits limits)
   tcp::acceptor& acceptor = parts_->acceptor;
   acceptor.open(here.protocol());
   acceptor.set_option(tcp::acceptor::reuse_address(true));  // of a port that is listened on there is none other
-  acceptor.bind(here);
-  acceptor.listen();
+  Error error;
+  acceptor.bind(here, error);
+  if (!error) acceptor.listen(tcp::acceptor::max_listen_connections, error);
+  // Boost's own exception is no std::system_error in every version of it.
+  if (error) throw std::system_error(error.value(), std::system_category(), error.message());
   parts_->accept();
 }
 

@@ -74,7 +74,7 @@ Json answer_model(const Json& body, const Watch&) {
           {"sample", sample ? Json(*sample) : Json(nullptr)},
           {"formats",
            {{"loci", loci_formats(model.coordinates().size())},
-            {"zones", zone_formats()},
+            {"zones", zone_formats(model)},
             {"verification", verification_formats()}}}};
 }
 
@@ -88,7 +88,7 @@ Json answer_import(const Json& body, const Watch&) {
   const ImportRequest request{.clearance = fields.text("clearance", ""),
                               .side = fields.text("side", ""),
                               .side_file = fields.text("side_file", "")};
-  const ImportedFile found = import_text(fields.text("text"), fields.text("file", "model.yaml"), request);
+  const ImportedFile found = import_text(fields.text("text"), file_of(fields), request);
   return {{"text", found.text}, {"source", found.format}, {"notes", found.notes}};
 }
 

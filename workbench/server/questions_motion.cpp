@@ -84,6 +84,7 @@ Json answer_pose(const Json& body, const Watch&) {
                                 .iterate = fields.flag("iterate"),
                                 .min_force = fields.positive("min_force"),
                                 .min_couple = fields.positive("min_couple")});
+  require_iterated(pose, "iterate");
   Json answer = report::pose_object(pose);
   answer["unreachable"] = pose.unreachable;
   if (pose.unreachable.empty() && !model.spatial())

@@ -15,6 +15,13 @@ std::optional<Quantity> quantity_named(const std::string& name) {
 
 }  // namespace
 
+std::string file_of(const Fields& fields) {
+  constexpr std::size_t longest = 1000;
+  std::string name = fields.text("file", "model.yaml");
+  if (name.size() > longest) throw Refusal(400, "'file' is to be a name of 1000 bytes at most");
+  return name;
+}
+
 Model model_of(const Fields& fields) {
   std::vector<Model::Value> efforts;
   for (const std::string& word : fields.words("preload")) {
@@ -22,7 +29,7 @@ Model model_of(const Fields& fields) {
     if (equals == std::string::npos) throw Refusal(400, "'preload' is to be a list of words such as B2=-20");
     efforts.emplace_back("preload_" + word.substr(0, equals), word.substr(equals + 1));
   }
-  return Model::parse(fields.text("text"), fields.text("file", "model.yaml"), efforts);
+  return Model::parse(fields.text("text"), file_of(fields), efforts);
 }
 
 DyadSides sides_of(const Fields& fields) {

@@ -7,6 +7,9 @@
 
 namespace clearloci::workbench {
 
+/// `file`: what the text is called in messages, which name it at every place of the document.
+std::string file_of(const Fields& fields);
+
 /// `text`, `file`: the mechanism of the request.
 Model model_of(const Fields& fields);
 

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "clearloci/errors.hpp"
+#include "clearloci/work_limit.hpp"
 #include "workbench/server/answered_loci.hpp"
 #include "workbench/server/assets.hpp"
 #include "workbench/server/http.hpp"
@@ -20,6 +21,9 @@
 #include "workbench/server/questions.hpp"
 #include "workbench/server/refusal.hpp"
 #include "workbench/server/start.hpp"
+
+/// mimalloc's, where the program is linked with it: what the calling thread keeps goes back to the system.
+extern "C" [[gnu::weak]] void mi_collect(bool force);
 
 namespace clearloci::workbench {
 namespace {
@@ -74,12 +78,16 @@ Json input_error_json(const InputError& error) {
 
 constexpr std::chrono::milliseconds quick{200};
 
-/// What one question took is of no use to the next: the C library would keep it, in each thread that ever answered.
+/// What one question took is of no use to the next: the allocator would keep it, in each thread that ever answered.
 class MemoryGivenBack {
  public:
   MemoryGivenBack() = default;
   ~MemoryGivenBack() {
-    if (std::chrono::steady_clock::now() - begun_ > quick) ::malloc_trim(0);
+    if (std::chrono::steady_clock::now() - begun_ <= quick) return;
+    if (::mi_collect != nullptr)
+      ::mi_collect(true);
+    else
+      ::malloc_trim(0);
   }
   MemoryGivenBack(const MemoryGivenBack&) = delete;
   MemoryGivenBack& operator=(const MemoryGivenBack&) = delete;
@@ -188,8 +196,9 @@ HttpAnswer Server::Parts::answer_question(const std::string& name, const Json& b
   const std::string lane = fields.text("lane", name);
   const std::unique_ptr<Lanes::Turn> turn = lanes.enter(client + "/" + name + "/" + client_of(lane));
   // Quick answers come without: a page that is told of everything has nothing else to do.
-  const Watch watch{.deadline = begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                            std::chrono::duration<double>(options.time_limit)),
+  constexpr double century = 3e9;  // beyond, the clock's ticks would overflow
+  const std::chrono::duration<double> limit_of_time(std::min(options.time_limit, century));
+  const Watch watch{.deadline = begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(limit_of_time),
                     .abandoned = [this, &turn] { return turn->abandoned() || stopping; },
                     .progress =
                         [&, begun](double fraction, std::string_view stage) {
@@ -200,6 +209,7 @@ HttpAnswer Server::Parts::answer_question(const std::string& name, const Json& b
                     .answered = ahead ? &answered : nullptr,
                     .begun = begun};
   try {
+    const WorkLimit limit(watch.deadline, watch.abandoned);
     Json answer = question(body, watch);
     if (turn->abandoned()) throw Refusal(409, "a newer request has taken the place of this one");
     answer["seconds"] = watch.seconds();
