@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import os
+import re
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
@@ -28,13 +29,15 @@ Names = Union[str, Sequence[str]]
 
 LARGEST = 10**15  #: numbers beyond it are refused in every front end
 
+_LONG_EXPONENT = re.compile(r"[eE][+-]?0*[0-9]{4}")  #: a power of ten that would take long to compute
+
 Kind = TypeVar("Kind")
 
 
 def real(name: str, value: Any, unit: str = "") -> float:
     """A finite number within 1e15."""
     hint = f"give a number{' of ' + unit if unit else ''}, such as 0.25"
-    if isinstance(value, (bool, str, bytes)) or not hasattr(value, "__float__"):
+    if isinstance(value, (bool, str, bytes, complex, np.complexfloating)) or not hasattr(value, "__float__"):
         raise TypeError(f"{name} is {value!r}, not a number; {hint}")
     try:
         number = float(value)
@@ -58,12 +61,14 @@ def exact(name: str, value: Any, unit: str) -> str:
     """A number above 0 as a decimal or a fraction."""
     if isinstance(value, str):
         try:
+            if _LONG_EXPONENT.search(value):
+                raise ValueError
             fraction = Fraction(value.replace(" ", ""))
         except (ValueError, ZeroDivisionError):
             raise ValueError(f"{name} is {value!r}; give a number of {unit} or a fraction, such as '5/2'") from None
     elif isinstance(value, Fraction):
         fraction = value
-    elif isinstance(value, Decimal) and value.is_finite():
+    elif isinstance(value, Decimal) and value.is_finite() and abs(value.adjusted()) < 1000:
         fraction = Fraction(value)
     else:
         positive(name, value, unit)

@@ -298,6 +298,8 @@ class Loci(_Answer):
         first answer, of which nothing is proven (`certified` and `complete` are false). Loci that are new are absent.
         Asked with the same options; over one to three coordinates.
         """
+        if not hasattr(model, "_handle"):
+            raise TypeError(f"model is {model!r}; give a Model")
         return Loci(model, self.options, self)
 
     def _fill(self, data: dict[str, Any]) -> None:

@@ -3,6 +3,7 @@
 import inspect
 import json
 import math
+from decimal import Decimal
 from fractions import Fraction
 
 import clearloci as cl
@@ -40,6 +41,9 @@ WRONG = [
     ("loci", {"joint": 7}),
     ("loci", {"joint": "Z9"}),
     ("loci", {"quantity": ["q"]}),
+    ("loci", {"min_force": "1e-999999999"}),
+    ("loci", {"min_force": Decimal("1e-999999999")}),
+    ("pose", {"at": np.array([1 + 2j, 0])}),
     ("loci", {"mesh_size": None, "working_mode": {"B1": "right"}}),
     ("loci", {"working_mode": 3}),
     ("loci", {"working_mode": [1, 5]}),
