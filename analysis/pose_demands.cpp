@@ -75,7 +75,8 @@ std::vector<bool> loaded_beside_efforts(const mechanism::Mechanism& mechanism, c
 }
 
 core::LocusKind locus_kind_of(const TaskDemand& demand) {
-  if (demand.least > 0 || demand.bound) return core::LocusKind::margin;
+  if (demand.bound) return core::LocusKind::preload;
+  if (demand.least > 0) return core::LocusKind::margin;
   const bool effort = demand.quantity == Quantity::M || demand.quantity == Quantity::F;
   return effort ? core::LocusKind::backlash : core::LocusKind::contact_loss;
 }

@@ -18,6 +18,7 @@
 #include "analysis/verification.hpp"
 #include "core/errors.hpp"
 #include "loci/zones/zones.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
 #include "mechanism/known_lines.hpp"
 #include "mechanism/notes.hpp"
@@ -34,19 +35,23 @@ using core::Zones;
 using loci::pose::Doubt;
 using loci::pose::PoseCell;
 
-core::ZoneBorder border_of(const core::PoseStatics& statics, Doubt doubt, int demand) {
+core::ZoneBorder border_of(const mechanism::Mechanism& mechanism, const core::PoseStatics& statics, Doubt doubt,
+                           int demand) {
   if (doubt == Doubt::workspace) return {.kind = core::LocusKind::workspace_boundary};
   if (doubt == Doubt::singularity) return {.kind = core::LocusKind::direct_singularity};
   const core::TaskDemand& task_demand = statics.demands[static_cast<std::size_t>(demand)].demand;
-  return {.kind = locus_kind_of(task_demand), .vanishing = {{task_demand.joint, task_demand.quantity, 1}}};
+  core::ZoneBorder border{.kind = locus_kind_of(task_demand),
+                          .vanishing = {{task_demand.joint, task_demand.quantity, 1}}};
+  if (task_demand.bound)
+    border.cause =
+        mechanism::words_of_bound(mechanism::joint_named(mechanism, task_demand.joint), task_demand.bound->at);
+  return border;
 }
 
 bool is_of_pin(const mechanism::Mechanism& mechanism, const core::TaskDemand& demand) {
-  return demand.quantity == core::Quantity::f &&
-         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
-           return joint.name == demand.joint && mechanism::traits(joint).pinned &&
-                  !mechanism::is_slot(mechanism, joint);
-         });
+  const mechanism::Joint& joint = mechanism::joint_named(mechanism, demand.joint);
+  return demand.quantity == core::Quantity::f && mechanism::traits(joint).pinned &&
+         !mechanism::is_slot(mechanism, joint);
 }
 
 /// Of |A| and of what has one component, at the zone's sample: they are those of all of it.
@@ -205,7 +210,7 @@ class Ends {
                      double apart, const std::set<std::pair<Doubt, int>>& open) {
     bool elsewhere = false;
     const auto add = [&](Doubt doubt, int demand) {
-      const core::ZoneBorder border = border_of(statics_, doubt, demand);
+      const core::ZoneBorder border = border_of(model_.mechanism, statics_, doubt, demand);
       end.kind = end.vanishing.empty() ? *border.kind : std::min(end.kind, *border.kind);
       end.vanishing.push_back(border.vanishing.front());
     };
@@ -240,9 +245,8 @@ class Ends {
                        const std::vector<double>& behind) const {
     if (!teeth_pull(model_, before, sides_) && !teeth_pull(model_, behind, sides_)) return {};
     for (const core::Vanishing& what : end.vanishing)
-      for (const mechanism::Joint& joint : model_.mechanism.joints)
-        if (joint.name == what.joint && what.quantity == core::Quantity::F && has_teeth(joint))
-          return "flank of gear " + joint.name;
+      if (what.quantity == core::Quantity::F && has_teeth(mechanism::joint_named(model_.mechanism, what.joint)))
+        return "flank of gear " + what.joint;
     return {};
   }
 
@@ -354,7 +358,8 @@ struct Ground {
 std::string zone_name(std::size_t place) { return "z" + std::to_string(place + 1); }
 
 /// `before`: zones of other modes.
-Zone zone_of(const loci::pose::CellZone& cells, const core::PoseStatics& statics, std::size_t before) {
+Zone zone_of(const mechanism::Mechanism& mechanism, const loci::pose::CellZone& cells, const core::PoseStatics& statics,
+             std::size_t before) {
   Zone zone;
   zone.size = zone.at_least = cells.at_least;
   zone.at_most = cells.at_most;
@@ -364,7 +369,7 @@ Zone zone_of(const loci::pose::CellZone& cells, const core::PoseStatics& statics
   for (const std::size_t other : cells.perhaps) zone.perhaps_one_with.push_back(zone_name(before + other));
   zone.certified = zone.perhaps_one_with.empty();
   zone.faces = cells.faces;
-  for (const auto& [doubt, demand] : cells.bounds) zone.borders.push_back(border_of(statics, doubt, demand));
+  for (const auto& [doubt, demand] : cells.bounds) zone.borders.push_back(border_of(mechanism, statics, doubt, demand));
   if (cells.at_side) zone.borders.push_back({.curve = "box"});
   return zone;
 }
@@ -397,12 +402,16 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   mode.workspace = found.in_doubt;
   for (const loci::pose::CellZone& cells : found.zones) mode.workspace += cells.at_least;
   if (found.out_of_time) map.loci.complete = false, map.loci.out_of_time = true;
+  // Over one coordinate the ends of zones take next to nothing: what is in doubt beyond them is not answered.
+  constexpr double of_range = 1e-3;
+  if (ground.lower.size() == 1 && found.in_doubt > of_range * (ground.upper[0] - ground.lower[0]))
+    map.loci.complete = false;
   const std::size_t before = map.zones.size();
   PoseCell cell(statics);
   Ends ends(ground.mechanism, statics, model, sides, statics.demands.size() == wanted.size(),
             covered ? covered->ends : std::vector<loci::pose::SheetEnd>{});
   for (std::size_t z = 0; z < found.zones.size(); ++z) {
-    Zone zone = zone_of(found.zones[z], statics, before);
+    Zone zone = zone_of(ground.mechanism, found.zones[z], statics, before);
     zone.id = zone_name(before + z);
     zone.mode = mode.mode;
     if (const auto ball =
@@ -425,9 +434,7 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
 
 bool changes_through_zero(const mechanism::Mechanism& mechanism, const core::Vanishing& what) {
   return what.quantity != core::Quantity::f ||
-         std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](const mechanism::Joint& joint) {
-           return joint.name == what.joint && mechanism::keeps_to_known_line(mechanism, joint);
-         });
+         mechanism::keeps_to_known_line(mechanism, mechanism::joint_named(mechanism, what.joint));
 }
 
 Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& request) {

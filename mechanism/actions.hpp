@@ -48,13 +48,16 @@ core::Rational torsion_sine_at_end();
 /// "torsion spring T half a turn off its rest".
 std::string words_of_reach(const Spring& spring);
 
-/// What a pose may be beyond: the file's limits, its torsion springs, then what rigid links hold (rigidity.hpp).
 /// "effort of joint B2 at 30 N m": of a law, at a bound.
 std::string words_of_law(const Mechanism& mechanism, const Joint& joint, const Rational& value);
+
+/// "tension of K1 at 60 N", "B2 at 30 N m": of an effort that is determined, in N and N m.
+std::string words_of_bound(const Joint& joint, const Rational& bound);
 
 /// Efforts that follow a law with bounds.
 std::vector<JointIndex> bounded_laws(const Mechanism& mechanism);
 
+/// What a pose may be beyond: the file's limits, its torsion springs, then what rigid links hold (rigidity.hpp).
 std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upper);
 
 /// Of a link's first two points, the way from one to the other; the x axis of the ground: what torsion springs measure.

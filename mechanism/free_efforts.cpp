@@ -37,6 +37,11 @@ std::string words_of_law(const Mechanism& mechanism, const Joint& joint, const R
          core::told(core::to_double(value), unit, mechanism.units);
 }
 
+std::string words_of_bound(const Joint& joint, const Rational& bound) {
+  return (is_cable(joint) ? "tension of " : "") + joint.name + " at " +
+         core::told(core::to_double(bound), core::unit_of(actuator_quantity(joint)), {});
+}
+
 void refuse_effort(const Mechanism& mechanism, const Joint& joint, const Rational& value,
                    const std::pair<Rational, Rational>& within, const core::SourcePosition& where) {
   const auto told = [&](const Rational& number) {

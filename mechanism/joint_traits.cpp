@@ -1,6 +1,9 @@
 #include "mechanism/joint_traits.hpp"
 
+#include <algorithm>
 #include <array>
+
+#include "core/errors.hpp"
 
 namespace clearloci::mechanism {
 
@@ -75,5 +78,12 @@ std::span<const JointTraits> joint_types() {
 }
 
 const JointTraits& traits(JointType type) { return joint_types()[static_cast<std::size_t>(type)]; }
+
+const Joint& joint_named(const Mechanism& mechanism, std::string_view name) {
+  const auto found = std::find_if(mechanism.joints.begin(), mechanism.joints.end(),
+                                  [&](const Joint& joint) { return joint.name == name; });
+  core::ensure(found != mechanism.joints.end(), "the mechanism has a joint of this name");
+  return *found;
+}
 
 }  // namespace clearloci::mechanism

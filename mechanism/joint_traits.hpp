@@ -45,6 +45,9 @@ std::span<const JointTraits> joint_types();
 const JointTraits& traits(JointType type);
 inline const JointTraits& traits(const Joint& joint) { return traits(joint.type); }
 
+/// Of the mechanism; there must be one.
+const Joint& joint_named(const Mechanism& mechanism, std::string_view name);
+
 inline bool is_cable(const Joint& joint) { return !traits(joint).bears; }
 
 /// A block in its guide in the plane: it bears a normal force N and a couple T.

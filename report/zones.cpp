@@ -29,6 +29,7 @@ Json borders_array(const core::Zones& map, const core::Zone& zone) {
     entry["kind"] = border.kind ? core::to_string(*border.kind) : "box";
     entry["vanishing"] = vanishing_array(border.vanishing);
     if (!map.by_cells) entry["length"] = border.length;
+    if (!border.cause.empty()) entry["cause"] = border.cause;
     if (!border.beside.empty()) entry["beside"] = border.beside;
     borders.push_back(std::move(entry));
   }

@@ -117,13 +117,18 @@ std::string bounds_words(const core::Zone& zone) {
        {core::LocusKind::workspace_boundary, core::LocusKind::direct_singularity, core::LocusKind::contact_loss,
         core::LocusKind::backlash, core::LocusKind::margin, core::LocusKind::preload}) {
     std::vector<core::Vanishing> all;
+    std::string causes;
     bool any = false;
     for (const core::ZoneBorder& border : zone.borders) {
       if (border.kind != kind) continue;
       any = true;
-      all.insert(all.end(), border.vanishing.begin(), border.vanishing.end());
+      if (border.cause.empty())
+        all.insert(all.end(), border.vanishing.begin(), border.vanishing.end());
+      else
+        causes += (causes.empty() ? " " : ", ") + border.cause;
     }
-    if (any) words += (words.empty() ? "" : "; ") + kind_words(kind) + (all.empty() ? "" : " ") + reaction_names(all);
+    if (any)
+      words += (words.empty() ? "" : "; ") + kind_words(kind) + (all.empty() ? "" : " ") + reaction_names(all) + causes;
   }
   if (at_side(zone)) words += words.empty() ? "box" : "; box";
   return words;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/shown_units.hpp"
+#include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/guide.hpp"
 #include "mechanism/joint_traits.hpp"
@@ -102,16 +103,12 @@ class Demands {
     return std::any_of(row.efforts.begin(), row.efforts.end(), [](const FactoredPoly& p) { return !p.is_zero(); });
   }
 
-  const mechanism::Joint& joint_of(const std::string& name) const {
-    return *std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
-                         [&](const mechanism::Joint& joint) { return joint.name == name; });
-  }
-
   /// The least size of what has one component.
   std::optional<Rational> least_of(const std::string& joint, Quantity quantity) const {
     if (quantity == Quantity::M) return is_planar() ? selection_.min_couple : std::nullopt;
     const bool one =
-        quantity == Quantity::F || (quantity == Quantity::f && mechanism::is_slot(mechanism_, joint_of(joint)));
+        quantity == Quantity::F ||
+        (quantity == Quantity::f && mechanism::is_slot(mechanism_, mechanism::joint_named(mechanism_, joint)));
     return one ? selection_.min_force : std::nullopt;
   }
 
@@ -146,7 +143,7 @@ class Demands {
     const Poly load = polynomials.front()->is_zero() ? Poly(ring) : expanded(*polynomials.front(), ring);
     Poly unit = expanded(determinant_, ring);
     if (what.quantity != Quantity::M) {
-      const mechanism::Joint& joint = joint_of(what.joint);
+      const mechanism::Joint& joint = mechanism::joint_named(mechanism_, what.joint);
       const std::optional<Poly> inverse = inverse_axis(joint);
       if (!inverse) return std::nullopt;
       unit = unit * *inverse;
@@ -164,12 +161,6 @@ class Demands {
     return mechanism_.frame && quantity != Quantity::F ? mechanism_.frame->scale : Rational(1);
   }
 
-  static std::string words_at(const mechanism::Joint& joint, const Rational& bound) {
-    const bool force = mechanism::actuator_quantity(joint) == Quantity::F;
-    return (mechanism::is_cable(joint) ? "tension of " : "") + joint.name + " at " +
-           core::told(core::to_double(bound), force ? "N" : "N m", {});
-  }
-
   static std::string words_at(const core::Vanishing& what, const Rational& size) {
     return core::to_string(what.quantity) + "_" + what.joint + " at " +
            core::told(core::to_double(size), what.quantity == Quantity::M ? "N m" : "N", {});
@@ -183,7 +174,7 @@ class Demands {
     for (const Rational& bound : {joint.within->first, joint.within->second})
       result_.push_back({{row_at(*at, bound / scale_of(quantity)).value()},
                          {},
-                         words_at(joint, bound),
+                         mechanism::words_of_bound(joint, bound),
                          false,
                          core::Vanishing{joint.name, quantity, 1}});
   }
@@ -197,7 +188,11 @@ class Demands {
     const auto at = [&](const Rational& value) { return bound_row(efforts(), effort, value / scale, determinant_); };
     if (const auto& within = joint.free_effort->within) {
       for (const Rational& bound : {within->first, within->second})
-        result_.push_back({{at(bound)}, {}, words_at(joint, bound), false, core::Vanishing{joint.name, quantity, 1}});
+        result_.push_back({{at(bound)},
+                           {},
+                           mechanism::words_of_bound(joint, bound),
+                           false,
+                           core::Vanishing{joint.name, quantity, 1}});
     } else if (std::none_of(result_.begin(), result_.end(), [](const auto& candidate) { return candidate.infinite; })) {
       result_.push_back({{infinite_row(efforts(), determinant_)}, {}, "", true});
     }

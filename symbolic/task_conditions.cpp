@@ -123,7 +123,7 @@ class Conditions {
 
   /// Of every load, then of every direction: the first `many` of these.
   Demanded parts_of(const TaskDemand& demand, std::size_t many) {
-    const mechanism::Joint& joint = joint_named(demand.joint);
+    const mechanism::Joint& joint = mechanism::joint_named(mechanism_, demand.joint);
     const bool guide = mechanism::is_guide(mechanism_, joint);
     if (core::is_guide_end(demand.quantity)) know_length(demand.joint);
     Demanded result;
@@ -221,13 +221,6 @@ class Conditions {
     core::append_roots(result_.tower, {std::move(root)});
     lines_.let(geometry_.auxiliary(), before, length[1]);
     lengths_.erase(found);
-  }
-
-  const mechanism::Joint& joint_named(const std::string& name) const {
-    const auto found = std::find_if(mechanism_.joints.begin(), mechanism_.joints.end(),
-                                    [&](const mechanism::Joint& joint) { return joint.name == name; });
-    core::ensure(found != mechanism_.joints.end(), "a demand is of a joint of the mechanism");
-    return *found;
   }
 
   FactoredDeterminants under(const mechanism::Mechanism& load) const {

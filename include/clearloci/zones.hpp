@@ -27,6 +27,7 @@ struct ZoneBorder {
   std::vector<Vanishing> vanishing = {};  ///< there; by cells what may vanish there
   /// Over two lengths the zones on the other side; empty where a fold cuts the plane into sheets.
   std::vector<std::string> beside = {};
+  std::string cause = {};  ///< by cells, of a bound of an effort: "tension of K1 at 60 N"
 };
 
 /// An end of a zone over one coordinate: the locus that ends it, and how far the end effector jumps across it.

@@ -16,6 +16,7 @@ py::list borders_of(const Zones& map, const Zone& zone) {
     one["kind"] = border.kind ? to_string(*border.kind) : "box";
     one["vanishing"] = names_of(border.vanishing);
     if (!map.by_cells) one["length"] = border.length;
+    if (!border.cause.empty()) one["cause"] = border.cause;
     if (!border.beside.empty()) one["beside"] = border.beside;
     borders.append(one);
   }

@@ -67,6 +67,11 @@ TEST(EffortBounds, EndTheZones) {
     EXPECT_LT(effort, 6);
     inside += zone.at_least;
   }
+  std::vector<std::string> ends;
+  for (const ZoneBorder& border : map.zones.front().borders)
+    if (border.kind == LocusKind::preload) ends.push_back(border.cause);
+  EXPECT_THAT(ends, testing::IsSubsetOf({"X at -4 N", "X at 6 N"}));
+  EXPECT_FALSE(ends.empty());
   // Of the square of 4 m2 the strip -0.4 < x + y < 0.6.
   const double strip = 4 - 1.6 * 1.6 / 2 - 1.4 * 1.4 / 2;
   EXPECT_LE(inside, strip);
