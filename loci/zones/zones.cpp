@@ -304,7 +304,9 @@ class ModeZones {
     Polyline finer = {edge.points.front()};
     for (std::size_t i = 1; i < edge.points.size(); ++i) {
       const Point2 &a = edge.points[i - 1], &b = edge.points[i];
-      const Point2 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2}, on = curve(middle).at;
+      const Point2 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+      // A chord beside the boundary may have its middle beyond.
+      const Point2 on = curve.between(a, b).value_or(curve(middle).at);
       if (std::hypot(on[0] - middle[0], on[1] - middle[1]) > 2 * map_.tolerance) return false;
       finer.push_back(on);
       finer.push_back(b);
