@@ -320,7 +320,7 @@ std::vector<Substitution> Geometry::substitutions() const {
     if (length.place) list.push_back({length.variable, -1, *length.place});
   for (const ConstructedPoint& c : constructed_)
     if (!tower(c.point).w.is_zero()) list.push_back({c.x, c.y, tower(c.point), c.z});  // once it is placed
-  list.insert(list.end(), angles_.begin(), angles_.end());
+  list.insert(list.begin(), angles_.begin(), angles_.end());
   return list;
 }
 
