@@ -318,9 +318,16 @@ std::vector<Substitution> Geometry::substitutions() const {
     if (angle.place) list.push_back({angle.variable, -1, *angle.place});
   for (const InverseLength& length : inverse_lengths_)
     if (length.place) list.push_back({length.variable, -1, *length.place});
-  for (const ConstructedPoint& c : constructed_)
-    if (!tower(c.point).w.is_zero()) list.push_back({c.x, c.y, tower(c.point), c.z});  // once it is placed
-  list.insert(list.end(), angles_.begin(), angles_.end());
+  for (const ConstructedPoint& c : constructed_) {
+    if (tower(c.point).w.is_zero()) continue;  // not placed yet
+    const auto frame = frames_.find(c.point);
+    if (frame == frames_.end()) {
+      list.push_back({c.x, c.y, tower(c.point), c.z});
+    } else {
+      for (const TowerPoint& place : frame->second) list.push_back({c.x, c.y, place});
+    }
+  }
+  list.insert(list.begin(), angles_.begin(), angles_.end());
   return list;
 }
 

@@ -78,7 +78,8 @@ struct ConstructedPoint {
 };
 
 /// Two natural coordinates and the place that they stand for over the tower: a constructed point, or the cosine and
-/// sine of an angle, which are a point of the unit circle. Or one, the inverse of a length; y is -1 then.
+/// sine of an angle, which are a point of the unit circle. Or one, the inverse of a length; y is -1 then. Or a place
+/// that holds the two themselves, which stand for other numbers from then on.
 struct Substitution {
   int x = 0, y = 0;  ///< ring variables
   TowerPoint place;
@@ -174,7 +175,7 @@ class Geometry {
   Poly squared_length(const core::Expression& length) const;
 
   const Charts& charts() const { return charts_; }
-  /// What over_tower puts in, in an order in which no place holds a coordinate that is still to be replaced.
+  /// What over_tower puts in, in this order: angles first, as the other places are long.
   std::vector<Substitution> substitutions() const;
   /// A natural polynomial with one pair replaced, times W^degree; `degree` is at least its degree in the pair.
   Poly substituted(const Poly& natural, const Substitution& pair, int degree) const;
@@ -236,7 +237,9 @@ class Geometry {
                                const Poly& length_denominator) const;
   TowerPoint offset_over_tower(const mechanism::OffsetPoint& form, const std::array<Poly, 2>& offset,
                                const Poly& length_numerator, const Poly& length_denominator) const;
+  const ConstructedPoint& constructed(mechanism::PointIndex point) const;
   void construct(mechanism::PointIndex point);
+  bool has_root(const Poly& p) const;
   /// Returns the root times its `scale_divisor`, that is, the true root times its `scale`.
   Poly add_root(TowerRoot root);
   /// A root whose `scale / scale_divisor` is far from 1 over the box is given another unit, so that floating point
@@ -258,6 +261,9 @@ class Geometry {
   /// Nor does a point that is placed at a constant way from another one, as in a parallelogram, have coordinates of its
   /// own: factors show what numerators and |A| share.
   void keep_beside_another(mechanism::PointIndex point);
+  /// Where a dyad closes a parallelogram, its point is the sum of the two ends less the fourth point: a place of few
+  /// terms. False where it does not.
+  bool close_parallelogram(mechanism::PointIndex point, const mechanism::DyadPoint& form);
   /// to - from and a + way over the least denominator, as far as its factors are known to be positive.
   TowerPoint difference(const TowerPoint& to, const TowerPoint& from) const;
   TowerPoint sum(const TowerPoint& a, const TowerPoint& way) const;
@@ -292,6 +298,9 @@ class Geometry {
   std::vector<TowerRoot> roots_;
   std::vector<Poly> denominators_;
   std::vector<Way> dyad_ways_;
+  /// Of dyads on others: the point by its numbers (u, v) along and across the way between its ends, for which its own
+  /// symbols stand, and (u, v) over the tower. Multiplied out the two are long.
+  std::map<mechanism::PointIndex, std::array<TowerPoint, 2>> frames_;
   std::vector<Poly> positive_units_;
   std::vector<Poly> positive_;  ///< known to be nowhere negative on the sheets, in the order of their appearance
   Charts charts_;

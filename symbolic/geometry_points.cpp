@@ -1,6 +1,8 @@
 // Where the points of a mechanism are over the tower (method.md section 1).
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <span>
 
 #include "core/powers_of_two.hpp"
 #include "mechanism/evaluate.hpp"
@@ -58,8 +60,7 @@ void Geometry::place_explicit(PointIndex point, const ExplicitPoint& form) {
 
 void Geometry::add_denominator(const Poly& squared_length) {
   denominators_.push_back(squared_length);
-  for (const TowerRoot& root : roots_)
-    if (squared_length.depends_on(root.variable)) return add_positive(squared_length);
+  if (has_root(squared_length)) return add_positive(squared_length);
   // Over the coordinates alone no factor of what is nowhere negative changes its sign, but where it is there twice: the
   // squared distance of two points of one line.
   Rational constant;
@@ -77,9 +78,7 @@ void Geometry::add_positive(const Poly& divisor) {
     for (std::size_t v = 0; v < at.size(); ++v) at[v] = Rational(step, static_cast<long>(v) + 2);
     value = core::evaluate(plain, at);
   }
-  const bool rooted = std::any_of(roots_.begin(), roots_.end(),
-                                  [&](const TowerRoot& root) { return divisor.depends_on(root.variable); });
-  const Poly positive = value > 0 || rooted ? divisor : -divisor;
+  const Poly positive = value > 0 || has_root(divisor) ? divisor : -divisor;
   if (std::find(positive_.begin(), positive_.end(), positive) == positive_.end()) positive_.push_back(positive);
 }
 
@@ -130,11 +129,18 @@ void Geometry::place_mean(PointIndex point, const MeanPoint& form) {
   tower_[index(point)] = place;
 }
 
+const ConstructedPoint& Geometry::constructed(PointIndex point) const {
+  return *std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
+}
+
 void Geometry::construct(PointIndex point) {
-  const auto found =
-      std::find_if(constructed_.begin(), constructed_.end(), [&](const auto& c) { return c.point == point; });
-  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(found->x))), GiNaC::ex(symbol(ring_->name(found->y))),
-                            found->z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(found->z)))};
+  const ConstructedPoint& own = constructed(point);
+  natural_[index(point)] = {GiNaC::ex(symbol(ring_->name(own.x))), GiNaC::ex(symbol(ring_->name(own.y))),
+                            own.z < 0 ? GiNaC::ex(0) : GiNaC::ex(symbol(ring_->name(own.z)))};
+}
+
+bool Geometry::has_root(const Poly& p) const {
+  return std::any_of(roots_.begin(), roots_.end(), [&](const TowerRoot& root) { return p.depends_on(root.variable); });
 }
 
 Poly Geometry::by_known_lengths(Poly squared) const {
@@ -250,6 +256,33 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   tower_[index(point)] = sum(a, step);
   if (form.axis) keep_in_plane(point, form.from, n);
   if (roots_.back().value) keep_beside_another(point);
+  if (form.axis || !has_root(d) || (roots_.back().value && close_parallelogram(point, form))) return;
+  const ConstructedPoint& own = constructed(point);
+  const Poly u = Poly::variable(*ring_, own.x), v = Poly::variable(*ring_, own.y);
+  TowerPoint in_frame{kn, s, d.scaled(2)};
+  lighten(in_frame);
+  frames_.emplace(point, std::array{sum(a, {u * x - v * y, u * y + v * x, w}), std::move(in_frame)});
+}
+
+bool Geometry::close_parallelogram(PointIndex point, const DyadPoint& form) {
+  const TowerPoint& own = tower(point);
+  const auto differs = [&](const TowerPoint& place, const std::vector<double>& at) {
+    constexpr double rounding = 1e-6;
+    const auto value = [&](const Poly& p) { return core::evaluate(p.plain(), std::span<const double>(at)); };
+    const double by_x = value(place.x) / value(place.w) - value(own.x) / value(own.w);
+    const double by_y = value(place.y) / value(place.w) - value(own.y) / value(own.w);
+    return std::hypot(by_x, by_y) > rounding * std::hypot(value(own.x), value(own.y)) / std::abs(value(own.w));
+  };
+  for (PointIndex fourth = 0; fourth < point; ++fourth) {
+    if (fourth == form.from || fourth == form.to) continue;
+    const TowerPoint place = sum(tower(form.to), difference(tower(form.from), tower(fourth)));
+    if (std::any_of(samples_.begin(), samples_.end(), [&](const auto& at) { return differs(place, at); })) continue;
+    if (!reduce(place.x * own.w - own.x * place.w).is_zero() || !reduce(place.y * own.w - own.y * place.w).is_zero())
+      continue;
+    tower_[index(point)] = place;
+    return true;
+  }
+  return false;
 }
 
 std::optional<Poly> Geometry::constant_quotient(const Poly& p, const Poly& divisor) const {

@@ -128,13 +128,11 @@ int Geometry::sign_on_sheet(Poly element, std::size_t root, std::vector<std::siz
   int sign = 1;
   for (const PolyFactor& factor : element.factors(constant)) {
     if (factor.multiplicity % 2 == 0) continue;
-    const bool rooted = std::any_of(roots_.begin(), roots_.end(),
-                                    [&](const TowerRoot& r) { return factor.poly.depends_on(r.variable); });
     const auto is = [&](const Poly& p) { return factor.poly == p; };
     int factor_sign = 0;
     if (std::any_of(positive_.begin(), positive_.end(), is)) factor_sign = 1;
     if (std::any_of(positive_.begin(), positive_.end(), [&](const Poly& p) { return is(-p); })) factor_sign = -1;
-    if (factor_sign == 0 && !rooted) factor_sign = sign_over_box(factor.poly.plain(free), lower, upper);
+    if (factor_sign == 0 && !has_root(factor.poly)) factor_sign = sign_over_box(factor.poly.plain(free), lower, upper);
     if (factor_sign == 0)
       open *= factor.poly;
     else

@@ -50,47 +50,78 @@ constexpr std::size_t worth_an_image = 100000;
 /// Terms of a polynomial whose discriminant is no longer than what its factorisation makes.
 constexpr std::size_t short_enough = 200;
 
-/// Whether the image modulo a prime keeps every degree and is irreducible. Then so is the polynomial over Q: each of
-/// two factors keeps its degrees too, so that neither image is a constant. Irreducible polynomials with long
-/// coefficients are the slow ones to factor, since lifted factors recombine to nothing.
-bool irreducible_modulo(ulong prime, const fmpz_mpoly_struct* p, const Ring& ring) {
-  const slong variables = ring.size();
-  const fmpz_mpoly_ctx_struct* const whole = ring.context()->zctx;
+/// A number for a variable, the same in every run.
+ulong scattered(slong variable, ulong prime) {
+  nmod_t modulus;
+  nmod_init(&modulus, prime);
+  return nmod_pow_ui(1000003, static_cast<ulong>(variable) + 2, modulus);
+}
+
+/// Whether the image in two variables, or in one where they are the same, modulo a prime and with numbers for the
+/// others, keeps both degrees and is irreducible.
+bool is_irreducible_on_plane(const fmpz_mpoly_struct* p, const fmpz_mpoly_ctx_struct* whole,
+                             const std::array<slong, 2>& plane, ulong prime) {
+  const slong variables = fmpz_mpoly_ctx_nvars(whole);
   nmod_mpoly_ctx_t residues;
-  nmod_mpoly_ctx_init(residues, variables, ORD_LEX, prime);
+  nmod_mpoly_ctx_init(residues, 2, ORD_LEX, prime);
   nmod_mpoly_t image;
   nmod_mpoly_init(image, residues);
-  std::vector<ulong> exponents(static_cast<std::size_t>(variables));
+  std::vector<ulong> exponents(static_cast<std::size_t>(variables)), numbers(exponents.size());
+  for (slong v = 0; v < variables; ++v) numbers[static_cast<std::size_t>(v)] = scattered(v, prime);
   fmpz_t coefficient;
   fmpz_init(coefficient);
   for (slong term = 0; term < fmpz_mpoly_length(p, whole); ++term) {
     fmpz_mpoly_get_term_exp_ui(exponents.data(), p, term, whole);
     fmpz_mpoly_get_term_coeff_fmpz(coefficient, p, term, whole);
-    const ulong residue = fmpz_fdiv_ui(coefficient, prime);
-    if (residue != 0) nmod_mpoly_push_term_ui_ui(image, residue, exponents.data(), residues);
+    ulong residue = fmpz_fdiv_ui(coefficient, prime);
+    for (slong v = 0; v < variables; ++v) {
+      const auto i = static_cast<std::size_t>(v);
+      if (exponents[i] > 0 && v != plane[0] && v != plane[1])
+        residue = nmod_mul(residue, nmod_pow_ui(numbers[i], exponents[i], residues->mod), residues->mod);
+    }
+    const std::array<ulong, 2> kept = {exponents[static_cast<std::size_t>(plane[0])],
+                                       plane[0] == plane[1] ? 0 : exponents[static_cast<std::size_t>(plane[1])]};
+    if (residue != 0) nmod_mpoly_push_term_ui_ui(image, residue, kept.data(), residues);
   }
   fmpz_clear(coefficient);
-  bool keeps = true;
-  for (slong variable = 0; variable < variables; ++variable)
-    keeps = keeps && nmod_mpoly_degree_si(image, variable, residues) == fmpz_mpoly_degree_si(p, variable, whole);
+  nmod_mpoly_sort_terms(image, residues);
+  nmod_mpoly_combine_like_terms(image, residues);
+  bool irreducible =
+      nmod_mpoly_degree_si(image, 0, residues) == fmpz_mpoly_degree_si(p, plane[0], whole) &&
+      (plane[0] == plane[1] || nmod_mpoly_degree_si(image, 1, residues) == fmpz_mpoly_degree_si(p, plane[1], whole));
   nmod_mpoly_factor_t parts;
   nmod_mpoly_factor_init(parts, residues);
-  const bool factored = keeps && nmod_mpoly_factor(parts, image, residues) != 0;
-  const bool irreducible = factored && nmod_mpoly_factor_length(parts, residues) == 1 &&
-                           nmod_mpoly_factor_get_exp_si(parts, 0, residues) == 1;
+  irreducible = irreducible && nmod_mpoly_factor(parts, image, residues) != 0 &&
+                nmod_mpoly_factor_length(parts, residues) == 1 && nmod_mpoly_factor_get_exp_si(parts, 0, residues) == 1;
   nmod_mpoly_factor_clear(parts, residues);
   nmod_mpoly_clear(image, residues);
   nmod_mpoly_ctx_clear(residues);
   return irreducible;
 }
 
-/// True is certain; false says nothing.
+/// True is certain; false says nothing. Irreducible polynomials with long coefficients are the slow ones to factor,
+/// since lifted factors recombine to nothing.
+///
+/// Of two factors either both hold the variable x, and every image that keeps its degrees is a product; or one holds
+/// another variable v and not x, and the image in x and v is.
 bool is_seen_irreducible(const fmpz_mpoly_struct* p, const Ring& ring) {
+  const fmpz_mpoly_ctx_struct* const whole = ring.context()->zctx;
   const auto bits = static_cast<std::size_t>(std::abs(fmpz_mpoly_max_bits(p)));
-  if (bits * static_cast<std::size_t>(fmpz_mpoly_length(p, ring.context()->zctx)) < worth_an_image) return false;
+  if (bits * static_cast<std::size_t>(fmpz_mpoly_length(p, whole)) < worth_an_image) return false;
+  std::vector<slong> held;
+  for (slong v = 0; v < ring.size(); ++v)
+    if (fmpz_mpoly_degree_si(p, v, whole) > 0) held.push_back(v);
+  const auto x = std::min_element(held.begin(), held.end(), [&](slong a, slong b) {
+    return fmpz_mpoly_degree_si(p, a, whole) < fmpz_mpoly_degree_si(p, b, whole);
+  });
   // The largest below 2^62: most images of an irreducible polynomial are irreducible modulo a large prime.
   constexpr std::array<ulong, 2> primes = {4611686018427387847, 4611686018427387817};
-  return std::any_of(primes.begin(), primes.end(), [&](ulong prime) { return irreducible_modulo(prime, p, ring); });
+  return std::all_of(held.begin(), held.end(), [&](slong v) {
+    if (v == *x && held.size() > 1) return true;
+    return std::any_of(primes.begin(), primes.end(), [&](ulong prime) {
+      return is_irreducible_on_plane(p, whole, {*x, v}, prime);
+    });
+  });
 }
 
 }  // namespace

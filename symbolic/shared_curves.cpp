@@ -168,13 +168,11 @@ bool SharedCurves::place(Point& point) {
   for (auto pair = substitutions_.rbegin(); pair != substitutions_.rend(); ++pair) {
     const std::optional<Extension::Element> below = point.field.inverse(value(reduced(pair->place.w), point));
     if (!below) return false;
-    const auto put = [&](int variable, const Poly& numerator) {
-      if (variable >= 0)
-        point.at[static_cast<std::size_t>(variable)] = point.field.multiply(value(reduced(numerator), point), *below);
-    };
-    put(pair->x, pair->place.x);
-    put(pair->y, pair->place.y);
-    put(pair->z, pair->place.z);
+    std::vector<std::pair<int, Extension::Element>> parts;
+    for (const auto& [variable, numerator] :
+         {std::pair(pair->x, &pair->place.x), {pair->y, &pair->place.y}, {pair->z, &pair->place.z}})
+      if (variable >= 0) parts.emplace_back(variable, point.field.multiply(value(reduced(*numerator), point), *below));
+    for (auto& [variable, part] : parts) point.at[static_cast<std::size_t>(variable)] = std::move(part);
   }
   return true;
 }

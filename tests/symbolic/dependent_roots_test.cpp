@@ -137,6 +137,81 @@ TEST(Parallelogram, OnALegIsCutWhereThatLegLiesOnTheBase) {
   EXPECT_EQ(beside, 1);
 }
 
+// Over the tower the place of a closing point, put in by the formula of a dyad, has thousands of terms.
+TEST(Parallelogram, IsClosedByTheSumOfThreePoints) {
+  const mechanism::Mechanism m = mechanism::parse_mechanism(R"(format: 1
+name: Parallelogram on a five-bar
+workspace: {x: [-0.4, 0.9], y: [0.05, 0.9]}
+points:
+  A1: [0, 0]
+  A2: [0.5, 0]
+  P:  [x, y]
+  B1: {dyad: [A1, P], lengths: [0.5, 0.6], side: left}
+  B2: {dyad: [A2, P], lengths: [0.5, 0.6], side: right}
+  V:  {on: [B2, A2], offset: [0, 0.1]}
+  X:  {dyad: [V, P], lengths: [0.6, 0.1], side: right}
+links:
+  A1B1: {points: [A1, B1]}
+  B1P:  {points: [B1, P]}
+  A2B2: {points: [A2, B2, V]}
+  B2P:  {points: [B2, P]}
+  VX:   {points: [V, X]}
+  PX:   {points: [P, X]}
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true}
+  A2: {revolute: [ground, A2B2], at: A2, actuated: true}
+  B1: {revolute: [A1B1, B1P], at: B1}
+  B2: {revolute: [A2B2, B2P], at: B2}
+  P1: {revolute: [B1P, PX], at: P}
+  P2: {revolute: [B2P, PX], at: P}
+  V:  {revolute: [A2B2, VX], at: V}
+  X:  {revolute: [VX, PX], at: X}
+end_effector: {link: PX, at: P}
+)",
+                                                            "parallelogram.yaml");
+  const auto place = [&m](const Geometry& geometry, const char* name) -> const TowerPoint& {
+    const auto point = std::find_if(m.points.begin(), m.points.end(), [&](const auto& p) { return p.name == name; });
+    return geometry.tower(static_cast<mechanism::PointIndex>(point - m.points.begin()));
+  };
+  int closed = 0;
+  for (const int half : {1, -1}) {
+    const Geometry side(m, false, {}, {{}, {half}});
+    const TowerPoint &x = place(side, "X"), &v = place(side, "V"), &p = place(side, "P"), &b = place(side, "B2");
+    const Poly sum = (v.x * p.w + p.x * v.w) * b.w - b.x * v.w * p.w;
+    if (!side.reduce(x.x * v.w * p.w * b.w - x.w * sum).is_zero()) continue;
+    ++closed;
+    EXPECT_LT(x.x.length(), 20u);
+  }
+  EXPECT_EQ(closed, 1);
+}
+
+// Of a dyad on two others what is put in is shorter than its place, and the two steps make the place.
+TEST(DyadsOnOthers, ArePutInByStepsOfFewTerms) {
+  const mechanism::Mechanism m =
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/seven_bar_on_both_legs.yaml");
+  const Geometry geometry(m, false);
+  const ConstructedPoint& h = geometry.constructed().back();
+  const TowerPoint& place = geometry.tower(h.point);
+  Poly over = Poly::variable(geometry.ring(), h.x);
+  Poly below(geometry.ring(), 1);
+  for (const Substitution& pair : geometry.substitutions()) {
+    EXPECT_LT(pair.place.x.length(), place.x.length() / 2);
+    EXPECT_LT(pair.place.w.length(), place.x.length() / 2);
+    const int degree = Geometry::degree_in(over, pair);
+    over = geometry.substituted(over, pair, degree);
+    for (int i = 0; i < degree; ++i) below = geometry.reduce(below * pair.place.w);
+  }
+  EXPECT_TRUE(geometry.reduce(over * place.w - below * place.x).is_zero());
+}
+
+// The places of points are written in the chart of an angle: its cosine and sine beside it would be a variable too
+// many.
+TEST(Angles, ArePutInBeforePoints) {
+  const Geometry geometry(mechanism::read_mechanism(source_dir() + "/examples/klann_leg.yaml"), false);
+  EXPECT_EQ(geometry.substitutions().front().place.w,
+            Poly::variable(geometry.ring(), 0).pow(2) + Poly(geometry.ring(), 1));
+}
+
 // Most polynomials do not hold the point that folds: what one side has found is found on the other one, and it is what
 // that side finds alone.
 TEST(KnownEliminations, AreWhatEachSideFindsAlone) {

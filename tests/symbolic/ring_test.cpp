@@ -83,7 +83,12 @@ TEST_F(RingTest, LongCoefficientsLeaveFactorsAsTheyAre) {
                                    {cubic * (x * x + y * y.scaled(large) + number(5)), {1, 1}},
                                    {cubic * cubic, {2}},
                                    {line * line * (x.pow(2) + y.pow(2)), {2, 1}},
-                                   {everywhere_split, {1}}};
+                                   {everywhere_split, {1}},
+                                   // factors that hold variables of their own, and images that hold all
+                                   {cubic * (s.pow(3) + number(2)), {1, 1}},
+                                   {(x.pow(3) + number(2)) * (y.pow(3) + s.scaled(large) + number(3)), {1, 1}},
+                                   {cubic + (s.pow(2) * x).scaled(large), {1}},
+                                   {x.pow(2) - y.pow(2) * (s + number(1)).scaled(large), {1}}};
   for (const Case& c : cases) {
     Rational constant;
     const std::vector<PolyFactor> factors = c.product.factors(constant);
