@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string_view>
 
+#include "clearloci/exact_number.hpp"
 #include "workbench/server/refusal.hpp"
 
 namespace clearloci::workbench {
@@ -33,21 +33,6 @@ std::optional<std::string> bytes_of_base64(const std::string& text) {
     bytes += static_cast<char>(bits >> count & 0xffU);
   }
   return bytes;
-}
-
-/// "7/20", "0.35", "1e-3" as the exact number it is.
-std::optional<Rational> exact_number(const std::string& text) {
-  constexpr std::size_t longest = 200;
-  if (text.size() > longest) return std::nullopt;
-  const std::size_t slash = text.find('/');
-  try {
-    Rational value = core::rational_from_decimal(std::string_view(text).substr(0, slash));
-    if (slash == std::string::npos) return value;
-    const Rational below = core::rational_from_decimal(std::string_view(text).substr(slash + 1));
-    return below == 0 ? std::nullopt : std::optional(Rational(value / below));
-  } catch (const std::invalid_argument&) {
-    return std::nullopt;
-  }
 }
 
 }  // namespace
