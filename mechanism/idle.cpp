@@ -93,9 +93,6 @@ class OnLine {
     });
   }
 
-  /// Whether a vector is written as a way along the line.
-  bool is_along(const VectorExpression& v, PointIndex a, PointIndex b) const { return weight_on(v, a, b) == 0; }
-
  private:
   bool is_built_on(PointIndex point, PointIndex a, PointIndex b) const {
     if (point == a || point == b) return true;
@@ -184,29 +181,6 @@ void require_balance(const Mechanism& m, const Hanging& hanging, const OnLine& o
       }
 }
 
-/// Whether the links are two parts, each with one ball, of which one turns in the other about the line of the balls.
-bool has_two_spins(const Mechanism& m, const Hanging& hanging, const OnLine& on_line) {
-  constexpr std::size_t parts = 2;
-  if (hanging.links.size() != parts) return false;
-  const Joint &first = m.joints[hanging.first], &second = m.joints[hanging.second];
-  const auto is_on = [](const Joint& ball, LinkIndex link) { return ball.from == link || ball.to == link; };
-  const LinkIndex one = hanging.links[0], other = hanging.links[1];
-  if (!(is_on(first, one) && is_on(second, other)) && !(is_on(first, other) && is_on(second, one))) return false;
-  std::vector<const Joint*> between;
-  for (const Joint& joint : m.joints)
-    if (is_on(joint, one) && is_on(joint, other)) between.push_back(&joint);
-  const bool twisted = std::any_of(m.springs.begin(), m.springs.end(), [&](const Spring& spring) {
-    return spring.kind == Spring::Kind::torsion && holds(hanging.links, spring.from) && holds(hanging.links, spring.to);
-  });
-  return !twisted && between.size() == 1 && between.front()->type == JointType::cylindrical &&
-         on_line.is_along(between.front()->axes.front(), first.at, second.at);
-}
-
-void hold(const Mechanism& m, const Hanging& hanging, Joint& ball) {
-  ball.axes = {way(m.joints[hanging.first].at, m.joints[hanging.second].at)};
-  ball.type = JointType::universal;
-}
-
 }  // namespace
 
 void hold_idle_freedoms(Mechanism& m) {
@@ -217,27 +191,23 @@ void hold_idle_freedoms(Mechanism& m) {
   for (const Hanging& hanging : all) {
     require_balance(m, hanging, on_line);
     // The line moves: the ball that holds it is not one of the ground's, if there is another.
-    const bool both = has_two_spins(m, hanging, on_line);
     const Joint& first = m.joints[hanging.first];
     const bool grounded = first.from == ground || first.to == ground;
-    if (both || !grounded) hold(m, hanging, m.joints[hanging.first]);
-    if (both || grounded) hold(m, hanging, m.joints[hanging.second]);
+    Joint& held = m.joints[grounded ? hanging.second : hanging.first];
+    held.axes = {way(m.joints[hanging.first].at, m.joints[hanging.second].at)};
+    held.type = JointType::universal;
   }
 }
 
 std::vector<std::string> idle_notes(const Mechanism& m) {
   std::string lines, balls;
   // Not by the axis that was put in: in another frame it is written in coordinates.
-  for (const Hanging& hanging : hanging_on_two_balls(m)) {
-    bool held = false;
+  for (const Hanging& hanging : hanging_on_two_balls(m))
     for (const std::size_t ball : {hanging.first, hanging.second}) {
       if (!holds_idle_freedom(m.joints[ball])) continue;
-      held = true;
+      lines += (lines.empty() ? "" : ", ") + line_name(m, m.joints[hanging.first].at, m.joints[hanging.second].at);
       balls += (balls.empty() ? "" : ", ") + m.joints[ball].name;
     }
-    if (held)
-      lines += (lines.empty() ? "" : ", ") + line_name(m, m.joints[hanging.first].at, m.joints[hanging.second].at);
-  }
   std::vector<std::string> notes = notes_of_spring_ends(m);
   if (!lines.empty())
     notes.insert(notes.begin(), "links between two ball joints may rotate about the line through these (" + lines +
