@@ -80,10 +80,6 @@ class PoseRangeCheck {
             return candidate.from < point.at && point.at < candidate.to;
           }))
         throw FalseClaim("points: one is where no locus is, at " + place(point.at, point.at));
-      if (std::count_if(mode.points.begin(), mode.points.end(), [&](const auto& other) {
-            return other.kind == point.kind && other.at == point.at && other.vanishing == point.vanishing;
-          }) > 1)
-        throw FalseClaim(words_of(point) + " is listed twice");
     }
   }
 

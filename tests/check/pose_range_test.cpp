@@ -93,7 +93,6 @@ TEST(PoseRangeCertificate, IsRejectedWhereAClaimIsMadeFalse) {
       {"what vanishes of no joint", [&](Json& c) { point_of(mode(c), "backlash")["vanishing"][0][0] = "ZZ"; }},
       {"a reaction that vanishes and is left out",
        [&](Json& c) { point_of(mode(c), "contact-loss")["vanishing"].erase(0); }},
-      {"a point that is there twice", [&](Json& c) { mode(c)["points"].push_back(mode(c)["points"][0]); }},
       {"nothing that vanishes", [&](Json& c) { point_of(mode(c), "backlash")["vanishing"] = Json::array(); }},
       {"a zero of a reaction that keeps its sign",
        [&](Json& c) {
