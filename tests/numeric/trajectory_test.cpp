@@ -444,7 +444,7 @@ std::string refusal(const std::string& mechanism, const std::string& law, int co
 TEST(Samples, SkipNoLimitBetweenThem) {
   const std::string four_bar = R"(format: 1
 workspace: {q: {angle: [-720 deg, 720 deg]}}
-points: {A: [0, 0], D: [0.5, 0], B: '[0.1*cos(q), 0.1*sin(q)]', C: {dyad: [B, D], lengths: [0.45, 0.3], side: left}}
+points: {A: [0, 0], D: [0.5, 0], B: [0.1*cos(q), 0.1*sin(q)], C: {dyad: [B, D], lengths: [0.45, 0.3], side: left}}
 links: {AB: {points: [A, B]}, BC: {points: [B, C]}, CD: {points: [C, D], mass: 1}}
 joints:
   A: {revolute: [ground, AB], at: A, actuated: true}
