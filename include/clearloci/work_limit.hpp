@@ -1,7 +1,7 @@
 // A limit of the caller's for work whose request takes none: algebra, whose single steps are short and whose whole may
 // take hours.
-//     const clearloci::WorkLimit limit(deadline, [&] { return cancelled.load(); });
-//     const clearloci::LocusMap map = clearloci::trace_loci(model, request);
+//     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+//     const clearloci::WorkLimit limit(deadline, [] { return false; });
 #pragma once
 
 #include <chrono>
