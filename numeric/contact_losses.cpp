@@ -7,15 +7,13 @@
 #include <limits>
 
 #include "mechanism/guide.hpp"
+#include "numeric/peak.hpp"
 
 namespace clearloci::numeric {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Part of the period to which an instant is located: 1e-12 s for a period of a second, well within the promised 1e-9.
-constexpr double located = 1e-12;
 
 /// A scalar of the cycle with its derivative by τ.
 struct Value {
@@ -275,16 +273,6 @@ void consider_seams(const Motion& motion, const std::vector<std::vector<Instant>
         stage = {period, static_cast<int>(j), core::Quantity::f, after.tau, after.distance.value()};
     }
   }
-}
-
-/// The point of [a, b] where a function with one peak is greatest: thirds, until they are one.
-double peak(const std::function<double(double)>& g, double a, double b) {
-  while (b - a > located) {
-    const double p = a + (b - a) / 3, q = b - (b - a) / 3;
-    const bool rises = g(p) < g(q);
-    (rises ? a : b) = rises ? p : q;
-  }
-  return (a + b) / 2;
 }
 
 /// The largest loss_period of one joint over an interval.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/errors.hpp"
 #include "core/shown_units.hpp"
@@ -12,6 +11,7 @@
 #include "mechanism/joint_traits.hpp"
 #include "numeric/group_solution.hpp"
 #include "numeric/instant_equations.hpp"
+#include "numeric/peak.hpp"
 
 namespace clearloci::numeric {
 namespace {
@@ -241,24 +241,14 @@ class BetweenSamples {
                            "move the waypoints, or choose another working mode");
   }
 
-  /// By thirds, until nothing is gained.
   double least_between(std::size_t room, double a, double b) const {
-    constexpr int most = 60;
-    const std::size_t interval = instants_.front().interval;
     const auto at = [&](double tau) {
-      const Instant between = instant(motion_, interval, tau);
+      const Instant between = instant(motion_, instants_.front().interval, tau);
       const double value = left(room, between);
       if (room == between.rooms.size() && value < 0) throw_singular(motion_, between);
       return value;
     };
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < most; ++k) {
-      const double p = a + (b - a) / 3, q = b - (b - a) / 3;
-      const double first = at(p), second = at(q);
-      least = std::min({least, first, second});
-      (first < second ? b : a) = first < second ? q : p;
-    }
-    return least;
+    return at(peak([&](double tau) { return -at(tau); }, a, b));
   }
 
   const Motion& motion_;
