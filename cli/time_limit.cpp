@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "clearloci/work_limit.hpp"
 #include "cli/program.hpp"
 #include "cli/standard_streams.hpp"
 #include "core/errors.hpp"
@@ -17,8 +18,6 @@
 namespace clearloci::cli {
 namespace {
 
-using Seconds = std::chrono::duration<double>;
-
 /// How long work that was asked to end may take to do so and to write its files, before it is ended. With it a limit
 /// is kept within twice its time, or a second where that is longer.
 double grace(double limit) {
@@ -26,19 +25,14 @@ double grace(double limit) {
   return std::max(least_in_all - limit, std::min(part * limit, most));
 }
 
-TimeLimit::Clock::time_point after(TimeLimit::Clock::time_point start, double seconds) {
-  return start + std::chrono::duration_cast<TimeLimit::Clock::duration>(Seconds(seconds));
-}
-
 }  // namespace
 
 TimeLimit::TimeLimit(const CommonArguments& arguments) : text_(arguments.time_limit) {
   if (text_.empty()) return;
   const double limit = core::to_double(parse_positive(text_, "--time-limit", mechanism::Mechanism{}));
-  constexpr double century = 3e9;  // beyond, the clock's ticks would overflow
-  if (limit >= century) return;
-  deadline_ = after(arguments.started, limit);
-  watcher_ = std::thread(&TimeLimit::watch, this, after(arguments.started, limit + grace(limit)));
+  if (limit >= core::longest_time_limit) return;
+  deadline_ = core::deadline_after(arguments.started, limit);
+  watcher_ = std::thread(&TimeLimit::watch, this, core::deadline_after(arguments.started, limit + grace(limit)));
 }
 
 TimeLimit::~TimeLimit() { stop(); }

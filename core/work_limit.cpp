@@ -1,5 +1,6 @@
 #include "clearloci/work_limit.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace clearloci::inline core {
@@ -9,6 +10,11 @@ thread_local WorkLimit* innermost = nullptr;
 thread_local unsigned calls = 0;
 
 }  // namespace
+
+std::chrono::steady_clock::time_point deadline_after(std::chrono::steady_clock::time_point begun, double seconds) {
+  const std::chrono::duration<double> limit(std::min(seconds, longest_time_limit));
+  return begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(limit);
+}
 
 WorkLimit::WorkLimit(std::chrono::steady_clock::time_point deadline, std::function<bool()> abandoned)
     : deadline_(deadline), abandoned_(std::move(abandoned)), outer_(std::exchange(innermost, this)) {}

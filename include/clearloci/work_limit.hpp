@@ -11,6 +11,10 @@
 
 namespace clearloci::inline core {
 
+/// Seconds after a time. More than a century is a century: beyond it the clock's ticks would overflow.
+constexpr double longest_time_limit = 3e9;
+std::chrono::steady_clock::time_point deadline_after(std::chrono::steady_clock::time_point begun, double seconds);
+
 /// While it lives, `check` of this thread ends what runs beyond the deadline, or is no longer wanted.
 class WorkLimit {
  public:

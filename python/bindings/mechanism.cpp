@@ -7,6 +7,7 @@
 #include "clearloci/import.hpp"
 #include "clearloci/normalize.hpp"
 #include "clearloci/sketch.hpp"
+#include "clearloci/work_limit.hpp"
 
 namespace clearloci::python {
 namespace {
@@ -152,12 +153,9 @@ LociRequest request_of(const Model& model, const py::kwargs& options) {
         refuse(name, "unknown engine '" + value.cast<std::string>() + "'", "adaptive-then-exact, exact or adaptive");
       request.engine = *engine;
     } else if (name == "time_limit") {
-      constexpr double century = 3e9;  // s; beyond, the clock's ticks would overflow
-      const double seconds = std::min(finite(value, name), century);
+      const double seconds = finite(value, name);
       if (seconds <= 0) refuse(name, "a time limit is above zero", "give seconds");
-      request.deadline =
-          std::chrono::steady_clock::now() +
-          std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+      request.deadline = deadline_after(std::chrono::steady_clock::now(), seconds);
     } else {
       throw py::type_error("unexpected keyword argument '" + name + "'");
     }

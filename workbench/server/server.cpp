@@ -196,9 +196,7 @@ HttpAnswer Server::Parts::answer_question(const std::string& name, const Json& b
   const std::string lane = fields.text("lane", name);
   const std::unique_ptr<Lanes::Turn> turn = lanes.enter(client + "/" + name + "/" + client_of(lane));
   // Quick answers come without: a page that is told of everything has nothing else to do.
-  constexpr double century = 3e9;  // beyond, the clock's ticks would overflow
-  const std::chrono::duration<double> limit_of_time(std::min(options.time_limit, century));
-  const Watch watch{.deadline = begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(limit_of_time),
+  const Watch watch{.deadline = deadline_after(begun, options.time_limit),
                     .abandoned = [this, &turn] { return turn->abandoned() || stopping; },
                     .progress =
                         [&, begun](double fraction, std::string_view stage) {
