@@ -139,36 +139,7 @@ TEST(Parallelogram, OnALegIsCutWhereThatLegLiesOnTheBase) {
 
 // Over the tower the place of a closing point, put in by the formula of a dyad, has thousands of terms.
 TEST(Parallelogram, IsClosedByTheSumOfThreePoints) {
-  const mechanism::Mechanism m = mechanism::parse_mechanism(R"(format: 1
-name: Parallelogram on a five-bar
-workspace: {x: [-0.4, 0.9], y: [0.05, 0.9]}
-points:
-  A1: [0, 0]
-  A2: [0.5, 0]
-  P:  [x, y]
-  B1: {dyad: [A1, P], lengths: [0.5, 0.6], side: left}
-  B2: {dyad: [A2, P], lengths: [0.5, 0.6], side: right}
-  V:  {on: [B2, A2], offset: [0, 0.1]}
-  X:  {dyad: [V, P], lengths: [0.6, 0.1], side: right}
-links:
-  A1B1: {points: [A1, B1]}
-  B1P:  {points: [B1, P]}
-  A2B2: {points: [A2, B2, V]}
-  B2P:  {points: [B2, P]}
-  VX:   {points: [V, X]}
-  PX:   {points: [P, X]}
-joints:
-  A1: {revolute: [ground, A1B1], at: A1, actuated: true}
-  A2: {revolute: [ground, A2B2], at: A2, actuated: true}
-  B1: {revolute: [A1B1, B1P], at: B1}
-  B2: {revolute: [A2B2, B2P], at: B2}
-  P1: {revolute: [B1P, PX], at: P}
-  P2: {revolute: [B2P, PX], at: P}
-  V:  {revolute: [A2B2, VX], at: V}
-  X:  {revolute: [VX, PX], at: X}
-end_effector: {link: PX, at: P}
-)",
-                                                            "parallelogram.yaml");
+  const mechanism::Mechanism m = corpus("parallelogram_under_coupler");
   const auto place = [&m](const Geometry& geometry, const char* name) -> const TowerPoint& {
     const auto point = std::find_if(m.points.begin(), m.points.end(), [&](const auto& p) { return p.name == name; });
     return geometry.tower(static_cast<mechanism::PointIndex>(point - m.points.begin()));

@@ -141,45 +141,14 @@ loads:
   - {link: PB2, at: P, force: [0, -100]}
 )";
 
-/// The coupler bears a parallelogram, which keeps to one of two forms on either side of its fold; all links are heavy.
-constexpr const char* parallelogram = R"(format: 1
-name: Parallelogram on a five-bar
-space: planar
-workspace: {x: [-0.4, 0.9], y: [0.05, 0.9]}
-points:
-  A1: [0, 0]
-  A2: [0.5, 0]
-  P:  [x, y]
-  B1: {dyad: [A1, P], lengths: [0.5, 0.6], side: left}
-  B2: {dyad: [A2, P], lengths: [0.5, 0.6], side: right}
-  V:  {on: [B2, A2], offset: [0, 0.1]}
-  X:  {dyad: [V, P], lengths: [0.6, 0.1], side: right}
-links:
-  A1B1: {points: [A1, B1], mass: 1}
-  B1P:  {points: [B1, P], mass: 1.2}
-  A2B2: {points: [A2, B2, V], mass: 0.9}
-  B2P:  {points: [B2, P], mass: 1.1}
-  VX:   {points: [V, X], mass: 0.8}
-  PX:   {points: [P, X], mass: 0.7}
-joints:
-  A1: {revolute: [ground, A1B1], at: A1, actuated: true}
-  A2: {revolute: [ground, A2B2], at: A2, actuated: true}
-  B1: {revolute: [A1B1, B1P], at: B1}
-  B2: {revolute: [A2B2, B2P], at: B2}
-  P1: {revolute: [B1P, PX], at: P}
-  P2: {revolute: [B2P, PX], at: P}
-  V:  {revolute: [A2B2, VX], at: V}
-  X:  {revolute: [VX, PX], at: X}
-end_effector: {link: PX, at: P}
-gravity: [0, -9.81]
-loads:
-  - {link: PX, at: P, force: [30, -100]}
-)";
+mechanism::Mechanism parallelogram() {
+  return mechanism::read_mechanism(source_dir() + "/tests/corpus/modes/parallelogram_under_coupler.yaml");
+}
 
 class StraightLineForms : public testing::TestWithParam<std::string> {
  protected:
   static mechanism::Mechanism mechanism() {
-    if (GetParam() == "parallelogram") return mechanism::parse_mechanism(parallelogram, "parallelogram.yaml");
+    if (GetParam() == "parallelogram") return parallelogram();
     if (GetParam() == "seven_bar") return mechanism::parse_mechanism(seven_bar, "seven_bar.yaml");
     if (GetParam() == "seven_bar_on_both_legs" || GetParam() == "five_bar_two_dyads_stacked" ||
         GetParam() == "five_bar_three_dyads_stacked")
@@ -285,8 +254,7 @@ TEST(StraightLinesOfTowers, AreShort) {
 // nothing is divided by what vanishes on the fold.
 TEST(StraightLinesOfTowers, AreKnownOfWhatAFoldLeaves) {
   std::size_t left = 0;
-  const std::vector<DerivedProblem> sides =
-      locus_problems(mechanism::parse_mechanism(parallelogram, "parallelogram.yaml"), {});
+  const std::vector<DerivedProblem> sides = locus_problems(parallelogram(), {});
   ASSERT_EQ(sides.size(), 2u);
   for (const DerivedProblem& side : sides) {
     std::size_t longest = 0;
