@@ -350,7 +350,6 @@ void add_zones(const mechanism::Mechanism& mechanism, TowerVerifier& verifier, V
     result.map.loci = empty_map(mechanism);
     if (result.notes.empty()) result.notes.emplace_back("the loci could not be traced within the time limit");
   }
-  result.mode = mode_of(verifier.sides(), result.map.loci.tower);
   if (!result.verified() || result.task.loads) return;
   const Point2 at = loci::TaskRegion(result.task.shape).samples().front();
   for (const core::Zone& zone : result.map.zones)
@@ -427,12 +426,11 @@ Verification verify_by_tower(const mechanism::Mechanism& mechanism, const Task& 
   TowerVerifier verifier(mechanism, task, request.loci);
   Verification result =
       request.depth == VerifyDepth::everything ? verifier.verify(task) : verifier.decide(task, request.depth);
-  if (request.depth == VerifyDepth::everything) {
+  if (request.depth == VerifyDepth::everything)
     add_zones(mechanism, verifier, result);
-  } else {
+  else
     result.map.loci = empty_map(mechanism);  // the box and its units, for a picture without loci
-    result.mode = mode_of(verifier.sides(), result.map.loci.tower);
-  }
+  result.mode = mode_of(verifier.sides(), result.map.loci.tower);
   return result;
 }
 
