@@ -273,6 +273,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                                   {.most_cells = most_cells,
                                    .special = std::move(stars),
                                    .also = {functions.begin() + 2, functions.end()},
+                                   .touches = true,
                                    .stop = stop,
                                    .searches = known_searches});
   });
@@ -310,10 +311,20 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       map.out_of_time = true;
       return;
     }
+    // Whether the force vanishes at a double zero of its components, no enclosure tells.
+    std::vector<sheet::PlaneCell> undecided = found.undecided;
+    for (const sheet::SheetZero& touch : found.touches) {
+      if (!vanishes_at(problem, mode, factors, touch)) continue;
+      if (on_direct_singularity(problem, mode, touch))
+        add_without_limit({touch.x, touch.y});
+      else
+        undecided.push_back(
+            {{touch.x - touch.radius, touch.x + touch.radius}, {touch.y - touch.radius, touch.y + touch.radius}});
+    }
     // An undecided cell in which Newton's method finds a point shows that point, and stays an open place besides.
     std::size_t open = 0;
     sheet::PlaneCell hull;
-    for (const sheet::PlaneCell& cell : found.undecided) {
+    for (const sheet::PlaneCell& cell : undecided) {
       const core::Point2 centre = middle_of(cell);
       const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
       auto at = newton(problem.tower, mode, factors.system[0]->sheet, factors.system[1]->sheet, centre, reach);

@@ -88,7 +88,7 @@ void Tracer::cut_in_patches(const SheetFunction& cutter, const Cut& cut, const P
     const FoundZeros found = ZeroSearch(program, own_.mode, {})
                                  .run(seeds, {smallest_cut * size, cut_cells(), 1e-13 * size, options_.stop, &touches});
     std::vector<PlaneCell> open = found.undecided;
-    for (const std::vector<Interval>& place : found.touches) open.push_back({place[0], place[1]});
+    for (const Touch& touch : found.touches) open.push_back({touch.enclosure[0], touch.enclosure[1]});
     for (const std::vector<Interval>& zero : found.enclosures)
       if (!cut_stretch(graph_, static_cast<int>(p), zero, crossing_of(cut))) open.push_back({zero[0], zero[1]});
     for (const PlaneCell& cell : clusters(std::move(open)))
@@ -194,8 +194,8 @@ void Tracer::cut_on_both(const Subtower& both, const Cut& cut, const Partition& 
     TouchSearch touches(sheet.tower, sheet.functions, both.mode, size);
     const FoundZeros found = ZeroSearch(program, both.mode, {})
                                  .run(seeds, {smallest_cut * size, cut_cells(), 1e-13 * size, options_.stop, &touches});
-    for (const std::vector<Interval>& place : found.touches) {
-      const PlaneCell cell = {place[0], place[1]};
+    for (const Touch& touch : found.touches) {
+      const PlaneCell cell = {touch.enclosure[0], touch.enclosure[1]};
       if (!at_star(chart, cell)) open.push_back(chart.to_plane(cell));
     }
     for (const PlaneCell& cell : found.undecided)

@@ -19,6 +19,13 @@ constexpr int share_after_giving_up = 8;
 // Of the box: a zero this near to a cone counts as the cone.
 constexpr double at_rounding = 1e-12;
 
+// Of the smallest cell: zeros this near to a place where the curves touch, or all but do, count as one with it; cells
+// that are wider are seldom left by a touch alone.
+constexpr double one_touch = 100, widest_at_touch = 1e7;
+
+// Relative to coordinates: cells are not cut until they hold no doubles.
+constexpr double roundings = 0x1p-49;
+
 /// The direction from end to end is, so that roots vanish; at nodes of a function alone none do. Of a cone that a
 /// boundary runs through they vanish with the second power at least.
 bool is_undefined_at(const Star& star) {
@@ -67,6 +74,7 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
   System system;
   for (int f = 2; f < static_cast<int>(functions.size()); ++f) system.also.push_back(f);
   Charting charting(tower, functions, parts.stars);
+  const double spacing = roundings * std::max(box_x.magnitude(), box_y.magnitude());
   for (const Chart& chart : parts.charts) {
     const bool plane = chart.side == Chart::Side::plane;
     const ChartedSheet sheet = charting.in(chart);
@@ -74,28 +82,37 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
     ZeroSearch search(program, mode, system);
     const std::vector<PlaneCell> seeds = plane ? outside_holes(parts) : std::vector<PlaneCell>{{{0, 1}, {-1, 1}}};
     const double chart_size = plane ? size : 1.0;
+    TouchSearch touches(sheet.tower, {sheet.functions[0], sheet.functions[1]}, mode, chart_size,
+                        one_touch * options.smallest);
     const FoundZeros found = search.run(
         seeds,
-        {options.smallest * chart_size,
+        {std::max(options.smallest * chart_size, plane ? spacing : 0.0),
          static_cast<std::size_t>(result.gave_up ? options.most_cells / share_after_giving_up : options.most_cells),
-         2e-15 * size, options.stop});
+         2e-15 * size, options.stop, options.touches ? &touches : nullptr,
+         widest_at_touch * options.smallest * chart_size});
     result.gave_up = result.gave_up || found.gave_up;
     for (const PlaneCell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
-    for (const std::vector<Interval>& enclosure : found.enclosures) {
+    const auto add = [&](const std::vector<Interval>& enclosure, std::vector<SheetZero>& list) {
       const PlaneCell place = chart.to_plane(PlaneCell{enclosure[0], enclosure[1]});
-      if (disjoint(place.x, box_x) || disjoint(place.y, box_y)) continue;
+      if (disjoint(place.x, box_x) || disjoint(place.y, box_y)) return;
       const SheetZero zero = describe(enclosure, chart, parts.stars);
       if (!plane && enclosure[0].contains_zero()) {
         const bool at_cone = is_undefined_at(parts.stars[static_cast<std::size_t>(chart.star)]) &&
                              std::max(place.x.width(), place.y.width()) <= at_rounding * size;
         (at_cone ? result.at_cones : result.undecided).push_back(place);
-        continue;
+        return;
       }
       // A zero on the seam of two charts is found in both.
-      const bool seen = std::any_of(result.zeros.begin(), result.zeros.end(), [&](const SheetZero& other) {
+      const bool seen = std::any_of(list.begin(), list.end(), [&](const SheetZero& other) {
         return std::max(std::abs(other.x - zero.x), std::abs(other.y - zero.y)) <= other.radius + zero.radius;
       });
-      if (!seen) result.zeros.push_back(zero);
+      if (!seen) list.push_back(zero);
+    };
+    for (const std::vector<Interval>& enclosure : found.enclosures) add(enclosure, result.zeros);
+    for (const Touch& touch : found.touches) {
+      std::vector<Interval> around = touch.enclosure;
+      for (const std::size_t c : {0u, 1u}) around[c] = around[c] + Interval(-touch.reach, touch.reach);
+      add(around, result.touches);
     }
   }
   result.undecided = clusters(std::move(result.undecided));
@@ -113,6 +130,7 @@ ZeroSet isolated_zeros(const core::RootTower& tower, const core::WorkingMode& mo
   KnownSearches::Key key =
       KnownSearches::key(KnownSearches::Key::Kind::zeros, tower, mode, lower, upper, options.special);
   key.numbers.push_back(options.most_cells);
+  key.numbers.push_back(options.touches ? 1 : 0);
   for (const int half : std::bit_cast<std::array<int, 2>>(options.smallest)) key.numbers.push_back(half);
   key.polynomials.push_back(first.polynomial);
   key.polynomials.push_back(second.polynomial);

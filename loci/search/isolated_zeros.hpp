@@ -21,12 +21,13 @@ struct SheetZero {
 };
 
 struct ZeroOptions {
-  double smallest = 1e-9;  ///< width, relative to the box, below which a cell is left undecided
-  int most_cells = 4096;   ///< live cells of one size: more of them mean that N1 and N2 share a curve
+  double smallest = 1e-12;  ///< width, relative to the box, below which a cell is left undecided
+  int most_cells = 4096;    ///< live cells of one size: more of them mean that N1 and N2 share a curve
   /// Stars besides the cones at rational points and the touches of the tower.
   std::vector<Star> special = {};
   /// Further functions: what is known not to be a zero of each of them is left out. A zero in the set need not be one.
   std::vector<SheetFunction> also = {};
+  bool touches = false;               ///< tell places at which N1 = 0 and N2 = 0 touch, which stay undecided otherwise
   std::function<bool()> stop = {};    ///< asked now and then; true: leave the rest undecided
   KnownSearches* searches = nullptr;  ///< where the set is looked up and kept; may be null
 };
@@ -35,7 +36,10 @@ struct ZeroOptions {
 inline constexpr int cells_of_a_sketch = 256;
 
 struct ZeroSet {
-  std::vector<SheetZero> zeros;      ///< sorted by x, then y
+  std::vector<SheetZero> zeros;  ///< sorted by x, then y
+  /// Places at which N1 = 0 and N2 = 0 touch, or cross twice within the radius, or pass one another. Each holds all
+  /// that there is around it.
+  std::vector<SheetZero> touches;
   std::vector<PlaneCell> undecided;  ///< hulls of clusters of cells that may hold further zeros
   /// One zero each, which cannot be told from a cone to rounding: there the construction is undefined, and all
   /// functions may vanish in one direction.

@@ -15,8 +15,6 @@ constexpr int most_steps = 30;
 // Newton's method ends at steps this small, relative to the region; it has failed where it leads out of the cell by
 // more of its widths.
 constexpr double converged = 1e-11, most_widths = 4;
-// Zeros this near to the extremum, relative to the region, count as one point with it.
-constexpr double one_point = 1e-6;
 // Of the enclosure of an extremum, relative to the region.
 constexpr double accuracy = 1e-13;
 // The box reaches this many times farther than the cell; wide ones settle more, narrow ones are proven where wide ones
@@ -96,11 +94,13 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
   const Interval main = cell.tangent(0, along);
   if (main.sign() == 0) return std::nullopt;
   Interval bend(0.0);
+  double steepest = 1;  // of the ways in x and y beside the one along the curve
   const double half = box[static_cast<std::size_t>(along)].upper() - at[static_cast<std::size_t>(along)];
   for (int d = 0; d < cell.dimension(); ++d) {
     const Interval interval = d == along ? main : cell.tangent(0, d);
     bend = bend + cell.slope(2, d) * interval;
     if (d == along) continue;
+    if (d < 2) steepest = std::max(steepest, (interval * inverse(main)).magnitude());
     // The extremum is somewhere in the image: from there the curve has this much room, and so far to go.
     const Interval& place = image[static_cast<std::size_t>(d)];
     const Interval& range = box[static_cast<std::size_t>(d)];
@@ -120,18 +120,35 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
   narrow(cell, tangents, box, lifted, accuracy * size_, enclosure);
   if (!cell.enter_local(enclosure, lifted)) return std::nullopt;
   cell.differentiate();
-  const Interval value = cell.centred(1);
+  const Interval value = value_on_curve();
   Touch touch;
   touch.box = box;
   if (value.sign() != 0 && value.sign() == least) return touch;
-  if (!(std::sqrt(value.magnitude() * reach_squared) <= one_point * size_)) return std::nullopt;
+  const double way = std::sqrt(value.magnitude() * reach_squared);
+  if (!(way <= one_point_ * size_)) return std::nullopt;
+  touch.reach = way * steepest;
   for (std::size_t l = 0; l < lifted.size(); ++l)
     if (const int sign = mode_[static_cast<std::size_t>(lifted[l])];
-        enclosure[2 + l].sign() == -sign && enclosure[2 + l].mignitude() > one_point * size_)
+        enclosure[2 + l].sign() == -sign && enclosure[2 + l].mignitude() > one_point_ * size_)
       return touch;  // on another sheet
   touch.enclosure = {enclosure[0], enclosure[1]};
   for (int j = 0; j < cell.program().roots(); ++j) touch.enclosure.push_back(cell.root(j));
   return touch;
+}
+
+/// Of g in what the cell is in, where f = 0. Gradients are parallel where the curves touch, so that g - c f hardly
+/// varies there.
+Interval TouchSearch::value_on_curve() {
+  SheetCell& cell = *cell_;
+  const Interval plain = cell.centred(1);
+  if (!cell.lifted().empty()) return plain;
+  cell.sharpen_middle();
+  const int steeper = std::abs(cell.slope(0, 0).middle()) > std::abs(cell.slope(0, 1).middle()) ? 0 : 1;
+  const Interval c = cell.slope(1, steeper).middle() / cell.slope(0, steeper).middle();
+  Interval value = cell.middle_value(1) - c * cell.middle_value(0);
+  for (int d = 0; d < 2; ++d)
+    value = value + (cell.slope(1, d) - c * cell.slope(0, d)) * (cell.local(d) - Interval(cell.middle(d)));
+  return meet(value, plain);
 }
 
 }  // namespace clearloci::loci::sheet

@@ -21,13 +21,16 @@ namespace clearloci::loci::sheet {
 struct Touch {
   std::vector<Interval> box;        ///< in local coordinates
   std::vector<Interval> enclosure;  ///< of (x, y, s1...sm) where the curves touch; none: they do not meet in the box
+  double reach = 0;                 ///< from there, of all places in the box where they meet, in x and in y
 };
 
 class TouchSearch {
  public:
-  /// `size`: of the coordinates. Nothing is computed before it is asked for.
-  TouchSearch(core::RootTower tower, std::vector<SheetFunction> two, core::WorkingMode mode, double size)
-      : tower_(std::move(tower)), two_(std::move(two)), mode_(std::move(mode)), size_(size) {}
+  /// `size`: of the coordinates. `one_point`: zeros this near to the extremum, relative to it, count as one point with
+  /// it. Nothing is computed before it is asked for.
+  TouchSearch(core::RootTower tower, std::vector<SheetFunction> two, core::WorkingMode mode, double size,
+              double one_point = 1e-6)
+      : tower_(std::move(tower)), two_(std::move(two)), mode_(std::move(mode)), size_(size), one_point_(one_point) {}
 
   /// A box that holds the cell, given in the local coordinates with the lifted roots, and where the curves touch in it.
   /// None: nothing is proven.
@@ -38,11 +41,12 @@ class TouchSearch {
   std::optional<std::vector<double>> extremum(const std::vector<Interval>& cell, const std::vector<int>& lifted);
   std::optional<Touch> settle(const std::vector<double>& at, const std::vector<Interval>& box, int along,
                               const std::vector<int>& lifted);
+  Interval value_on_curve();
 
   core::RootTower tower_;
   std::vector<SheetFunction> two_;
   core::WorkingMode mode_;
-  double size_;
+  double size_, one_point_;
   std::optional<SheetProgram> program_;
   std::optional<SheetCell> cell_;
 };

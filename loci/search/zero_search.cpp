@@ -108,8 +108,10 @@ void ZeroSearch::give_up(std::vector<Box>& live) {
     state.live = 0;
   }
   for (const Box& box : live) ++states_[box.search].live;
-  is_smooth_worthwhile_ =
-      is_smooth_worthwhile_ || (live.size() > many_live_cells && is_second_look_worthwhile(*program_));
+  if (!is_smooth_worthwhile_ && live.size() > many_live_cells && is_second_look_worthwhile(*program_)) {
+    is_smooth_worthwhile_ = true;
+    return;  // what it leaves of these is not known yet
+  }
   // Along a curve each halving leaves at least four in three; where fewer are left the end is near.
   const auto has_too_many = [&](const Box& box) {
     const State& state = states_[box.search];
@@ -128,8 +130,7 @@ FoundZeros ZeroSearch::found(State& state) {
   FoundZeros result;
   result.gave_up = state.gave_up;
   result.undecided = std::move(state.undecided);
-  for (CertifiedZero& touch : state.settled)
-    if (!touch.enclosure.empty()) result.touches.push_back(std::move(touch.enclosure));
+  result.touches = std::move(state.touches);
   for (CertifiedZero& zero : state.zeros) result.enclosures.push_back(std::move(zero.enclosure));
   return result;
 }
@@ -330,7 +331,8 @@ void ZeroSearch::settle(Candidate& candidate, std::vector<Box>& next) {
 bool ZeroSearch::settle_touch(const Box& box, const std::vector<Interval>& roots, const std::vector<int>& lifted) {
   const PlaneCell& cell = box.cell;
   State& state = states_[box.search];
-  if (limits_.touches == nullptr || width(cell) > worth_a_touch * limits_.smallest) return false;
+  if (limits_.touches == nullptr || width(cell) > std::min(worth_a_touch * limits_.smallest, limits_.widest_at_touch))
+    return false;
   if (state.touch_trials++ >= most_touch_trials) return false;
   std::vector<Interval> local = {cell.x, cell.y};
   for (const int j : lifted) local.push_back(roots[static_cast<std::size_t>(j)]);
@@ -339,8 +341,8 @@ bool ZeroSearch::settle_touch(const Box& box, const std::vector<Interval>& roots
   const bool is_settled = std::any_of(state.settled.begin(), state.settled.end(), [&](const CertifiedZero& other) {
     return !touch->enclosure.empty() && owns(other, touch->enclosure);
   });
-  if (is_settled) touch->enclosure.clear();
-  state.settled.push_back({lifted, std::move(touch->box), std::move(touch->enclosure)});
+  state.settled.push_back({lifted, touch->box, touch->enclosure});
+  if (!touch->enclosure.empty() && !is_settled) state.touches.push_back(std::move(*touch));
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,7 +20,7 @@ std::vector<PlaneCell> clusters(std::vector<PlaneCell> cells);
 struct FoundZeros {
   std::vector<std::vector<Interval>> enclosures;  ///< of (x, y, s1...sm), one a zero, in the order found
   /// Where the two curves touch, or come so near to touching that they cross twice in what counts as one point.
-  std::vector<std::vector<Interval>> touches;
+  std::vector<Touch> touches;
   std::vector<PlaneCell> undecided;
   bool gave_up = false;
 };
@@ -37,6 +38,8 @@ class ZeroSearch {
     double accuracy;                  ///< width of enclosures that is worth multi-precision to get below
     std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
     TouchSearch* touches = nullptr;   ///< settles places where the curves touch; none: they stay undecided
+    /// Of a cell next to a touch: in wider ones none is looked for.
+    double widest_at_touch = std::numeric_limits<double>::infinity();
   };
 
   /// All zeros in the seeds, which are thin in the coordinates that are not free.
@@ -66,6 +69,7 @@ class ZeroSearch {
   struct State {
     std::vector<CertifiedZero> zeros;
     std::vector<CertifiedZero> settled;  ///< boxes in which there is nothing else
+    std::vector<Touch> touches;
     std::size_t touch_trials = 0;
     std::vector<PlaneCell> undecided;
     std::size_t seeds = 0, live = 0;  ///< how many there were, and cells there are now

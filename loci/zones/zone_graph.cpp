@@ -101,6 +101,7 @@ class Builder {
     }
     size_ = std::max(high_[0] - low_[0], high_[1] - low_[1]);
     if (sketch) return;
+    effort_.touches = true;
     effort_.special = sheet::enclosed_cones(problem.tower, mode, problem.lower, problem.upper);
     stars_ = sheet::bases(problem.tower);
     for (const std::vector<sheet::Star>& list : {sheet::touches(problem.tower), effort_.special})
@@ -368,8 +369,9 @@ class Builder {
       if (other.is_zero()) return false;
       sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, {margin.sheet, margin.line},
                                                    sheet::SheetFunction{other}, lower, upper, effort);
-      std::erase_if(found.zeros, [&](const sheet::SheetZero& zero) { return !is_passed({zero.x, zero.y}); });
-      settle_touches(margin.sheet, other, found);
+      const auto is_elsewhere = [&](const sheet::SheetZero& zero) { return !is_passed({zero.x, zero.y}); };
+      std::erase_if(found.zeros, is_elsewhere);
+      std::erase_if(found.touches, is_elsewhere);
       return add_zeros(found);
     };
     if (crosses_all(first, apart.on_sheet) || crosses_all(second, apart.on_sheet)) return true;
@@ -378,21 +380,6 @@ class Builder {
           core::with_variables(curve_through_crossings(problem_, first, second).value_or(core::Polynomial{2, {}}),
                                problem_.tower.variables());
     return crosses_all(first, *apart.in_plane) || crosses_all(second, *apart.in_plane);
-  }
-
-  /// Takes away what is undecided of two functions where their curves are proven to touch within what counts as one
-  /// point, which becomes a node, or not to meet.
-  void settle_touches(const core::Polynomial& first, const core::Polynomial& second, sheet::ZeroSet& found) {
-    const sheet::Subtower part = sheet::subtower(problem_.tower, mode_, {first, second});
-    sheet::TouchSearch touches(
-        part.tower,
-        {sheet::SheetFunction{sheet::narrowed(first, part)}, sheet::SheetFunction{sheet::narrowed(second, part)}},
-        part.mode, size_);
-    std::erase_if(found.undecided, [&](const sheet::PlaneCell& cell) {
-      const std::optional<sheet::Touch> touch = touches.around({cell.x, cell.y}, {});
-      if (touch && !touch->enclosure.empty()) node_at({touch->enclosure[0].middle(), touch->enclosure[1].middle()});
-      return touch.has_value();
-    });
   }
 
   /// Then their common zeros are not isolated, wherever other curves of theirs meet.
@@ -456,7 +443,8 @@ class Builder {
 
   /// False: there may be more. An open cell where something ends anyway is no doubt.
   bool add_zeros(const sheet::ZeroSet& found) {
-    for (const sheet::SheetZero& zero : found.zeros) node_at({zero.x, zero.y});
+    for (const std::vector<sheet::SheetZero>* list : {&found.zeros, &found.touches})
+      for (const sheet::SheetZero& zero : *list) node_at({zero.x, zero.y});
     for (const sheet::PlaneCell& cell : found.at_cones) node_at({cell.x.middle(), cell.y.middle()});
     return !found.gave_up &&
            std::all_of(found.undecided.begin(), found.undecided.end(), [&](const sheet::PlaneCell& cell) {

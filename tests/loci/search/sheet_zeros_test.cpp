@@ -73,6 +73,38 @@ TEST(IsolatedZeros, TangencyIsUndecided) {
   EXPECT_LT(set.undecided[0].x.width(), 1e-6);
 }
 
+TEST(IsolatedZeros, TangencyIsToldWhereItIsAskedFor) {
+  const Ring r{2};
+  // At (1/3, 1/9), of y = x^2 and its tangent; lower by h the line passes, higher it crosses twice.
+  const auto touches = [&](const Rational& h) {
+    return isolated_zeros(testing::plane(), {}, r.y() - r.x() * r.x(),
+                          r.y() - r(Rational(2, 3)) * r.x() + r(Rational(1, 9) - h), lower, upper, {.touches = true});
+  };
+  const ZeroSet set = touches(0);
+  EXPECT_TRUE(set.zeros.empty());
+  EXPECT_TRUE(set.undecided.empty());
+  ASSERT_EQ(set.touches.size(), 1u);
+  EXPECT_NEAR(set.touches[0].x, 1 / 3.0, 1e-12);
+  EXPECT_LT(set.touches[0].radius, 1e-10);
+  const Rational h("1/1000000000000");
+  const ZeroSet passes = touches(-h), crosses = touches(h);
+  EXPECT_TRUE(passes.zeros.empty() && passes.touches.empty() && passes.undecided.empty());
+  EXPECT_TRUE(crosses.touches.empty() && crosses.undecided.empty());
+  EXPECT_EQ(crosses.zeros.size(), 2u);
+}
+
+// Both components of a force vanish, one of them with a slope that is small beside its curvature.
+TEST(IsolatedZeros, OfASmallSlopeAreProven) {
+  const Ring r{2};
+  const auto x = r.x() - r(Rational(1, 3)), y = r.y() - r(Rational(2, 7));
+  const ZeroSet set =
+      isolated_zeros(testing::plane(), {}, r(Rational("1/100000000")) * x + r(10) * x * y + r(7) * y * y,
+                     x + r(2) * y + x * y, lower, upper);
+  EXPECT_TRUE(set.undecided.empty());
+  EXPECT_EQ(set.zeros.size(), 2u);  // the other one is 3e-9 from there
+  EXPECT_TRUE(has(set, 1 / 3.0, 2 / 7.0, 1e-9));
+}
+
 TEST(IsolatedZeros, SharedCurveGivesUpEarly) {
   const Ring r{2};
   const auto circle = r.x() * r.x() + r.y() * r.y() - r(1);

@@ -39,8 +39,8 @@ TEST(Touch, IsToldFromPassingAndFromCrossing) {
       const FoundZeros found = search(testing::plane(), {}, parabola(height), y);
       EXPECT_TRUE(found.undecided.empty()) << bend;
       ASSERT_EQ(found.touches.size(), 1u) << bend;
-      EXPECT_NEAR(found.touches[0][0].middle(), 0, 1e-9);
-      EXPECT_NEAR(found.touches[0][1].middle(), 0, 1e-12);
+      EXPECT_NEAR(found.touches[0].enclosure[0].middle(), 0, 1e-9);
+      EXPECT_NEAR(found.touches[0].enclosure[1].middle(), 0, 1e-12);
     }
     const Rational some("1/1000000000");
     const FoundZeros passing = search(testing::plane(), {}, parabola(bend * some), y);
@@ -93,8 +93,8 @@ TEST(Touch, AtTheBoundary) {
     const FoundZeros circle = search(tower, {sign}, x * d - y * s, y - r(2));
     EXPECT_TRUE(circle.undecided.empty()) << sign;
     ASSERT_EQ(circle.touches.size(), 1u) << sign;
-    EXPECT_NEAR(circle.touches[0][0].middle(), 0, 1e-12);
-    EXPECT_TRUE(circle.touches[0][2].contains_zero());
+    EXPECT_NEAR(circle.touches[0].enclosure[0].middle(), 0, 1e-12);
+    EXPECT_TRUE(circle.touches[0].enclosure[2].contains_zero());
     const FoundZeros line = search(tower, {sign}, r(3) * x + (y - r(2)) * s, y - r(2));
     EXPECT_TRUE(line.undecided.empty()) << sign;
     EXPECT_EQ(line.touches.size() + line.enclosures.size(), 1u) << sign;
