@@ -254,6 +254,19 @@ class ArcCheck {
       curve_.fail(fmt::format("a chord leaves the curve near ({}, {})", middle[0], middle[1]));
   }
 
+  /// The square of a root vanishes there with its slopes: the ends of a dyad of equal lengths meet.
+  bool at_cone(const Interval& x, const Interval& y) const {
+    const auto is_flat = [&](const core::StraightLine& square) {
+      Sheet sheet(parts_of(c_, curve_.claim.mode, curve_.claim.at_zero), {&square});
+      if (!sheet.enter(x, y) || sheet.is_free(0)) return false;
+      sheet.differentiate();
+      for (int d = 0; d < sheet.dimension(); ++d)
+        if (!sheet.slope(0, d).contains_zero()) return false;
+      return true;
+    };
+    return std::any_of(c_.squares.begin(), c_.squares.end(), is_flat);
+  }
+
   /// What is said to end the arc is there.
   void check_end(const core::Arc& arc, std::size_t end) {
     const Point2& at = end == 0 ? arc.points.front() : arc.points.back();
@@ -281,13 +294,20 @@ class ArcCheck {
       case ArcEnd::direct_singularity:
         there = on_singularity();
         break;
-      case ArcEnd::crossing:
-        for (const KnownArc& other : arcs_)
-          there = there || (other.arc != &arc && other.curve->mode == curve_.claim.mode &&
-                            passes_near(other.arc->points, at, 2.5 * c_.tolerance));
-        // What ends on something graver is named after that.
-        there = there && !on_singularity() && (curve_.claim.role != FactorRole::reaction || !on_boundary());
+      case ArcEnd::crossing: {
+        const auto passes = [&](const KnownArc& other) {
+          return other.arc != &arc && other.curve->mode == curve_.claim.mode &&
+                 passes_near(other.arc->points, at, 2.5 * c_.tolerance);
+        };
+        // What ends on something graver is named after that. At a cone |A| vanishes whatever its curve does.
+        const auto is_singular = [&](const KnownArc& other) {
+          return other.curve->kind == core::LocusKind::direct_singularity && passes(other);
+        };
+        there = std::any_of(arcs_.begin(), arcs_.end(), passes) &&
+                (at_cone(x, y) ? std::none_of(arcs_.begin(), arcs_.end(), is_singular) : !on_singularity()) &&
+                (curve_.claim.role != FactorRole::reaction || !on_boundary());
         break;
+      }
       case ArcEnd::none:
         break;
     }

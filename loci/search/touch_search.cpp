@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loci/numbers/numbers.hpp"
 #include "loci/sheet/sheet.hpp"
 
 namespace clearloci::loci::sheet {
@@ -120,7 +121,7 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
   narrow(cell, tangents, box, lifted, accuracy * size_, enclosure);
   if (!cell.enter_local(enclosure, lifted)) return std::nullopt;
   cell.differentiate();
-  const Interval value = value_on_curve();
+  const Interval value = value_on_curve(along);
   Touch touch;
   touch.box = box;
   if (value.sign() != 0 && value.sign() == least) return touch;
@@ -136,18 +137,36 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
   return touch;
 }
 
-/// Of g in what the cell is in, where f = 0. Gradients are parallel where the curves touch, so that g - c f hardly
-/// varies there.
-Interval TouchSearch::value_on_curve() {
+/// Of g in what the cell is in, where f = 0, along a curve that runs along that coordinate. Where the curves touch, the
+/// gradient of g is a sum of those of f and of the bonds of the lifted roots, which vanish: without them g hardly varies.
+Interval TouchSearch::value_on_curve(int along) {
   SheetCell& cell = *cell_;
   const Interval plain = cell.centred(1);
-  if (!cell.lifted().empty()) return plain;
   cell.sharpen_middle();
-  const int steeper = std::abs(cell.slope(0, 0).middle()) > std::abs(cell.slope(0, 1).middle()) ? 0 : 1;
-  const Interval c = cell.slope(1, steeper).middle() / cell.slope(0, steeper).middle();
-  Interval value = cell.middle_value(1) - c * cell.middle_value(0);
-  for (int d = 0; d < 2; ++d)
-    value = value + (cell.slope(1, d) - c * cell.slope(0, d)) * (cell.local(d) - Interval(cell.middle(d)));
+  std::vector<int> across;
+  for (int d = 0; d < cell.dimension(); ++d)
+    if (d != along) across.push_back(d);
+  const std::size_t n = across.size();
+  const auto slope = [&](std::size_t bond, int d) -> const Interval& {
+    return bond == 0 ? cell.slope(0, d) : cell.bond_slope(static_cast<int>(bond) - 1, d);
+  };
+  std::vector<double> slopes, inverse(n * n);
+  for (std::size_t bond = 0; bond < n; ++bond)
+    for (const int d : across) slopes.push_back(slope(bond, d).middle());
+  if (!invert(slopes, inverse, n)) return plain;
+  std::vector<Interval> share(n, Interval(0.0));
+  for (std::size_t bond = 0; bond < n; ++bond)
+    for (std::size_t k = 0; k < n; ++k)
+      share[bond] = share[bond] + cell.slope(1, across[k]).middle() * Interval(inverse[k * n + bond]);
+  Interval value = cell.middle_value(1);
+  for (std::size_t bond = 0; bond < n; ++bond)
+    value =
+        value - share[bond] * (bond == 0 ? cell.middle_value(0) : cell.middle_bond(static_cast<int>(bond) - 1));
+  for (int d = 0; d < cell.dimension(); ++d) {
+    Interval rest = cell.slope(1, d);
+    for (std::size_t bond = 0; bond < n; ++bond) rest = rest - share[bond] * slope(bond, d);
+    value = value + rest * (cell.local(d) - Interval(cell.middle(d)));
+  }
   return meet(value, plain);
 }
 

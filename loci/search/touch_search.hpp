@@ -41,7 +41,7 @@ class TouchSearch {
   std::optional<std::vector<double>> extremum(const std::vector<Interval>& cell, const std::vector<int>& lifted);
   std::optional<Touch> settle(const std::vector<double>& at, const std::vector<Interval>& box, int along,
                               const std::vector<int>& lifted);
-  Interval value_on_curve();
+  Interval value_on_curve(int along);
 
   core::RootTower tower_;
   std::vector<SheetFunction> two_;
