@@ -134,13 +134,9 @@ class Unrolled {
 
   /// A point of the curve beside its chord that passes the last check.
   std::optional<Point2> point_between(const Point2& from, const Point2& to, double share, const OneCurve& curve) const {
-    const Point2 way = {to[0] - from[0], to[1] - from[1]}, near = between(from, to, share);
-    const double square = way[0] * way[0] + way[1] * way[1];
+    const Point2 near = between(from, to, share);
     const auto fits = [&](const Point2& at) {
-      const Point2 gone = {at[0] - from[0], at[1] - from[1]};
-      const double along = gone[0] * way[0] + gone[1] * way[1], across = gone[0] * way[1] - gone[1] * way[0];
-      return along > 0 && along < square && std::abs(across) <= 2 * map_.tolerance * std::sqrt(square) &&
-             holds(curve.checks, place(at), ArcEnd::none);
+      return is_beside_chord(at, from, to, 2 * map_.tolerance) && holds(curve.checks, place(at), ArcEnd::none);
     };
     if (const Point2 on = curve.onto(near).at; fits(on)) return on;
     if (const auto on = curve.onto.between(from, to); on && fits(*on)) return on;

@@ -235,6 +235,13 @@ std::optional<Point2> CurveProjection::between(const Point2& a, const Point2& b)
   return on.at;
 }
 
+bool is_beside_chord(const Point2& at, const Point2& from, const Point2& to, double reach) {
+  const Point2 way = {to[0] - from[0], to[1] - from[1]}, gone = {at[0] - from[0], at[1] - from[1]};
+  const double square = way[0] * way[0] + way[1] * way[1];
+  const double along = gone[0] * way[0] + gone[1] * way[1], across = gone[0] * way[1] - gone[1] * way[0];
+  return along > 0 && along < square && std::abs(across) <= reach * std::sqrt(square);
+}
+
 const CurveProjection& CurveProjections::of(int curve) {
   const auto found = known_.find(curve);
   if (found != known_.end()) return found->second;

@@ -42,6 +42,9 @@ class CurveProjection {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Between the ends of a chord along it, and no farther across it than `reach`.
+bool is_beside_chord(const core::Point2& at, const core::Point2& from, const core::Point2& to, double reach);
+
 /// Those of a map's curves, made when they are asked for.
 class CurveProjections {
  public:

@@ -307,7 +307,7 @@ class ModeZones {
       const Point2 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
       // A chord beside the boundary may have its middle beyond.
       const Point2 on = curve.between(a, b).value_or(curve(middle).at);
-      if (std::hypot(on[0] - middle[0], on[1] - middle[1]) > 2 * map_.tolerance) return false;
+      if (!is_beside_chord(on, a, b, 2 * map_.tolerance)) return false;
       finer.push_back(on);
       finer.push_back(b);
     }
