@@ -210,7 +210,19 @@ const DesignTask::Measured& DesignTask::measured() const {
   sized.min_force = sized.min_couple = 1;
   std::vector<TaskDemand> demands = demands_of(open_.mechanism, sized);
   std::erase_if(demands, [](const TaskDemand& demand) { return demand.least == 0; });
-  figures.conditions = conditions_for(demands, mechanism_.space == mechanism::Space::planar);
+  const auto is_among = [&](const core::Vanishing& reaction) {
+    return std::any_of(demands.begin(), demands.end(), [&](const TaskDemand& demand) {
+      return demand.joint == reaction.joint && demand.quantity == reaction.quantity;
+    });
+  };
+  // Efforts are those of all actuators, whatever reactions are asked for.
+  std::vector<TaskDemand> all = demands;
+  for (const mechanism::Joint& joint : open_.mechanism.joints) {
+    if (!joint.actuated) continue;
+    const Quantity effort = mechanism::actuator_quantity(joint);
+    if (!is_among({joint.name, effort})) all.push_back({joint.name, effort, 1});
+  }
+  figures.conditions = conditions_for(all, mechanism_.space == mechanism::Space::planar);
   figures.mode = mode_of(sides_, names_of(figures.conditions.tower));
   for (std::size_t i = 0; i < figures.conditions.conditions.size(); ++i) {
     const core::TaskCondition& condition = figures.conditions.conditions[i];
@@ -218,7 +230,8 @@ const DesignTask::Measured& DesignTask::measured() const {
     const Quantity quantity = condition.reactions.front().quantity;
     // What a linear drive exerts is both.
     if (is_effort(quantity)) figures.efforts.push_back(static_cast<int>(i));
-    if (quantity != Quantity::M) figures.forces.push_back(static_cast<int>(i));
+    if (quantity != Quantity::M && std::any_of(condition.reactions.begin(), condition.reactions.end(), is_among))
+      figures.forces.push_back(static_cast<int>(i));
   }
   measured_ = std::move(figures);
   return *measured_;

@@ -81,7 +81,7 @@ const std::map<std::string, std::optional<Dimension>>& fields() {
 struct NamedUnit {
   const char* name;
   Dimension dimension;
-  UnitSize size;  ///< in SI units
+  UnitSize size;  ///< in SI units, in lowest terms
 };
 
 const std::vector<NamedUnit>& named_units() {
@@ -92,7 +92,7 @@ const std::vector<NamedUnit>& named_units() {
       {"mm", length, {{1, 1000}}},
       {"um", length, {{1, 1000000}}},
       {"km", length, {1000}},
-      {"in", length, {{254, 10000}}},
+      {"in", length, {{127, 5000}}},
       {"rad", angle, {1}},
       {"mrad", angle, {{1, 1000}}},
       {"deg", angle, {{1, 180}, 1}},

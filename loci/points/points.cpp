@@ -406,9 +406,9 @@ class SheetLine {
 
   bool reaches(const Rational& from, const Rational& to, std::size_t first_unplaced) {
     std::size_t untold = 0;
-    for (const int part :
-         {8, 7, 11}) {  // where one number is next to a zero of what holds an angle, another one is not
-      const Rational at = from + (to - from) * Rational(part, 16);
+    // Where one number is next to a zero of what holds an angle, another one is not.
+    for (const Rational& part : {Rational(1, 2), Rational(7, 16), Rational(11, 16)}) {
+      const Rational at = from + (to - from) * part;
       RealRoot sample = number(at);
       const RootPlace place(problem_.tower, mode_, sample, first_unplaced);
       if (!place.reachable()) return false;

@@ -157,8 +157,8 @@ bool SheetRoots::narrow(SheetRoot& root, int sign_below, const Rational& width, 
     int sign = 0;
     Rational at;
     // Where one number is the zero itself, or next to it, another one is not.
-    for (const int eighths : {4, 3, 5}) {
-      at = root.lower + span * Rational(eighths, 8);
+    for (const Rational& part : {Rational(1, 2), Rational(3, 8), Rational(5, 8)}) {
+      at = root.lower + span * part;
       sign = sign_at(at, at, {});
       if (sign != 0) break;
     }

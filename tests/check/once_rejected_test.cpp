@@ -12,13 +12,14 @@ using Json = nlohmann::ordered_json;
 struct Once {
   const char* name;
   std::vector<core::Quantity> quantities = {};  ///< none: the default
+  LociRequest request = {};
 };
 
 class OnceRejected : public testing::TestWithParam<Once> {};
 
 TEST_P(OnceRejected, IsAccepted) {
   const std::string model = example("../tests/corpus/certificates/" + std::string(GetParam().name) + ".yaml");
-  LociRequest request;
+  LociRequest request = GetParam().request;
   if (!GetParam().quantities.empty()) request.quantities = GetParam().quantities;
   const check::Examination examination = examination_of(model, certificate_of(model, request));
   EXPECT_TRUE(examination.accepted) << summary(examination).substr(0, 2000);
@@ -31,7 +32,10 @@ INSTANTIATE_TEST_SUITE_P(Corpus, OnceRejected,
                                          Once{"line_crossed_at_its_middle"}, Once{"torsion_slit", {core::Quantity::M}},
                                          Once{"spring_named_as_a_point", {core::Quantity::M}},
                                          Once{"force_of_one_component", {core::Quantity::fx}},
-                                         Once{"crank_next_to_its_end_of_reach", {core::Quantity::M}}),
+                                         Once{"crank_next_to_its_end_of_reach", {core::Quantity::M}},
+                                         Once{"margins_at_a_cone",
+                                              {core::Quantity::f},
+                                              {.joints = {"A1"}, .min_force = 10}}),
                          [](const auto& candidate) { return std::string(candidate.param.name); });
 
 TEST(Kinds, FollowFromWhatVanishes) {

@@ -80,6 +80,24 @@ TEST(Units, EveryFieldConvertsByItsDimension) {
   EXPECT_EQ(value(m, m.gravity[1]), Rational(-981, 100));
 }
 
+/// Numbers that are not in lowest terms are none: GMP compares and multiplies them wrongly.
+TEST(Units, EveryLengthIsInLowestTerms) {
+  for (const char* unit : {"m", "dm", "cm", "mm", "um", "km", "in"}) {
+    std::string text = in_mm;
+    text.replace(text.find("10 um"), 5, std::string("20 ") + unit);
+    const Mechanism m = parse_mechanism(text, "m.yaml");
+    const Rational at = value(m, m.joints[1].clearance->radial);
+    Rational lowest = at;
+    lowest.canonicalize();
+    EXPECT_EQ(at.get_den(), lowest.get_den()) << unit;
+  }
+  std::string inches = in_mm;
+  inches.replace(inches.find("length: mm"), 10, "length: in");
+  const Mechanism m = parse_mechanism(inches, "m.yaml");
+  EXPECT_EQ(m.coordinates[0].lower.get_num(), -127);
+  EXPECT_EQ(m.coordinates[0].lower.get_den(), 10);
+}
+
 TEST(Units, AnAngleThatIsMissingOrLeftOverIsInRadians) {
   const auto read = [](const std::string& stiffness) {
     std::string text = in_mm + "springs: [{joint: A2, stiffness: " + stiffness + ", rest: 30}]\n";

@@ -177,6 +177,38 @@ TEST(Study, ParametersMayEnterByQuotientsAndCosines) {
   EXPECT_LT(feasible, 30U);
 }
 
+/// A clearance of a joint changes no effort.
+TEST(Study, EffortsAreThoseOfAllActuators) {
+  const auto efforts = [](const std::string& clearance) {
+    const Model model = Model::parse(R"(format: 1
+parameters: {q: 0.5}
+workspace: {x: [0.05, 0.45], y: [0.1, 1.1]}
+points: {A: [0, 0], E: [q, 0], P: [x, y]}
+links: {a: {points: [A]}, b: {points: [P]}, c: {points: [E]}, d: {points: [P]}}
+joints:
+  A: {revolute: [a, ground], at: A}
+  S: {prismatic: [a, b], at: P, axis: [A, P], actuated: true, clearance: {axial: 1e-5}}
+  P: {revolute: [b, d], at: P, clearance: {radial: 1e-5}}
+  T: {prismatic: [c, d], at: P, axis: [E, P], actuated: true)" +
+                                     clearance + R"(}
+  E: {revolute: [ground, c], at: E}
+end_effector: {link: d, at: P}
+loads: [{link: d, at: P, force: [-100, 100]}]
+)");
+    const std::string study =
+        "format: 1\nvary: {q: [0.43, 0.58]}\ntask: {box: {x: [0.2988, 0.3028], y: [0.4488, 0.4588]}}\n"
+        "goal: {minimise: effort}\nmethod: {grid: [3]}\n";
+    std::vector<double> list;
+    for (const StudyDesign& design : run_study(model, parse_study(study, model)).designs)
+      list.push_back(design.figures.empty() ? 0 : design.figures.front());
+    return list;
+  };
+  const std::vector<double> all = efforts(", clearance: {axial: 1e-5}");
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_NEAR(all.back(), 153.57, 0.01);  // T bears 152.108 N at (0.2988, 0.4488)
+  EXPECT_EQ(efforts(""), all);
+}
+
 TEST(Study, VariesFreeEffortsAndWritesTheBest) {
   const Model model = Model::read(source_dir() + "/examples/studies/antagonistic.yaml");
   const std::string study =
