@@ -16,7 +16,7 @@ using core::CellNode;
 using core::Point2;
 
 // A cell is cut so often before its claim counts as not shown.
-constexpr int most_cuts = 16;
+constexpr int most_cuts = 26;
 // Cells of which nothing was claimed are cut down to this part of the box, and into so many.
 constexpr double smallest_open = 1e-6;
 constexpr std::size_t most_own_cells = 6'000;
