@@ -127,9 +127,9 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
   return map;
 }
 
-/// Of those over the tower, which no pose of any mode makes zero: one cell each, free of zeros; whoever checks it cuts
-/// it as far as it takes.
-void claim_no_zeros(const std::vector<core::LocusFactor>& factors, core::Certificate& certificate) {
+/// Of those over the tower, which have no curve in any mode: one cell each, free of zeros, or open where a zero may be
+/// at points; whoever checks it cuts it as far as it takes.
+void claim_no_curves(const std::vector<core::LocusFactor>& factors, core::Certificate& certificate) {
   const core::LocusProblem& problem = certificate.problem;
   std::array<double, 4> domain{};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -139,13 +139,14 @@ void claim_no_zeros(const std::vector<core::LocusFactor>& factors, core::Certifi
   }
   for (const core::LocusFactor& factor : factors) {
     if (factor.sheet.terms.empty()) continue;
+    const auto kind = factor.implicit.empty() ? core::CellNode::Kind::free : core::CellNode::Kind::open;
     core::StraightLineBuilder builder;
     std::vector<int> variables;
     for (int v = 0; v < factor.sheet.variables; ++v) variables.push_back(builder.variable(v));
     const core::StraightLine line = builder.line(builder.polynomial(factor.sheet, variables));
     for (int mode = 0; mode < static_cast<int>(problem.modes.size()); ++mode)
       certificate.sheets.push_back(
-          {mode, factor.role, factor.expression, line, {}, domain, {{core::CellNode::Kind::free, 0, 0, 0}}});
+          {mode, factor.role, factor.expression, line, {}, domain, {{kind, 0, 0, 0}}});
   }
 }
 
@@ -220,7 +221,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
     if (means.certificate != nullptr) {
       auto& factors = means.certificate->problem.factors;
       factors.insert(factors.end(), derived.front().rest.begin(), derived.front().rest.end());
-      claim_no_zeros(derived.front().rest, *means.certificate);
+      claim_no_curves(derived.front().rest, *means.certificate);
     }
     std::vector<std::string> notes;
     for (const symbolic::DerivedProblem& one : derived)

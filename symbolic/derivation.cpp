@@ -106,13 +106,16 @@ const Poly& Derivation::sheet_of(std::size_t factor) {
   return sheets_.emplace(factor, elimination.over_tower(factors[factor].natural)).first->second;
 }
 
-void Derivation::keep_without_zeros(FactorRole role, const std::string& expression, const std::vector<Poly>& sheets) {
+void Derivation::keep_without_curves(FactorRole role, const std::string& expression, const std::vector<Poly>& sheets) {
   if (result.problem.tower.coordinates.size() != 2) return;
   for (const Poly& sheet : sheets) {
     LocusFactor factor;
     factor.role = role;
     factor.expression = expression;
     factor.sheet = core::scaled_for_doubles(sheet.plain(geometry.tower_variables()));
+    // Divided out of it is what may be zero at points, such as the squared distance of a dyad's ends.
+    for (const Poly& divisor : elimination.implicit_of_divisor(sheet))
+      factor.implicit.push_back(divisor.plain(geometry.tower_variables()));
     result.rest.push_back(std::move(factor));
   }
 }

@@ -271,7 +271,7 @@ std::optional<Poly> Elimination::without_root(const Poly& sheet, const TowerRoot
 }
 
 std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit,
-                                                    std::vector<Poly>* without_zeros) const {
+                                                    std::vector<Poly>* without_curves) const {
   std::vector<SheetFactor> result;
   std::vector<PolyFactor> factors = factors_over_tower(strip_denominators(sheet));
   for (const PolyFactor& factor : factors) {
@@ -282,8 +282,7 @@ std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with
     } else if (with_implicit) {
       entry.implicit = implicit_factors(factor.poly);
       if (entry.implicit.empty()) {
-        // A divisor that is dropped, such as a squared distance, may be zero at a point.
-        if (without_zeros != nullptr && implicit_of_divisor(factor.poly).empty()) without_zeros->push_back(factor.poly);
+        if (without_curves != nullptr) without_curves->push_back(factor.poly);
         continue;
       }
     }

@@ -44,10 +44,10 @@ class Elimination {
   bool are_components_of_link(const Poly& a, const Poly& b) const;
 
   /// The factors of a non-zero sheet polynomial that can vanish inside the workspace: constants and squared distances
-  /// are dropped. `implicit` is left empty unless wanted; where it is, factors without zeros in any mode are dropped
-  /// too, into `without_zeros` where that is given.
+  /// are dropped. `implicit` is left empty unless wanted; where it is, factors without curves in any mode are dropped
+  /// too, into `without_curves` where that is given.
   std::vector<SheetFactor> sheet_factors(const Poly& sheet, bool with_implicit,
-                                         std::vector<Poly>* without_zeros = nullptr) const;
+                                         std::vector<Poly>* without_curves = nullptr) const;
 
   /// The irreducible polynomials in the free coordinates that contain the zeros of a sheet polynomial.
   std::vector<Poly> implicit_factors(const Poly& sheet) const;

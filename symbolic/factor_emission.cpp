@@ -66,9 +66,9 @@ void FactorEmission::add(FactorRole role, const Poly* natural, const Poly& sheet
                          LocusFactor common) {
   common.role = role;
   const std::vector<int> variables = d_.geometry.tower_variables();
-  std::vector<Poly> without_zeros;
-  const std::vector<SheetFactor> parts = d_.elimination.sheet_factors(sheet, with_implicit, &without_zeros);
-  if (role == FactorRole::reaction) d_.keep_without_zeros(role, common.expression, without_zeros);
+  std::vector<Poly> without_curves;
+  const std::vector<SheetFactor> parts = d_.elimination.sheet_factors(sheet, with_implicit, &without_curves);
+  if (role == FactorRole::reaction) d_.keep_without_curves(role, common.expression, without_curves);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const SheetFactor& part = parts[p];
     LocusFactor factor = common;
