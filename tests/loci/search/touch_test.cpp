@@ -16,11 +16,11 @@ using testing::Ring;
 
 constexpr double size = 4, smallest = 1e-12 * size;
 
-FoundZeros search(const core::RootTower& tower, const core::WorkingMode& mode, const Polynomial& f,
-                  const Polynomial& g) {
+FoundZeros search(const core::RootTower& tower, const core::WorkingMode& mode, const Polynomial& f, const Polynomial& g,
+                  double one_point = 1e-6) {
   const std::vector<SheetFunction> two = {{f}, {g}};
   const SheetProgram program(tower, two);
-  TouchSearch touches(tower, two, mode, size);
+  TouchSearch touches(tower, two, mode, size, one_point);
   // Off the places that the tests ask about, so that none lies on an edge of a cell.
   const PlaneCell all = {{-2.0371, 2.0113}, {-2.0239, 2.0457}};
   return ZeroSearch(program, mode, {}).run({all}, {smallest, 8192, 1e-13 * size, {}, &touches});
@@ -95,6 +95,9 @@ TEST(Touch, AtTheBoundary) {
     ASSERT_EQ(circle.touches.size(), 1u) << sign;
     EXPECT_NEAR(circle.touches[0].enclosure[0].middle(), 0, 1e-12);
     EXPECT_TRUE(circle.touches[0].enclosure[2].contains_zero());
+    // Told to rounding, for the slopes of the bond are taken away from that of y.
+    const FoundZeros near = search(tower, {sign}, x * d - y * s, y - r(2), 1e-10);
+    EXPECT_EQ(near.touches.size(), 1u) << sign;
     const FoundZeros line = search(tower, {sign}, r(3) * x + (y - r(2)) * s, y - r(2));
     EXPECT_TRUE(line.undecided.empty()) << sign;
     EXPECT_EQ(line.touches.size() + line.enclosures.size(), 1u) << sign;
