@@ -121,9 +121,8 @@ void Tracer::find(const std::vector<Cutter>& cutters) {
   std::vector<Chain> pieces;
   const std::vector<Edge> edges = edges_of(cuts);
   for (Chain& chain : chains(graph_)) {
-    const core::Point2 inner = point_inside(graph_, chain.legs, size_);
-    if (options_.colour) chain.colour = options_.colour(inner);
-    if (wanted(inner, along_side(chain.colour), edges)) pieces.push_back(std::move(chain));
+    if (options_.colour) chain.colour = options_.colour(point_inside(graph_, chain.legs, size_));
+    for (Chain& part : kept_parts(std::move(chain), edges)) pieces.push_back(std::move(part));
   }
   pieces_ = join_at_junctions(graph_, std::move(pieces));
 }
@@ -240,19 +239,79 @@ std::vector<Tracer::Edge> Tracer::edges_of(const std::vector<Cut>& cuts) const {
   return edges;
 }
 
-bool Tracer::wanted(const core::Point2& inner, int along, const std::vector<Edge>& edges) {
+std::optional<bool> Tracer::is_kept(const core::Point2& at, int along, const std::vector<Edge>& edges) const {
+  bool is_told = true;
   for (const Edge& edge : edges) {
     if (edge.side >= 0) {
       if (edge.side == along) continue;
-      const core::Rational off = core::Rational(inner[static_cast<std::size_t>(edge.side / 2)]) - sides_[edge.side];
+      const core::Rational off = core::Rational(at[static_cast<std::size_t>(edge.side / 2)]) - sides_[edge.side];
       if (edge.side % 2 == 0 ? off < 0 : off > 0) return false;
       continue;
     }
-    const std::optional<int> sign = PointSign(*edge.program, edge.part->mode)(inner[0], inner[1]);
+    const std::optional<int> sign = PointSign(*edge.program, edge.part->mode)(at[0], at[1]);
     if (!sign || *sign < 0) return false;
-    if (*sign == 0) graph_.undecided.push_back({inner[0], inner[1]});
+    is_told = is_told && *sign > 0;
   }
-  return true;
+  return is_told ? std::optional(true) : std::nullopt;
+}
+
+PlaneCell Tracer::place_of(const Leg& leg) const {
+  const Patch& patch = graph_.patches[static_cast<std::size_t>(leg.stretch->patch)];
+  if (leg.stretch->leaf >= 0)
+    return patch.chart.to_plane(patch.tree->leaves()[static_cast<std::size_t>(leg.stretch->leaf)].cell);
+  const core::Point2 &a = graph_.crossings[leg.stretch->ends[0].crossing].at,
+                     &b = graph_.crossings[leg.stretch->ends[1].crossing].at;
+  return {hull(Interval(a[0]), Interval(b[0])), hull(Interval(a[1]), Interval(b[1]))};
+}
+
+std::vector<Chain> Tracer::kept_parts(Chain chain, const std::vector<Edge>& edges) {
+  const int along = along_side(chain.colour);
+  const core::Point2 inner = point_inside(graph_, chain.legs, size_);
+  const auto all_as_inside = [&] {
+    const std::optional<bool> kept = is_kept(inner, along, edges);
+    if (!kept) graph_.undecided.push_back({inner[0], inner[1]});
+    return kept.value_or(true) ? std::vector{std::move(chain)} : std::vector<Chain>{};
+  };
+  if (graph_.undecided.empty()) return all_as_inside();
+  const std::size_t n = chain.legs.size();
+  std::vector<std::optional<bool>> kept(n);
+  for (std::size_t i = 0; i < n; ++i) kept[i] = is_kept(point_inside(graph_, {chain.legs[i]}, size_), along, edges);
+  const auto any = [&](bool side) { return std::find(kept.begin(), kept.end(), std::optional(side)) != kept.end(); };
+  if (!any(true) || !any(false)) return all_as_inside();
+  // A leg beside one of the other side, or of none that can be told, may cross the edge.
+  const auto is_whole = [&](std::size_t i) {
+    const bool last = i + 1 == n, first = i == 0;
+    const std::optional<bool> before = !first         ? kept[i - 1]
+                                       : chain.closed ? kept[n - 1]
+                                                      : std::optional(true),
+                              after = !last          ? kept[i + 1]
+                                      : chain.closed ? kept[0]
+                                                     : std::optional(true);
+    return kept[i] == true && before != false && after != false;
+  };
+  std::vector<bool> whole(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    whole[i] = is_whole(i);
+    if (!whole[i] && kept[i] != false) graph_.undecided.push_back(place_of(chain.legs[i]));
+  }
+  const auto gap = static_cast<std::size_t>(std::find(whole.begin(), whole.end(), false) - whole.begin());
+  if (gap == n) return {std::move(chain)};
+  const std::size_t start = chain.closed ? gap : 0;
+  std::vector<Chain> parts;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (start + k) % n;
+    if (!whole[i]) continue;
+    if (k == 0 || !whole[(start + k - 1) % n]) {
+      Chain& part = parts.emplace_back();
+      part.colour = chain.colour;
+      part.ends = {core::ArcEnd::crossing, core::ArcEnd::crossing};
+      if (k == 0) part.ends[0] = chain.ends[0], part.junctions[0] = chain.junctions[0];
+    }
+    parts.back().legs.push_back(chain.legs[i]);
+    if (k + 1 == n && !chain.closed)
+      parts.back().ends[1] = chain.ends[1], parts.back().junctions[1] = chain.junctions[1];
+  }
+  return parts;
 }
 
 }  // namespace clearloci::loci::sheet

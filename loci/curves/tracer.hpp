@@ -133,8 +133,16 @@ class Tracer {
   };
   std::vector<Edge> edges_of(const std::vector<Cut>& cuts) const;
 
-  /// The piece of an arc lies on the kept side of every region's edge. `along`: the side of the box that it is part of.
-  bool wanted(const core::Point2& inner, int along, const std::vector<Edge>& edges);
+  /// The point lies on the kept side of every region's edge. `along`: the side of the box that it is part of. Nothing
+  /// where that cannot be told.
+  std::optional<bool> is_kept(const core::Point2& at, int along, const std::vector<Edge>& edges) const;
+
+  /// What of a chain is on the kept side of every region's edge: all of it or nothing, but where an edge may meet the
+  /// curve in a place that stays open, and has not cut it there.
+  std::vector<Chain> kept_parts(Chain chain, const std::vector<Edge>& edges);
+
+  /// A box around a leg.
+  PlaneCell place_of(const Leg& leg) const;
 
   core::RootTower tower_;
   core::WorkingMode mode_;

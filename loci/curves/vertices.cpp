@@ -286,8 +286,25 @@ class Run {
 
 }  // namespace
 
+namespace {
+
+/// Half of the way: where a curve is hard to tell there are many legs, of no length.
+const Stretch& middle_of(const CurveGraph& graph, const std::vector<Leg>& legs) {
+  std::vector<double> way = {0};
+  for (const Leg& leg : legs) {
+    const core::Point2 &a = graph.crossings[leg.stretch->ends[0].crossing].at,
+                       &b = graph.crossings[leg.stretch->ends[1].crossing].at;
+    way.push_back(way.back() + std::hypot(b[0] - a[0], b[1] - a[1]));
+  }
+  if (way.back() == 0) return *legs[legs.size() / 2].stretch;
+  const auto half = std::upper_bound(way.begin(), way.end() - 1, way.back() / 2);
+  return *legs[static_cast<std::size_t>(half - way.begin()) - 1].stretch;
+}
+
+}  // namespace
+
 core::Point2 point_inside(const CurveGraph& graph, const std::vector<Leg>& legs, double size) {
-  const Stretch& stretch = *legs[legs.size() / 2].stretch;
+  const Stretch& stretch = middle_of(graph, legs);
   const Patch& patch = graph.patches[stretch.patch];
   LiftedPoint point = stretch.ends[0].middle();
   const LiftedPoint other = stretch.ends[1].middle();
@@ -299,7 +316,7 @@ core::Point2 point_inside(const CurveGraph& graph, const std::vector<Leg>& legs,
     SheetFollower follower(*patch.program, patch.chart.side == Chart::Side::plane ? size : 1.0);
     if (follower.correct(moved, row, point[stretch.along])) return patch.chart.to_plane(moved[0], moved[1]);
   }
-  return graph.crossings[legs[legs.size() / 2].stretch->ends[0].crossing].at;
+  return graph.crossings[stretch.ends[0].crossing].at;
 }
 
 PlacedArc place_vertices(const CurveGraph& graph, const core::WorkingMode& mode, const std::vector<Leg>& legs,

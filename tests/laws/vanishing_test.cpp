@@ -252,6 +252,18 @@ TEST(Vanishing, AZeroAtTheConeOfCoaxialLegsLeavesNoDoubt) {
     EXPECT_EQ(note.find("neither proven nor excluded"), std::string::npos) << note;
 }
 
+/// The boundary of one leg passes the base of the other. Where it meets a curve there stays open, and the curve, which
+/// was not cut there, was judged by a point at rounding from the boundary: all of it was left out.
+TEST(Vanishing, NothingIsLostBesideABaseOnABoundary) {
+  const mechanism::Mechanism mechanism =
+      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/five_bar_base_on_boundary.yaml");
+  LociRequest request;
+  request.joints = {"B1"};
+  const auto report = validate_loci(mechanism, request, {80, 80}).report;
+  EXPECT_EQ(report.disputed, 0u);
+  EXPECT_GT(report.held, 1000u);
+}
+
 // A gantry: the bridge slides along x and carries the tool that slides along y. With the load (F_x, F_y) at the tool
 // the bridge's guide bears N = -F_y and T = y F_x about its middle, and an end lifts where h F_y = +-y F_x.
 TEST(Vanishing, AGuideLosesContactWhereAnEndLifts) {
