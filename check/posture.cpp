@@ -113,7 +113,7 @@ class Placing {
     if (!limit.is_angle()) {
       const Number length2 = square_of(point(1) - point(0));
       if (limit.keeps_lower()) square(length2 - squared(value(limit.lower)));
-      square(squared(value(limit.upper)) - length2);
+      if (limit.keeps_upper()) square(squared(value(limit.upper)) - length2);
       return;
     }
     const Number cosine = dot(unit(point(0) - point(1)), unit(point(2) - point(1)));

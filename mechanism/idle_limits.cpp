@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <optional>
 
+#include "mechanism/evaluate.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/rigidity.hpp"
 
@@ -42,7 +45,61 @@ std::vector<std::vector<int>> modes_of(const Mechanism& mechanism) {
   return modes;
 }
 
+/// The square of a distance that links keep, where it can be read from how one of the points is built.
+std::optional<Rational> kept_square(const Mechanism& mechanism, PointIndex from, PointIndex to) {
+  const auto value = [&](const Expression& e) -> std::optional<Rational> {
+    try {
+      const ExactValue found = evaluate(e, mechanism.parameters);
+      return found.exact ? std::optional(found.value) : std::nullopt;
+    } catch (const std::exception&) {
+      return std::nullopt;  // it varies with the pose
+    }
+  };
+  const auto sum_of_squares = [&](const std::vector<std::optional<Rational>>& parts) -> std::optional<Rational> {
+    Rational sum = 0;
+    for (const std::optional<Rational>& part : parts) {
+      if (!part) return std::nullopt;
+      sum += *part * *part;
+    }
+    return sum;
+  };
+  const auto form = [&](PointIndex p) -> const auto& { return mechanism.points[static_cast<std::size_t>(p)].form; };
+  for (const auto& [built, other] : {std::pair{from, to}, std::pair{to, from}}) {
+    if (const auto* dyad = std::get_if<DyadPoint>(&form(built))) {
+      if (dyad->from == other) return sum_of_squares({value(dyad->from_length)});
+      if (dyad->to == other && !dyad->right_angle) return sum_of_squares({value(dyad->to_length)});
+    }
+    if (const auto* offset = std::get_if<OffsetPoint>(&form(built)); offset != nullptr && offset->first == other)
+      return sum_of_squares({value(offset->along), value(offset->left)});
+  }
+  const auto *a = std::get_if<ExplicitPoint>(&form(from)), *b = std::get_if<ExplicitPoint>(&form(to));
+  if (a == nullptr || b == nullptr) return std::nullopt;
+  std::vector<std::optional<Rational>> differences;
+  for (std::size_t i = 0; i < a->coordinates.size(); ++i) {
+    const std::optional<Rational> p = value(a->coordinates[i]), q = value(b->coordinates[i]);
+    differences.push_back(p && q ? std::optional<Rational>(*p - *q) : std::nullopt);
+  }
+  return sum_of_squares(differences);
+}
+
 }  // namespace
+
+void leave_out_ends_out_of_reach(Mechanism& mechanism) {
+  for (Limit& limit : mechanism.limits) {
+    if (limit.is_angle()) continue;
+    for (PointIndex joint = 0; joint < static_cast<PointIndex>(mechanism.points.size()); ++joint) {
+      if (joint == limit.points[0] || joint == limit.points[1]) continue;
+      const std::optional<Rational> a = kept_square(mechanism, limit.points[0], joint);
+      const std::optional<Rational> b = a ? kept_square(mechanism, joint, limit.points[1]) : std::nullopt;
+      if (!b) continue;
+      // d^2 - a^2 - b^2 against 2 a b and -2 a b, squared.
+      const auto beyond = [&](const Rational& end) -> Rational { return end * end - *a - *b; };
+      const Rational product = 4 * *a * *b, low = beyond(limit.lower_value), high = beyond(limit.upper_value);
+      limit.lower_out_of_reach = limit.lower_out_of_reach || (low <= 0 && low * low >= product);
+      limit.upper_out_of_reach = limit.upper_out_of_reach || (high >= 0 && high * high >= product);
+    }
+  }
+}
 
 std::vector<bool> idle_limits(const Mechanism& mechanism) {
   constexpr std::size_t postures = 12;

@@ -12,6 +12,10 @@ namespace clearloci::mechanism {
 /// One a limit of the mechanism: whether it bounds nothing.
 std::vector<bool> idle_limits(const Mechanism& mechanism);
 
+/// Ends of distances that no pose is beyond, since links of known lengths meet in a joint: |a - b| <= d <= a + b. At
+/// such an end a mechanism is stretched and goes on: it is no boundary. Decided exactly.
+void leave_out_ends_out_of_reach(Mechanism& mechanism);
+
 /// Without them.
 Mechanism without_idle_limits(Mechanism mechanism);
 

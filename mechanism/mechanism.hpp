@@ -284,11 +284,13 @@ struct Limit {
   Expression lower, upper;         ///< rad of an angle (is_angle), else m
   Rational lower_value, upper_value;
   core::SourcePosition where;
+  /// Of a distance: links that meet in a joint never bring the points nearer, or farther apart.
+  bool lower_out_of_reach = false, upper_out_of_reach = false;
 
   bool is_angle() const { return points.size() == 3; }
   /// Whether anything is beyond its ends: no angle is below 0 or above 180 deg, and no distance below 0.
-  bool keeps_lower() const { return lower_value > 0; }
-  bool keeps_upper() const { return !is_angle() || core::to_double(upper_value) < half_turn; }
+  bool keeps_lower() const { return lower_value > 0 && !lower_out_of_reach; }
+  bool keeps_upper() const { return is_angle() ? core::to_double(upper_value) < half_turn : !upper_out_of_reach; }
   static constexpr double half_turn = 3.14159265358979312;  ///< the double next to pi
 };
 

@@ -242,6 +242,7 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
     joint.clearance = opened(*joint.clearance, nominal);
   }
   for (Limit& limit : result.mechanism.limits) {
+    limit.lower_out_of_reach = limit.upper_out_of_reach = false;  // of other lengths they may be within
     for (Expression* expression : {&limit.lower, &limit.upper}) {
       if (opening.dependence(*expression).varied)
         throw core::InputError(limit.where, "a limit of the workspace is varied",

@@ -9,6 +9,7 @@
 #include "core/text.hpp"
 #include "mechanism/assembly/assemble.hpp"
 #include "mechanism/free_cables.hpp"
+#include "mechanism/idle_limits.hpp"
 #include "mechanism/import/import.hpp"
 #include "mechanism/inline_points.hpp"
 #include "mechanism/reader.hpp"
@@ -104,6 +105,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   check_rigidity(mechanism);
   check_slots(mechanism);
   check_gears(mechanism);
+  leave_out_ends_out_of_reach(mechanism);
   limit_spring_ends(mechanism);
   return mechanism;
 }

@@ -171,7 +171,7 @@ class ModelBuilder {
       const Triple between = way(1, 0);
       const Register square = g.dot(between, between), unit2 = t.square(upper);
       if (limit.keeps_lower()) slack[0] = t.divide(t.subtract(square, t.square(lower)), unit2);
-      slack[1] = t.divide(t.subtract(unit2, square), unit2);
+      if (limit.keeps_upper()) slack[1] = t.divide(t.subtract(unit2, square), unit2);
     }
     keep(slack, model);
   }

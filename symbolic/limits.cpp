@@ -59,7 +59,8 @@ std::vector<LimitCondition> limit_conditions(const Geometry& geometry) {
     const Poly square = dot(way, way), lower = number(limit.lower), upper = number(limit.upper);
     if (limit.keeps_lower())
       all.push_back({square - lower * lower, mechanism::words_of(m, limit, false), limit.where, {}, i});
-    all.push_back({upper * upper - square, mechanism::words_of(m, limit, true), limit.where, {}, i});
+    if (limit.keeps_upper())
+      all.push_back({upper * upper - square, mechanism::words_of(m, limit, true), limit.where, {}, i});
   }
   for (const mechanism::JointIndex j : mechanism::bounded_laws(m)) {
     const mechanism::Joint& joint = m.joints[static_cast<std::size_t>(j)];

@@ -366,7 +366,7 @@ class StaticsBuilder {
     const Vector between = way(0, 1);
     const int square = points_.dot(between, between);
     if (limit.keeps_lower()) positive.push_back(b_.subtract(square, b_.square(lower)));
-    positive.push_back(b_.subtract(b_.square(upper), square));
+    if (limit.keeps_upper()) positive.push_back(b_.subtract(b_.square(upper), square));
   }
 
   const std::vector<const Mechanism*>& loads_;

@@ -112,6 +112,18 @@ TEST(ReadLoads, MayVaryWithThePose) {
   EXPECT_NE(complaint(with(text, push, "force: '30*(H - Q)'")).find("'Q'"), std::string::npos);
 }
 
+/// Lengths are 1/2 and the bases 1/2 apart: A1-B2 is between 0 and 1, A1-P between 0 and 1.
+TEST(ReadLimits, BoundNothingWhereLinksDoNotReach) {
+  const auto ends = [](const std::string& points, const std::string& within) {
+    const Mechanism m = parsed(text + "limits: [{distance: " + points + ", within: " + within + "}]\n");
+    return std::pair(m.limits.at(0).keeps_lower(), m.limits.at(0).keeps_upper());
+  };
+  EXPECT_EQ(ends("[A1, B2]", "[0.1, 1]"), std::pair(true, false));
+  EXPECT_EQ(ends("[A1, B2]", "[0.1, 0.999999999999]"), std::pair(true, true));
+  EXPECT_EQ(ends("[B2, A1]", "[0.1, 2]"), std::pair(true, false));
+  EXPECT_EQ(ends("[A1, P]", "[0.1, 1]"), std::pair(true, false));
+}
+
 TEST(ReadLimits, KeepDistancesAndAngles) {
   const Mechanism m = parsed(text + R"(limits:
   - {angle: [A1, B1, P], within: [20 deg, 180 deg]}
