@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "analysis/framed.hpp"
+#include "loci/search/search.hpp"
 #include "mechanism/read.hpp"
 
 namespace clearloci {
@@ -28,6 +29,7 @@ mechanism::Mechanism with_notes(mechanism::Mechanism parsed, const std::vector<s
 SharedDesign::SharedDesign(std::string text, std::string file, std::vector<std::string> notes,
                            mechanism::Mechanism first)
     : text_(std::move(text)), file_(std::move(file)), notes_(std::move(notes)), first_(std::move(first)) {
+  loci::keep_to_threads_to_be_had();
   // Each member has its own.
   for (mechanism::Joint& joint : first_.joints)
     if (joint.free_effort) joint.free_effort->given = true;

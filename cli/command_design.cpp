@@ -35,8 +35,9 @@ struct DesignCommand {
 int parse_threads(const std::string& text) {
   if (text.empty()) return 0;
   const core::Rational number = parse_positive(text, "--threads", mechanism::Mechanism{});
-  if (number.get_den() != 1 || number > 1024)
-    throw core::InputError({.file = "--threads"}, "'" + text + "' is no number of threads", "write a number to 1024");
+  if (number.get_den() != 1 || number > most_threads)
+    throw core::InputError({.file = "--threads"}, "'" + text + "' is no number of threads",
+                           fmt::format("write a number to {}", most_threads));
   return static_cast<int>(number.get_num().get_si());
 }
 

@@ -129,8 +129,12 @@ int run_program(int argc, const char* const* argv) {
     end_without_memory();
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return unwritten();  // printing throws where the stream fails
-    if (error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory)
-      end_without_memory();  // no thread is to be had
+    if (error.code() == std::errc::not_enough_memory) end_without_memory();
+    if (error.code() == std::errc::resource_unavailable_try_again) {
+      complain("the system has no more threads; allow more processes (ulimit -u) or more memory");
+      report::remove_temporaries();
+      std::_Exit(exit_limit_reached);
+    }
     complain(fmt::format("internal error: {}; please report it with the mechanism file", error.what()));
     return exit_internal_error;
   } catch (const std::exception& error) {

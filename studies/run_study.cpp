@@ -332,6 +332,9 @@ Model design_model(const Model& model, const StudyResult& result, const StudyDes
 }
 
 StudyResult run_study(const Model& model, const core::Study& study, const StudyOptions& options) {
+  if (options.threads < 0 || options.threads > most_threads)
+    throw core::InputError({}, std::to_string(options.threads) + " threads are asked for",
+                           "ask for 1 to " + std::to_string(most_threads) + ", or 0, which is one a core");
   StudyResult result = begun(model, study);
   const StudyProblem problem(model, study);
   if (study.method.kind == Kind::prove) {

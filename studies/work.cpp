@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/errors.hpp"
+#include "core/threads.hpp"
 #include "studies/design_table.hpp"
 
 namespace clearloci {
@@ -43,12 +44,19 @@ class Desk {
     std::vector<std::uint64_t> items;
     if (failed_) return items;
     if (options_.deadline && Clock::now() >= *options_.deadline) stopped_ = true;
+    if (!stopped_) items.swap(put_back_);
     while (!stopped_ && items.size() < most) {
       const auto next = work_.next();
       if (!next) break;
       items.push_back(*next);
     }
     return items;
+  }
+
+  /// What was taken and is still to be done, before there is more to take.
+  void put_back(std::vector<std::uint64_t> items) {
+    const std::lock_guard lock(mutex_);
+    put_back_ = std::move(items);
   }
 
   bool stopped() {
@@ -76,14 +84,17 @@ class Desk {
   const Work& work_;
   const StudyOptions& options_;
   std::mutex mutex_;
+  std::vector<std::uint64_t> put_back_;
   std::atomic<bool> stopped_ = false;
   std::exception_ptr failed_;
 };
 
-void work_at(Desk& desk, const Work& work) {
+/// `items`: taken already.
+void work_at(Desk& desk, const Work& work, std::vector<std::uint64_t> items) {
+  if (items.empty()) return;
   try {
     const Worker worker = work.worker();
-    for (std::vector<std::uint64_t> items = desk.take(); !items.empty(); items = desk.take()) {
+    for (; !items.empty(); items = desk.take()) {
       std::vector<StudyDesign> results;
       for (const std::uint64_t item : items) {
         if (desk.stopped()) break;
@@ -176,24 +187,32 @@ void hand_out(Desk& desk, const Work& work, const StudyRanks& ranks, const std::
 bool do_work(const Work& work, const StudyOptions& options) {
   Desk desk(work, options);
   const bool ranks = options.ranks != nullptr && options.ranks->size > 1;
-  std::vector<std::thread> others;
   std::atomic<int> busy = 0;
-  for (int i = ranks ? 0 : 1; i < threads_of(options); ++i) {
-    ++busy;
-    others.emplace_back([&] {
-      work_at(desk, work);
-      --busy;
-    });
-  }
+  core::Threads others;
   try {
+    std::vector<std::uint64_t> own = ranks ? std::vector<std::uint64_t>{} : desk.take();
+    // Each begins with what was taken for it: there are no more threads than pieces of work.
+    for (int i = ranks ? 0 : 1; i < threads_of(options); ++i) {
+      std::vector<std::uint64_t> items = desk.take();
+      if (items.empty()) break;
+      ++busy;
+      if (others.start([&, items] {
+            work_at(desk, work, items);
+            --busy;
+          }))
+        continue;
+      --busy;
+      desk.put_back(std::move(items));
+      break;
+    }
     if (ranks)
       hand_out(desk, work, *options.ranks, busy);
     else
-      work_at(desk, work);
+      work_at(desk, work, std::move(own));
   } catch (...) {
     desk.fail(std::current_exception());
   }
-  for (std::thread& thread : others) thread.join();
+  others.join();
   return desk.end();
 }
 

@@ -137,11 +137,13 @@ struct StudyRanks {
   std::function<std::optional<std::pair<int, std::string>>()> poll;  ///< of rank 0: a message with its sender, if any
 };
 
+inline constexpr int most_threads = 1024;
+
 struct StudyOptions {
   /// Where finished designs are kept as they come, so that a run that was stopped goes on; empty: nowhere.
   std::filesystem::path table = {};
   bool resume = false;  ///< go on from the table; else it is begun anew
-  int threads = 0;      ///< 0: as many as there are cores
+  int threads = 0;      ///< 0: as many as there are cores; fewer where the system has no more
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
   std::function<void(const StudyProgress&)> progress = {};
   const StudyRanks* ranks = nullptr;  ///< of a rank other than 0 the answer is empty

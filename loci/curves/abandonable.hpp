@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <future>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -15,13 +16,17 @@
 
 namespace clearloci::loci {
 
-/// The result of `work()`, or core::LimitReached where it does not come by `deadline`. Required: `work` holds whatever
-/// it uses by value, for it may outlive the caller. What it throws is thrown here.
+/// The result of `work()`, or core::LimitReached where it does not come by `deadline`, or no thread is to be had.
+/// Required: `work` holds whatever it uses by value, for it may outlive the caller. What it throws is thrown here.
 template <class Work>
 auto within(std::chrono::steady_clock::time_point deadline, Work work) -> decltype(work()) {
   std::packaged_task<decltype(work())()> task(std::move(work));
   auto result = task.get_future();
-  std::thread(std::move(task)).detach();
+  try {
+    std::thread(std::move(task)).detach();
+  } catch (const std::system_error&) {
+    throw core::LimitReached("no thread is to be had for the exact engine");
+  }
   if (result.wait_until(deadline) != std::future_status::ready)
     throw core::LimitReached("the time limit was reached in the exact engine");
   return result.get();

@@ -11,6 +11,10 @@ namespace clearloci::loci {
 /// caller's TBB arena allows. Where one throws no further one begins, and the first failure comes out.
 void run_in_order(std::size_t count, const std::function<void(std::size_t)>& task);
 
+/// Work on all cores makes threads, and ends in an exception where the system refuses one: to be called before any, it
+/// keeps this process to as many as are to be had.
+void keep_to_threads_to_be_had();
+
 /// Calls look(worker, 0) to look(worker, count - 1), `at_a_time` by the worker of a thread, who has forgotten what it
 /// saw before: what it sees does not depend on threads. `workers`: a tbb::enumerable_thread_specific.
 template <class Workers, class Look>

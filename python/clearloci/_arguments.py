@@ -129,6 +129,12 @@ def poses(model: Model, values: Any) -> np.ndarray:
     return np.ascontiguousarray(array)
 
 
+def positives(name: str, values: Any, unit: str) -> list[float]:
+    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+        raise TypeError(f"{name} is {values!r}; give a list of numbers, of {unit}")
+    return [positive(f"{name}[{i}]", value, unit) for i, value in enumerate(values)]
+
+
 def words(name: str, value: Names) -> list[str]:
     if isinstance(value, str):
         return [word.strip() for word in value.split(",")]

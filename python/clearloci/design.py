@@ -91,6 +91,13 @@ def design(
         text = Path(file).read_text(encoding="utf-8")
     handle = arguments.handle_of(model)
     threads, chunk = arguments.count("threads", threads, least=0), arguments.count("chunk", chunk)
+    if executor is not None:
+        if not callable(getattr(executor, "submit", None)):
+            raise TypeError(f"executor is {type(executor).__name__}; give one of concurrent.futures, or one with its submit()")
+        if table is not None:
+            raise ValueError("table is kept by the threads of this process; leave table or executor out")
+    if resume and table is None:
+        raise ValueError("resume goes on from a table; give table, the path of one, without an executor")
     if executor is None:
         kept = "" if table is None else arguments.path("table", table)
         return Designs(**_clearloci.run_study(handle, text, file, threads, kept, bool(resume)))

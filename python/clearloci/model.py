@@ -375,7 +375,7 @@ class Model:
             None if period is None else arguments.positive("period", period, "s"),
             arguments.count("samples", samples, least=10),
             None if min_force is None else arguments.positive("min_force", min_force, "N"),
-            [arguments.positive(f"periods[{i}]", value, "s") for i, value in enumerate(periods)],
+            arguments.positives("periods", periods, "s"),
             **given,
         )
 

@@ -3,6 +3,7 @@
 import inspect
 import json
 import math
+from concurrent.futures import ThreadPoolExecutor
 from decimal import Decimal
 from fractions import Fraction
 
@@ -75,6 +76,7 @@ WRONG = [
     ("trajectory", {"path": "no.yaml", "period": math.nan}),
     ("trajectory", {"path": "no.yaml", "samples": 2}),
     ("trajectory", {"path": "no.yaml", "periods": [1, "x"]}),
+    ("trajectory", {"path": "no.yaml", "periods": 1.0}),
     ("with_parameters", {"L": [1]}),
     ("with_parameters", {"L": "1/0"}),
     ("with_parameters", {"L": math.nan}),
@@ -104,6 +106,24 @@ def test_texts_are_texts(wrong):
         cl.Model(wrong)
     with pytest.raises(TypeError):
         cl.design(wrong, {})
+
+
+@pytest.mark.parametrize("given", [{"period": 1e-300}, {"min_force": 1e-300}, {"periods": [1e-300, 1]}])
+def test_numbers_too_small_to_occur_are_refused(given):
+    model = cl.read(EXAMPLES / "pick_and_place" / "manipulator.yaml")
+    with pytest.raises(ValueError, match="nearer to 0 than 1e-30"):
+        model.trajectory(EXAMPLES / "pick_and_place" / "path.yaml", **given)
+
+
+@pytest.mark.parametrize(
+    "given",
+    [{"executor": 5}, {"executor": ThreadPoolExecutor, "table": "t"}, {"resume": True}, {"threads": 2000}, {"threads": 10**9}],
+)
+def test_wrong_arguments_of_studies(five_bar, given):
+    task = {"box": {"x": [0.2, 0.3], "y": [-0.8, -0.7]}}
+    study = {"vary": {"L": [0.4, 0.6]}, "task": task, "goal": {"maximise": "margin"}, "method": {"grid": [3]}}
+    with pytest.raises((TypeError, ValueError), match=next(iter(given)) if "table" not in given else "table"):
+        cl.design(five_bar, study, **given)
 
 
 def test_working_modes_in_every_form(five_bar):

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <boost/asio/dispatch.hpp>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/thread_pool.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
@@ -14,7 +14,9 @@
 #include <list>
 #include <sstream>
 #include <system_error>
+#include <thread>
 #include <utility>
+#include <vector>
 
 namespace clearloci::workbench {
 namespace {
@@ -64,10 +66,10 @@ HttpHead head_of(const http::request<http::string_body>& request) {
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(tcp::socket socket, Doorway& doorway, asio::thread_pool& threads)
+  Connection(tcp::socket socket, Doorway& doorway, asio::io_context& answers)
       : stream_(std::move(socket)),
         doorway_(doorway),
-        threads_(threads),
+        answers_(answers),
         buffer_(2 * doorway.limits.head),
         timer_(stream_.get_executor()) {
     ++doorway_.open;
@@ -116,7 +118,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   beast::tcp_stream stream_;
   Doorway& doorway_;
-  asio::thread_pool& threads_;
+  asio::io_context& answers_;
   beast::flat_buffer buffer_;
   asio::steady_timer timer_;
   std::optional<http::request_parser<http::string_body>> parser_;
@@ -184,7 +186,7 @@ void Connection::read_body() {
 
 void Connection::ask() {
   stream_.expires_never();
-  asio::post(threads_, [self = shared_from_this()]() mutable {
+  asio::post(answers_, [self = shared_from_this()]() mutable {
     const auto thread = self->stream_.get_executor();  // to which this connection, and its end, belong
     const SendAhead ahead = [&self, &thread](const std::string& type, std::string part) {
       asio::post(thread, [self, type, part = std::move(part)] { self->send_ahead(type, part); });
@@ -325,14 +327,32 @@ struct HttpServer::Parts {
   asio::io_context context{1};
   tcp::acceptor acceptor{context};
   asio::steady_timer pause{context};
-  asio::thread_pool threads;
+  asio::io_context answers;
+  asio::executor_work_guard<asio::io_context::executor_type> more_to_come{answers.get_executor()};
+  std::vector<std::thread> threads;
 
-  Parts(HttpService service, const HttpLimits& limits)
-      : doorway{std::move(service), limits, 0, {}}, threads(limits.threads) {}
+  Parts(HttpService service, const HttpLimits& limits);
+  ~Parts() { end_answers(); }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
 
+  /// Those that are asked for are given first.
+  void end_answers() {
+    more_to_come.reset();
+    for (std::thread& thread : threads) thread.join();
+    threads.clear();
+  }
   void accept();
   void make_room();
 };
+
+HttpServer::Parts::Parts(HttpService service, const HttpLimits& limits) : doorway{std::move(service), limits, 0, {}} {
+  try {
+    while (threads.size() < limits.threads) threads.emplace_back([this] { answers.run(); });
+  } catch (const std::system_error&) {  // the system has no more
+    if (threads.empty()) throw;
+  }
+}
 
 /// As many as may be open are: the stranger who has waited longest goes.
 void HttpServer::Parts::make_room() {
@@ -346,7 +366,7 @@ void HttpServer::Parts::accept() {
     make_room();
     if (!error) {
       if (doorway.open <= doorway.limits.connections)
-        std::make_shared<Connection>(std::move(socket), doorway, threads)->start();
+        std::make_shared<Connection>(std::move(socket), doorway, answers)->start();
       return accept();
     }
     constexpr std::chrono::milliseconds later{20};  // no file is left to open
@@ -371,13 +391,13 @@ HttpServer::HttpServer(int port, HttpService service, HttpLimits limits)
   parts_->accept();
 }
 
-HttpServer::~HttpServer() { parts_->threads.join(); }
+HttpServer::~HttpServer() = default;
 
 int HttpServer::port() const { return parts_->acceptor.local_endpoint().port(); }
 
 void HttpServer::run() {
   parts_->context.run();
-  parts_->threads.join();
+  parts_->end_answers();
 }
 
 void HttpServer::stop() { parts_->context.stop(); }

@@ -260,7 +260,8 @@ Server::Server(ServerOptions options) : parts_(std::make_unique<Parts>()) {
                     .ask = [&parts](const HttpHead& head, const std::string& body,
                                     const SendAhead& ahead) { return parts.ask(head, body, ahead); },
                     .refuse = refused_request});
-  } catch (const std::system_error&) {
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again) throw;  // no thread is to be had
     throw InputError({.file = "--port"}, "the port cannot be listened on", "leave --port out, and a free one is taken");
   }
 }
