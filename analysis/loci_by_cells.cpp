@@ -204,7 +204,7 @@ class Followed {
     double extent = 0;
     for (std::size_t c = 0; c < lower_.size(); ++c) extent = std::max(extent, upper_[c] - lower_[c]);
     effort.tolerance = request_.tolerance / extent;
-    if (!over_two()) effort.cells = std::clamp(static_cast<int>(std::ceil(1 / request_.mesh_size)), 4, 96);
+    if (!over_two()) effort.cells = static_cast<int>(std::clamp(std::ceil(1 / request_.mesh_size), 4.0, 96.0));
     const loci::pose::PoseZeros found = loci::pose::pose_zeros(statics, lower_, upper_, effort);
     map_.out_of_time = map_.out_of_time || found.out_of_time || (covered && covered->out_of_effort);
     const Mode mode{sides, mode_of(sides, map_.tower), statics};

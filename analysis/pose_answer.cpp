@@ -49,7 +49,8 @@ void require_rates(const mechanism::Mechanism& mechanism, const PoseRequest& req
   for (const std::vector<double>* const rates : {&request.velocity, &request.acceleration}) {
     if (!rates->empty()) require_values(mechanism, rates->size());
     for (const double rate : *rates)
-      if (!std::isfinite(rate)) throw core::InputError({}, "a rate of the pose is no finite number", "give a number");
+      if (!(std::abs(rate) <= 1e15))  // as of all numbers that are read (mechanism::unusable)
+        throw core::InputError({}, "a rate of the pose is no number, or larger than 1e15", "give one as it occurs");
   }
 }
 

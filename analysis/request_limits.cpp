@@ -133,6 +133,11 @@ double finest_tolerance(const mechanism::Mechanism& mechanism) {
   return spacings * (largest > 0 ? largest : 1);
 }
 
+void check_positive(double value, const std::string& what, const std::string& unit) {
+  if (!std::isfinite(value)) throw InputError({}, what + " is no number", "give " + unit + ", more than 0");
+  check_positive(std::optional(Rational(value)), what, unit);
+}
+
 void check_least(const std::optional<Rational>& min_force, const std::optional<Rational>& min_couple) {
   check_positive(min_force, "min_force", "N");
   check_positive(min_couple, "min_couple", "N m");

@@ -2,6 +2,8 @@
 // the public functions. The readers of files and of command lines say it before, in their words.
 #pragma once
 
+#include <string>
+
 #include "clearloci/error.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/verify.hpp"
@@ -17,6 +19,9 @@ double finest_tolerance(const mechanism::Mechanism& mechanism);
 void check_request(const mechanism::Mechanism& mechanism, const LociRequest& request);
 void check_request(const mechanism::Mechanism& mechanism, const ErrorRequest& request);
 void check_task(const mechanism::Mechanism& mechanism, const core::Task& task);
+
+/// A number above zero that occurs in mechanisms, as the readers of files and of command lines ask for it.
+void check_positive(double value, const std::string& what, const std::string& unit);
 
 /// What joints are to keep, N and N m, where it is given.
 void check_least(const std::optional<Rational>& min_force, const std::optional<Rational>& min_couple);

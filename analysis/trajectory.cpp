@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/reaction_rows.hpp"
+#include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
@@ -203,15 +203,10 @@ std::vector<std::string> idle_notes(const numeric::Motion& motion) {
 
 // ---- Request
 
-void require_positive(const std::optional<double>& value, const std::string& what, const std::string& unit) {
-  if (value && !(*value > 0 && std::isfinite(*value)))
-    throw core::InputError({}, "the " + what + " is no positive number", "give " + unit + ", more than 0");
-}
-
 void check(const TrajectoryRequest& request) {
-  require_positive(request.period, "period", "s");
-  require_positive(request.min_force, "least force", "N");
-  for (const double period : request.periods) require_positive(period, "period of a sweep", "s");
+  if (request.period) check_positive(*request.period, "the period", "s");
+  if (request.min_force) check_positive(*request.min_force, "the least force", "N");
+  for (const double period : request.periods) check_positive(period, "a period of the sweep", "s");
   if (std::adjacent_find(request.periods.begin(), request.periods.end(), std::greater_equal<>()) !=
       request.periods.end())
     throw core::InputError({}, "the periods of a sweep are not in order", "give them ascending, each once");

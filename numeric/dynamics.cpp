@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/errors.hpp"
@@ -43,8 +44,25 @@ const mechanism::Group* lost_group(const Motion& motion, const Instant& at) {
                          "move the waypoints, or choose another working mode");
 }
 
+/// A motion that is given in time may have no value there, or no velocity, ...
+void require_motion(const Motion& motion, const Instant& at) {
+  for (std::size_t c = 0; c < at.coordinates.size(); ++c) {
+    const auto& orders = at.coordinates[c].c;
+    std::size_t lost = 0;
+    while (lost < orders.size() && std::isfinite(orders[lost])) ++lost;
+    if (lost == orders.size()) continue;
+    constexpr std::array names = {"value", "velocity", "acceleration", "jerk"};
+    const double time = at.tau * core::to_double(motion.timeline.trajectory.period);
+    throw core::InputError({motion.timeline.trajectory.file, 0, 0},
+                           "coordinate " + motion.model.mechanism.coordinates[c].name + " has no " + names[lost] + " " +
+                               core::told(time, "s", motion.model.mechanism.units) + " after the start",
+                           "write an expression that is smooth over the whole period");
+  }
+}
+
 void require_regular(const Motion& motion, const Instant& at) {
   const std::string& file = motion.timeline.trajectory.file;
+  require_motion(motion, at);
   if (at.broken) {
     const mechanism::Mechanism& m = motion.model.mechanism;
     throw core::InputError({file, 0, 0},

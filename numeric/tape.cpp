@@ -18,9 +18,11 @@ Bounded from_rational(const core::Rational& value) {
 }
 
 /// Twice the exponent, if the exponent is an integer or half of one; a power beyond 64 is no user's polynomial.
+constexpr int largest_exponent = 64;
+
 std::optional<int> doubled_exponent(const Bounded& exponent) {
   const double doubled = 2 * exponent.value;
-  if (doubled != std::round(doubled) || std::abs(doubled) > 128) return std::nullopt;
+  if (doubled != std::round(doubled) || std::abs(doubled) > 2 * largest_exponent) return std::nullopt;
   return static_cast<int>(doubled);
 }
 
@@ -165,10 +167,11 @@ struct Compiling {
   Register power(Register base, const core::Expression& e) const {
     const Register exponent = core::interpret(e.arguments()[1], *this);
     const auto doubled = tape.is_constant(exponent) ? doubled_exponent(tape.constant_value(exponent)) : std::nullopt;
-    if (!doubled) {
-      throw core::InputError({}, "the exponent in `" + core::to_string(e) + "` is no integer or half of one",
+    if (!doubled)
+      throw core::InputError({},
+                             "the exponent in `" + core::to_string(e) + "` is no integer or half of one up to " +
+                                 std::to_string(largest_exponent),
                              "write a constant integer exponent");
-    }
     return *doubled % 2 == 0 ? tape.power(base, *doubled / 2) : tape.power(tape.sqrt(base), *doubled);
   }
 };

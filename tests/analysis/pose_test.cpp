@@ -169,6 +169,8 @@ TEST(SolvePose, AndrewsSqueezerStartsAsPublished) {
 TEST(SolvePose, RefusesRatesThatItCannotUse) {
   const Model model = example("five_bar.yaml");
   EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.velocity = {1}}), InputError);
+  EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.velocity = {1e200, 0}}), InputError);
+  EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.velocity = {std::nan(""), 0}}), InputError);
   EXPECT_THROW(solve_pose(model, {0.25, -0.7}, {.iterate = true, .velocity = {1, 0}}), InputError);
   EXPECT_THROW(solve_pose(example("gough_stewart.yaml"), {0, 0, 0.6}, {.velocity = {1, 0}}), InputError);
 }

@@ -10,6 +10,7 @@
 #include "clearloci/export.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "clearloci/trajectory.hpp"
 #include "clearloci/validate.hpp"
 #include "clearloci/verify.hpp"
 #include "tests/source_dir.hpp"
@@ -35,6 +36,16 @@ TEST(RequestLimits, LeastEffortsArePositiveAndOccur) {
   for (const Rational& force : {Rational(0), Rational(-1), huge, Rational(1 / huge)}) {
     EXPECT_THROW(trace_loci(model, {.min_force = force}), InputError) << force;
     EXPECT_THROW(trace_loci(model, {.min_couple = force}), InputError) << force;
+  }
+}
+
+TEST(RequestLimits, PeriodsAndLeastForcesOfMotionsOccur) {
+  const Model model = example("pick_and_place/manipulator.yaml");
+  const std::string path = source_dir() + "/examples/pick_and_place/path.yaml";
+  for (const double wrong : {1e-300, 1e-31, 0.0, -1.0, 1e16, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THROW(follow_trajectory(model, path, {.period = wrong}), InputError) << wrong;
+    EXPECT_THROW(follow_trajectory(model, path, {.min_force = wrong}), InputError) << wrong;
+    EXPECT_THROW(follow_trajectory(model, path, {.periods = {wrong}}), InputError) << wrong;
   }
 }
 

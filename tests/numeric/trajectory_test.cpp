@@ -477,6 +477,10 @@ loads: [{link: block, at: P, force: [-20, -5]}]
   EXPECT_NE(refusal(slider_crank, "1.00000001 - (t - 0.50013)^2", 1000), "");
   EXPECT_NE(refusal(slider_crank, "1 - (t - 0.50013)^2", 1000), "");
   EXPECT_EQ(refusal(slider_crank, "0.9999 - (t - 0.50013)^2", 1000), "");
+  EXPECT_EQ(refusal(slider_crank, "0.9 + 0.05*sin(1/t)", 100), "coordinate x has no value 0 s after the start");
+  EXPECT_EQ(refusal(slider_crank, "0.9 + 0.05*sqrt(t)", 100), "coordinate x has no velocity 0 s after the start");
+  EXPECT_EQ(refusal(slider_crank, "0.9 + 0.05*t^1000", 100),
+            "the exponent in `t^1000` is no integer or half of one up to 64");
 }
 
 }  // namespace
