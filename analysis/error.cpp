@@ -8,6 +8,7 @@
 #include "analysis/flanks.hpp"
 #include "analysis/framed.hpp"
 #include "analysis/model.hpp"
+#include "analysis/pose.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/singular_modes.hpp"
 #include "analysis/zone_errors.hpp"
@@ -134,6 +135,8 @@ Errors find_errors(const mechanism::Mechanism& mechanism, const ErrorRequest& gi
     add_zones(zones, sides, mode);
     errors.modes.push_back(std::move(mode));
   }
+  if (std::all_of(errors.modes.begin(), errors.modes.end(), [](const ModeErrors& mode) { return mode.reachable == 0; }))
+    errors.notes.push_back(words_of_no_pose(mechanism, "no pose of the grid is reached"));
   return errors;
 }
 

@@ -12,6 +12,7 @@
 #include "analysis/framed.hpp"
 #include "analysis/loci_by_cells.hpp"
 #include "analysis/model.hpp"
+#include "analysis/pose.hpp"
 #include "analysis/request_limits.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
@@ -259,7 +260,7 @@ TracedProblem trace_member(const mechanism::Mechanism& mechanism, const LociRequ
   map.parameters = mechanism::told_parameters(mechanism);
   map.tolerance = request.tolerance;
   for (std::string& note : mechanism::notes_of(mechanism)) map.notes.push_back(std::move(note));
-  if (closes_nowhere(map)) map.notes.emplace_back("no pose is reached: the mechanism does not close in the workspace");
+  if (closes_nowhere(map)) map.notes.push_back(words_of_no_pose(mechanism));
   return traced;
 }
 

@@ -48,6 +48,22 @@ std::string words_beyond(const numeric::NumericModel& model, const DyadSides& si
   return mechanism::words_of_end(m, end.limit, end.upper);
 }
 
+}  // namespace
+
+std::string words_of_no_pose(const mechanism::Mechanism& mechanism, const std::string& what) {
+  const numeric::NumericModel model = numeric::compile(mechanism);
+  const DyadSides sides = mechanism::working_mode(mechanism);
+  std::vector<double> middle;
+  for (const mechanism::Coordinate& c : mechanism.coordinates)
+    middle.push_back(core::to_double(core::Rational((c.lower + c.upper) / 2)));
+  const numeric::Posture posture = posture_at(model, middle, sides);
+  if (posture.unreachable || !posture.broken) return what + ": the mechanism does not close in the workspace";
+  return what + ": the middle of the workspace is beyond the limit of the " +
+         words_beyond(model, sides, posture, middle);
+}
+
+namespace {
+
 /// Cables whose tension follows a law have no unknown.
 void add_tensions_by_law(const mechanism::Mechanism& mechanism, Pose& pose) {
   for (std::size_t j = 0; j < mechanism.joints.size(); ++j) {

@@ -32,6 +32,10 @@ std::vector<std::pair<std::string, std::string>> named_mode(const mechanism::Mec
 /// The sides that are meant: the file's where none are given. Throws core::InputError where their number is wrong.
 DyadSides sides_of(const mechanism::Mechanism& mechanism, const DyadSides& sides);
 
+/// Of a mechanism that reaches no pose: `what` and why, "no pose is reached: the mechanism does not close in the
+/// workspace", or the limit that the middle of the workspace is beyond.
+std::string words_of_no_pose(const mechanism::Mechanism& mechanism, const std::string& what = "no pose is reached");
+
 /// Throws core::InputError where a pose has not one value for each free coordinate.
 void require_values(const mechanism::Mechanism& mechanism, std::size_t count);
 

@@ -466,6 +466,9 @@ Zones zones_by_cells(const mechanism::Mechanism& mechanism, const ZoneRequest& r
       request.loci.progress(static_cast<double>(m) / static_cast<double>(modes.size()), "cells");
     add_mode(ground, modes[m], map);
   }
+  // The workspace is what is not proven to be out of reach.
+  if (std::all_of(map.modes.begin(), map.modes.end(), [](const core::ZonedMode& mode) { return mode.workspace == 0; }))
+    map.loci.notes.push_back(words_of_no_pose(mechanism));
   return map;
 }
 

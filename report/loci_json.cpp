@@ -249,6 +249,7 @@ Json loci_object(const core::LocusMap& map) {
   for (const auto& region : map.workspace) {
     root["workspace"].push_back({{"working_mode", mode_object(map.tower, region.mode)}, {"rings", region.rings}});
   }
+  if (map.tower.coordinates.size() == 1) root["reachable"] = Json::array();
   for (const auto& interval : map.reachable) {
     root["reachable"].push_back(
         {{"working_mode", mode_object(map.tower, interval.mode)}, {"from", interval.from}, {"to", interval.to}});

@@ -6,6 +6,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "core/shown_units.hpp"
 #include "report/file_units.hpp"
 #include "report/loci_json.hpp"
 #include "report/wording.hpp"
@@ -88,7 +89,8 @@ Json validation_object(const core::Validation& validation) {
           {"disputed_edges", std::move(edges)},
           {"arcs_held", report.arcs_held},
           {"arcs_undecided", report.arcs_undecided},
-          {"disputed_arcs", std::move(arcs)}};
+          {"disputed_arcs", std::move(arcs)},
+          {"notes", validation.map.notes}};
 }
 
 std::string validation_text(const core::Validation& validation) {
@@ -120,6 +122,9 @@ std::string validation_text(const core::Validation& validation) {
     text += fmt::format("contradicted: {} {} along {} near {}{}\n", reaction_name(arc.reaction), what, arc.curve,
                         place(arc.at), after(validation, arc.mode));
   }
+  const core::LocusMap& map = validation.map;
+  for (const std::string& note : told_once(core::in_file_units(map.notes, map.units, angles_of(map))))
+    text += printable(note) + "\n";
   return text;
 }
 

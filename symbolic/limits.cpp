@@ -106,12 +106,9 @@ std::vector<LimitCondition> bounding_limits(const Geometry& geometry, const Elim
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (const auto left = elimination.constant_over_tower(all[i].natural)) {
       if (*left >= 0) continue;
-      if (!geometry.folds().empty()) {  // there may be poses on the other sides
-        all[i].natural = Poly(geometry.ring(), -1);
-        bounding.push_back(std::move(all[i]));
-        continue;
-      }
-      throw core::InputError(all[i].where, "every pose is beyond the limit of the " + all[i].words, "widen the limit");
+      all[i].natural = Poly(geometry.ring(), -1);  // no pose is reached here; of folds there may be on the other sides
+      bounding.push_back(std::move(all[i]));
+      continue;
     }
     if (all[i].limit < idle.size() && idle[all[i].limit] && !geometry.has_dependent_roots() &&
         is_idle_on_sheets(m, geometry.charts(), i))

@@ -250,6 +250,7 @@ class Validation(Asked):
     arcs_confirmed: int
     arcs_unresolved: int
     contradicted_arcs: list[dict[str, Any]] = field(repr=False)
+    notes: list[str] = field(repr=False)
 
     _stem = "validation"
 

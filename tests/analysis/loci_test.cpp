@@ -8,9 +8,12 @@
 #include <iterator>
 #include <string>
 
+#include "clearloci/error.hpp"
 #include "clearloci/loci.hpp"
 #include "clearloci/mechanism.hpp"
 #include "clearloci/pose.hpp"
+#include "clearloci/validate.hpp"
+#include "clearloci/zones.hpp"
 #include "tests/source_dir.hpp"
 
 namespace clearloci {
@@ -30,6 +33,30 @@ TEST(Loci, SayThatNoPoseIsReached) {
   EXPECT_THAT(notes("gough_stewart.yaml", {}), testing::Not(testing::Contains(note)));
   // The workspace is not told from the disc in its middle, but poses on its curves are reached.
   EXPECT_THAT(notes("../tests/corpus/loci/coaxial_cones_on_a_circle.yaml", {}), testing::Not(testing::Contains(note)));
+}
+
+/// All commands say so in the same words, also where it is a limit that no pose keeps.
+TEST(Loci, NoPoseIsReachedInAllCommands) {
+  for (const std::string name : {"five_bar", "four_bar"}) {
+    const Model whole = Model::read(source_dir() + "/examples/" + name + ".yaml");
+    const std::string ends = name == "five_bar" ? "A1, B1" : "A, B";
+    const Model model = Model::parse(whole.text() + "limits: [{distance: [" + ends + "], within: [2, 3]}]\n", "m.yaml");
+    const auto says = testing::Contains(
+        testing::StartsWith("no pose is reached: the middle of the workspace is beyond the limit of the distance A"));
+    for (const Engine engine : {Engine::adaptive_then_exact, Engine::exact}) {
+      const LocusMap map = trace_loci(model, {.engine = engine});
+      EXPECT_THAT(map.notes, says);
+      EXPECT_TRUE(map.complete && map.curves.empty() && map.isolated_points.empty()) << name;
+    }
+    const Zones zones = find_zones(model);
+    EXPECT_THAT(zones.loci.notes, says);
+    EXPECT_TRUE(zones.loci.complete && zones.zones.empty()) << name;
+    const Validation validation = validate_loci(model, {.nodes = std::vector<int>(model.coordinates().size(), 9)});
+    EXPECT_THAT(validation.map.notes, says);
+    EXPECT_TRUE(validation.validated());
+    const std::vector<std::string> errors = find_errors(model).notes;
+    EXPECT_THAT(errors, testing::Contains(testing::StartsWith("no pose of the grid is reached: the middle")));
+  }
 }
 
 /// An example under gravity, with a mass at the end of every cylinder and rod of its three legs.
