@@ -1,5 +1,6 @@
 // The shapes of task files.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -46,6 +47,21 @@ RationalPose read_pose(const Mechanism& mechanism, const Value& value) {
   return pose;
 }
 
+/// Of a box over two lengths of which one is a single number: the line that is meant, where the other is a range.
+[[noreturn]] void refuse_held(const Mechanism& mechanism, const Mapping& ranges, const Value& held) {
+  std::array<std::string, 2> ends;
+  for (const Coordinate& coordinate : mechanism.coordinates) {
+    const Value range = ranges.at(coordinate.name);
+    const bool two = range.is_sequence() && range.node.size() == 2;
+    const std::vector<Value> parts = two ? elements(range, 2) : std::vector{range, range};
+    for (std::size_t i = 0; i < 2; ++i)
+      ends[i] += (ends[i].empty() ? "" : ", ") + (parts[i].is_scalar() ? text_of(parts[i]) : "...");
+  }
+  throw InputError(held.where, held.what + " is a single number, and a box over two lengths has an area",
+                   "write [lower, upper]" +
+                       (ends[0] == ends[1] ? "" : ", or for a line path: [[" + ends[0] + "], [" + ends[1] + "]]"));
+}
+
 /// {x: [-0.05, 0.05], alpha: 0}, of these coordinates; the others stay 0. In the plane a box has an area.
 core::TaskBox read_box(const Mechanism& mechanism, const Value& value, const std::vector<std::size_t>& of) {
   std::vector<std::string> names;
@@ -57,7 +73,8 @@ core::TaskBox read_box(const Mechanism& mechanism, const Value& value, const std
   for (const std::size_t c : of) {
     const Coordinate& coordinate = mechanism.coordinates[c];
     const Value range = of_coordinate(ranges.at(coordinate.name), coordinate);
-    const std::vector<Value> ends = range.is_scalar() && !plane ? std::vector{range, range} : elements(range, 2);
+    if (range.is_scalar() && plane) refuse_held(mechanism, ranges, range);
+    const std::vector<Value> ends = range.is_scalar() ? std::vector{range, range} : elements(range, 2);
     for (std::size_t i = 0; i < 2; ++i)
       (i == 0 ? box.lower : box.upper)[c] = read_number(mechanism, of_coordinate(ends[i], coordinate), Sign::any).value;
     if (plane ? box.lower[c] >= box.upper[c] : box.lower[c] > box.upper[c])

@@ -48,6 +48,11 @@ TEST(Task, WrongOnesAreToldWhereAndHowToMendThem) {
   EXPECT_EQ(complaint("path: []"), "task.yaml:2:7: the path has 0 points; write 2 at least: [[x, y], [x, y], ...]");
   EXPECT_EQ(complaint("box: {x: [0.4, 0.1], y: [-0.5, 0.3]}"),
             "task.yaml:2:10: the x of the box is empty: from 0.4 m to 0.1 m; write [lower, upper]");
+  EXPECT_EQ(
+      complaint("box: {x: [-0.3182, -0.3181], y: 0.1453}"),
+      "task.yaml:2:33: the y of the box is a single number, and a box over two lengths has an area; write [lower, "
+      "upper], or for a line path: [[-0.3182, 0.1453], [-0.3181, 0.1453]]");
+  EXPECT_TRUE(complaint("box: {x: 0.1, y: 0.1453}").ends_with("has an area; write [lower, upper]"));
   EXPECT_EQ(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0, -0.6], [0.5, -0.6]]"),
             "task.yaml:2:22: the polygon crosses itself: side 2; write its corners in their order round it");
   EXPECT_NE(complaint("polygon: [[0, -0.7], [0.5, -0.7], [0.2, -0.7]]").find("crosses itself"), std::string::npos);
