@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/reduced.hpp"
 #include "core/task.hpp"
 
 namespace clearloci {
@@ -173,7 +174,7 @@ class Placing {
         const mechanism::Coordinate& coordinate = mechanism_.coordinates[c];
         const Rational least = coordinate.lower - bounds_[0][c], greatest = coordinate.upper - bounds_[1][c];
         if (moves_[c] && greatest > least)
-          by[c] = short_of(least + (greatest - least) * Rational(2 * at[c] + 1, 2 * steps));
+          by[c] = short_of(least + (greatest - least) * core::reduced(2 * at[c] + 1, 2 * steps));
       }
       if (fits(by) && judge_.looks_good(core::moved(task_.shape, by))) places.push_back({by, far(by), 0});
       std::size_t c = 0;

@@ -6,6 +6,7 @@
 
 #include "check/certificate.hpp"
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -183,7 +184,7 @@ class PoseRangeCheck {
     if (!is_reach_closure()) return;
     constexpr int parts = 16;
     for (int k = 1; k < parts; ++k) {
-      const Rational at = from + (to - from) * Rational(k, parts);
+      const Rational at = from + (to - from) * core::reduced(k, parts);
       if (holds(without_demands(mode, at, at), Holding::closure))
         throw FalseClaim("free: " + place(at, at) + " is within reach, and neither there nor open");
     }

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 
 namespace clearloci::inline core {
 namespace {
@@ -72,9 +73,7 @@ Polynomial DenseTerms::polynomial(const Integer& denominator) const {
   Polynomial result{static_cast<int>(strides_.size()), {}};
   for (std::size_t place = size(); place-- > 0;) {
     if (sgn(coefficients_[place]) == 0) continue;
-    Rational coefficient(coefficients_[place], denominator);
-    coefficient.canonicalize();
-    result.terms.push_back({exponents(place), std::move(coefficient)});
+    result.terms.push_back({exponents(place), reduced(coefficients_[place], denominator)});
   }
   return result;
 }
@@ -141,9 +140,7 @@ std::optional<Polynomial> exact_quotient(const Polynomial& p, const Polynomial& 
     mpz_divexact(scale.get_mpz_t(), (*rest)[place].get_mpz_t(), by.coefficients.front().get_mpz_t());
     for (std::size_t k = 0; k < below.size(); ++k)
       mpz_submul((*rest)[place - below[k]].get_mpz_t(), scale.get_mpz_t(), by.coefficients[k].get_mpz_t());
-    Rational coefficient(scale * by.denominator, denominator);
-    coefficient.canonicalize();
-    quotient.terms.push_back({std::move(factor), std::move(coefficient)});
+    quotient.terms.push_back({std::move(factor), reduced(scale * by.denominator, denominator)});
   }
   return quotient;
 }

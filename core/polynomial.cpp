@@ -9,6 +9,7 @@
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "core/powers_of_two.hpp"
+#include "core/reduced.hpp"
 
 namespace clearloci::inline core {
 namespace {
@@ -183,8 +184,7 @@ Polynomial with_variables(const Polynomial& p, int variables) {
 Polynomial primitive_part(const Polynomial& p) {
   if (p.is_zero()) return p;
   const WholeTerms whole = whole_terms(p);
-  Rational factor(whole.denominator, content(whole));
-  factor.canonicalize();
+  Rational factor = reduced(whole.denominator, content(whole));
   if (sgn(p.terms.front().coefficient) < 0) factor = -factor;
   Polynomial result = p;
   for (Term& term : result.terms) term.coefficient *= factor;

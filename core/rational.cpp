@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 
 namespace clearloci::inline core {
 namespace {
@@ -83,8 +84,7 @@ Rational rational_from_decimal(std::string_view text) {
   const Integer mantissa(before + after, 10);
   exponent -= static_cast<long>(after.size());
   const Integer scale = power_of_ten(static_cast<unsigned long>(std::labs(exponent)));
-  Rational value = exponent >= 0 ? Rational(mantissa * scale) : Rational(mantissa, scale);
-  value.canonicalize();
+  const Rational value = exponent >= 0 ? Rational(mantissa * scale) : reduced(mantissa, scale);
   return negative ? Rational(-value) : value;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "core/reduced.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
@@ -93,10 +94,8 @@ Fit read_fit(const Mechanism& mechanism, const Value& fit, const Value& diameter
   result.name = text_of(fit);
   result.diameter = read_number(mechanism, diameter, Sign::positive).value;
   const DiametralClearance clearance = diametral_clearance(result.name, result.diameter, fit.where);
-  result.least = Rational(clearance.least, 2000000);
-  result.largest = Rational(clearance.largest, 2000000);
-  result.least.canonicalize();
-  result.largest.canonicalize();
+  result.least = core::reduced(clearance.least, 2000000);
+  result.largest = core::reduced(clearance.largest, 2000000);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/joint_traits.hpp"
 
@@ -28,9 +29,7 @@ Rational near_root(const Rational& square) {
   // sqrt(n/d) = sqrt(n d)/d; the integer root of n d 4^bits errs by less than one.
   constexpr unsigned bits = 128;
   const core::Integer radicand = square.get_num() * square.get_den();
-  Rational root(sqrt(core::Integer(radicand << (2 * bits))), core::Integer(square.get_den() << bits));
-  root.canonicalize();
-  return root;
+  return core::reduced(sqrt(core::Integer(radicand << (2 * bits))), square.get_den() << bits);
 }
 
 }  // namespace clearloci::mechanism

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 #include "core/thread_end.hpp"
 
 namespace clearloci::mechanism {
@@ -84,9 +85,7 @@ Rational root_replacement(const Integer& n) {
   Integer scale;
   mpz_ui_pow_ui(scale.get_mpz_t(), 10, digits);
   const Integer scaled = sqrt(Integer(n * scale * scale));
-  Rational near(scaled, scale);
-  near.canonicalize();
-  return core::simplest_rational_near(near, replacement_tolerance());
+  return core::simplest_rational_near(core::reduced(scaled, scale), replacement_tolerance());
 }
 
 RadicalSum single(const Integer& key, const Rational& coefficient, bool exact = true) {

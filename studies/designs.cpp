@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 
 namespace clearloci {
 namespace {
@@ -87,20 +88,16 @@ std::vector<core::Rational> Designs::values(std::uint64_t index) const {
     // The first point is the corner of the cube: the middle of its own cell serves as well and lies inside.
     const std::vector<std::uint32_t> point = sobol_point(index, study_.vary.size());
     for (std::size_t d = 0; d < point.size(); ++d) {
-      core::Rational part(core::Integer(2 * static_cast<unsigned long>(point[d]) + 1), core::Integer(1UL << 33U));
-      part.canonicalize();
-      values.push_back(at(study_.vary[d], part));
+      values.push_back(
+          at(study_.vary[d], core::reduced(2 * static_cast<unsigned long>(point[d]) + 1, core::Integer(1UL << 33U))));
     }
     return values;
   }
   for (std::size_t d = 0; d < study_.vary.size(); ++d) {
     const auto count = static_cast<std::uint64_t>(study_.method.counts[d]);
-    core::Rational part(1, 2);  // of a single value the middle
-    if (count > 1)
-      part = core::Rational(static_cast<unsigned long>(index % count), static_cast<unsigned long>(count - 1));
-    part.canonicalize();
+    // Of a single value the middle.
+    values.push_back(at(study_.vary[d], count > 1 ? core::reduced(index % count, count - 1) : core::Rational(1, 2)));
     index /= count;
-    values.push_back(at(study_.vary[d], part));
   }
   return values;
 }

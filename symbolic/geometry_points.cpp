@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/powers_of_two.hpp"
+#include "core/reduced.hpp"
 #include "mechanism/evaluate.hpp"
 #include "symbolic/geometry.hpp"
 #include "symbolic/ginac_number.hpp"
@@ -75,7 +76,7 @@ void Geometry::add_positive(const Poly& divisor) {
   std::vector<Rational> at(static_cast<std::size_t>(ring_->size()), Rational(1));
   Rational value = core::evaluate(plain, at);
   for (int step = 1; value == 0; ++step) {
-    for (std::size_t v = 0; v < at.size(); ++v) at[v] = Rational(step, static_cast<long>(v) + 2);
+    for (std::size_t v = 0; v < at.size(); ++v) at[v] = core::reduced(step, static_cast<long>(v) + 2);
     value = core::evaluate(plain, at);
   }
   const Poly positive = value > 0 || has_root(divisor) ? divisor : -divisor;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/reduced.hpp"
+
 namespace clearloci::loci::sheet {
 
 namespace {
@@ -132,9 +134,7 @@ MultiInterval square_root(const MultiInterval& a) {
 namespace {
 
 core::Rational over_two_to_the_precision(const core::Integer& numerator) {
-  core::Rational value(numerator, core::Integer(1) << MultiInterval::precision);
-  value.canonicalize();
-  return value;
+  return core::reduced(numerator, core::Integer(1) << MultiInterval::precision);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/reduced.hpp"
+
 namespace clearloci::loci::sheet {
 namespace {
 
@@ -24,10 +26,7 @@ void add_multiple(Element& a, const Rational& factor, std::size_t power, const E
 NumberField::NumberField(RealRoot alpha) {
   narrow_by(alpha, MultiInterval::precision);
   alpha_ = MultiInterval(alpha.lower, alpha.upper);
-  for (const core::Integer& c : alpha.polynomial) {
-    monic_.emplace_back(c, alpha.polynomial.back());
-    monic_.back().canonicalize();
-  }
+  for (const core::Integer& c : alpha.polynomial) monic_.push_back(core::reduced(c, alpha.polynomial.back()));
 }
 
 Element NumberField::reduced(Element a) const {

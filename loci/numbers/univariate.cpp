@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 #include "core/thread_end.hpp"
 
 namespace clearloci::loci {
@@ -235,11 +236,7 @@ void narrow_by(RealRoot& root, int bits) {
     }
     // A part of the interval about Newton's place, with ends on a grid of it.
     Rational place = -1;
-    if (slope != 0) {
-      Rational way(value, slope * middle.get_den());
-      way.canonicalize();
-      place = (middle - way - root.lower) / width;
-    }
+    if (slope != 0) place = (middle - core::reduced(value, slope * middle.get_den()) - root.lower) / width;
     if (sgn(place) <= 0 || place >= 1) {
       halve();
       continue;

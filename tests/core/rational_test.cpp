@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/reduced.hpp"
+
 namespace clearloci::inline core {
 namespace {
 
@@ -85,6 +87,16 @@ TEST(SimplestRationalNear, FindsTheFamousFractionsOfPi) {
   EXPECT_EQ(simplest_rational_near(pi, Rational(1, 100)), Rational(22, 7));
   EXPECT_EQ(simplest_rational_near(pi, rational_from_decimal("3e-7")), Rational(355, 113));
   EXPECT_EQ(simplest_rational_near(-pi, Rational(1, 100)), Rational(-22, 7));
+}
+
+TEST(Reduced, IsInLowestTerms) {
+  for (int p = -12; p <= 12; ++p)
+    for (const int q : {-6, -1, 1, 4, 12}) {
+      const Rational value = reduced(p, q);
+      EXPECT_EQ(gcd(value.get_num(), value.get_den()), 1);
+      EXPECT_GT(value.get_den(), 0);
+      EXPECT_EQ(value * q, p);
+    }
 }
 
 TEST(SimplestRationalNear, HandlesZeroAndExactness) {
