@@ -396,13 +396,28 @@ EffortExclusion exclusion_of(const std::vector<EffortInequality>& rows, const st
 
 }  // namespace
 
-bool all_fail(const EffortInequality& row, const std::vector<core::Interval>& box) {
+namespace {
+
+/// Of a row over a box of efforts.
+core::Interval value_over(const EffortInequality& row, const std::vector<core::Interval>& box) {
   const auto enclosed = [](const Bounded& value) {
     return core::Interval(value.value) + core::Interval(-value.error, value.error);
   };
   core::Interval value = enclosed(row.offset);
   for (std::size_t k = 0; k < box.size(); ++k) value = value + enclosed(row.slope[k]) * box[k];
-  return value.upper() < 0;
+  return value;
+}
+
+}  // namespace
+
+bool all_fail(const EffortInequality& row, const std::vector<core::Interval>& box) {
+  return value_over(row, box).upper() < 0;
+}
+
+double distance_beyond(const EffortInequality& row, const std::vector<core::Interval>& box) {
+  double squares = 0;
+  for (const Bounded& slope : row.slope) squares += slope.value * slope.value;
+  return -value_over(row, box).upper() / std::sqrt(squares);
 }
 
 std::optional<EffortExclusion> excluded(const EffortSystem& system, const std::vector<EffortInequality>& rows) {

@@ -116,6 +116,8 @@ int sign_of(const core::PoseDemand& demand, const SignPattern& signs);
 
 /// Whether no efforts of a box meet a row, for certain.
 bool all_fail(const EffortInequality& row, const std::vector<core::Interval>& box);
+/// How far the efforts that meet a row are from a box of which none does, in floating point.
+double distance_beyond(const EffortInequality& row, const std::vector<core::Interval>& box);
 
 /// Whether no efforts that are looked at meet all rows, for certain: multipliers of a linear program, under which what
 /// is left of the slopes is too small for any of these efforts to matter.

@@ -69,7 +69,9 @@ class Points {
     for (std::size_t i = 0; i + 1 < zones.size(); ++i) {
       const Zone &before = *zones[i], &behind = *zones[i + 1];
       const bool one = behind.lower[0] - before.upper[0] <= one_point * width();
-      if (one || is_proven(end_of(before, true))) add_between(before, behind);
+      const ZoneEnd* const end = end_of(before, true);
+      // The end of the reach at a flank is told of beside its zone.
+      if (one || (is_proven(end) && end->limit.empty())) add_between(before, behind);
       if (one) continue;
       found_.loci.reachable.push_back({mode, from, before.upper[0]});
       from = behind.lower[0];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "analysis/effort_patterns.hpp"
@@ -51,18 +52,31 @@ class PatternRows {
     }
   }
 
-  /// Why no effort of a box has any of the patterns; empty where some may have.
+  /// Why no effort of a box has any of the patterns; empty where some may have. Rows that rule out a pattern say
+  /// nothing of what vanishes there, unless the reaction has neither sign; the end of a range of efforts is where
+  /// the nearest fails.
   std::string failing(const std::vector<core::Interval>& box) const {
-    const EffortInequality* last = nullptr;
+    std::vector<const EffortInequality*> failed;
     for (const std::vector<EffortInequality>& rows : patterns_) {
-      const auto found = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return all_fail(row, box); });
-      if (found == rows.end()) return {};
-      last = &*found;
+      const std::size_t before = failed.size();
+      for (const EffortInequality& row : rows)
+        if (all_fail(row, box)) failed.push_back(&row);
+      if (failed.size() == before) return {};
     }
-    if (last == nullptr) return {};
-    const std::string joint = last->reaction.substr(last->reaction.find('_') + 1);
-    if (last->bound) return joint + " beyond its bounds";
-    return (last->reaction.front() == 'f' ? "contact lost in " : "backlash in ") + joint;
+    if (failed.empty()) return {};
+    std::set<std::pair<std::string, int>> signs;
+    for (const EffortInequality* row : failed) signs.emplace(row->reaction, row->sign);
+    const EffortInequality* nearest = nullptr;
+    std::pair<bool, double> least;
+    for (const EffortInequality* row : failed) {
+      const bool has_sign = !row->bound && !signs.contains({row->reaction, -row->sign});
+      const std::pair<bool, double> key = {has_sign, distance_beyond(*row, box)};
+      if (nearest == nullptr || key < least) nearest = row, least = key;
+    }
+    const EffortInequality& first = *nearest;
+    const std::string joint = first.reaction.substr(first.reaction.find('_') + 1);
+    if (first.bound) return joint + " beyond its bounds";
+    return (first.reaction.front() == 'f' ? "contact lost in " : "backlash in ") + joint;
   }
 
  private:

@@ -117,6 +117,8 @@ class TowerVerifier {
     if (const auto traced = nearest(region);
         traced && (!result.nearest || traced->distance <= (1 + 1e-3) * result.nearest->distance))
       result.nearest = traced;
+    // What was met is known to a part of its distance, the margin is proven.
+    if (result.nearest && result.margin) result.nearest->distance = std::max(result.nearest->distance, *result.margin);
     return result;
   }
 

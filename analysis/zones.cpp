@@ -231,6 +231,7 @@ core::Zones find_zones(const mechanism::Mechanism& mechanism, const ZoneRequest&
   if (certificate != nullptr) {
     certify(map.loci, scaled, *certificate);
     certificate->zones = map.zones;
+    certificate->zoned_modes = map.modes;
   }
   if (scaled) map = from_frame(std::move(map), mechanism, scaled->frame);
   add_preload(mechanism, request.loci, map);

@@ -74,9 +74,15 @@ class Reader {
     for (const Json& entry : array(root, "points"))
       c.points.push_back({mode(entry, c), kind(text(entry, "kind")), vanishing(entry), boolean(entry, "certified"),
                           point(at(entry, "at"))});
-    if (root.contains("zones"))
+    if (c.command == "zones" || root.contains("zones"))
       for (const Json& entry : array(root, "zones")) c.zones.push_back(zone(entry, c));
-    if (root.contains("task")) c.task = task(at(root, "task"), c);
+    c.in_doubt.assign(c.modes.size(), 0);
+    if (root.contains("in_doubt"))
+      for (std::size_t mode = 0; mode < c.modes.size(); ++mode) {
+        c.in_doubt[mode] = number(at(array(root, "in_doubt"), mode));
+        if (c.in_doubt[mode] < 0) fail("an area is negative");
+      }
+    if (c.command == "verify" || root.contains("task")) c.task = task(at(root, "task"), c);
     return c;
   }
 

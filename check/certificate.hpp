@@ -102,6 +102,7 @@ struct CertificateFile {
   std::vector<CurveClaim> curves;
   std::vector<PointClaim> points;
   std::vector<ZoneClaim> zones;
+  std::vector<double> in_doubt;  ///< of every mode the area of the workspace that may be in no zone
   std::optional<TaskClaim> task;
   std::vector<std::pair<int, int>> slits;  ///< SheetParts::slits; from the model, not in the file
   std::optional<std::chrono::steady_clock::time_point> deadline;  ///< of the check; not in the file

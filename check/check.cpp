@@ -80,9 +80,13 @@ class Check {
         throw FalseClaim("box: it is not the model's");
     }
     if (!(c_.box[0] < c_.box[1] && c_.box[2] < c_.box[3])) throw FalseClaim("box: it is empty");
-    const auto dyads = static_cast<std::ptrdiff_t>(mechanism::dyad_points(m_).size());
-    if (std::count(c_.root_roles.begin(), c_.root_roles.end(), core::RootRole::working_mode) != dyads)
-      throw FalseClaim("roots: there is not one for every dyad and slider");
+    // By these names modes are told.
+    std::vector<std::string> dyads, named;
+    for (const mechanism::PointIndex point : mechanism::dyad_points(m_))
+      dyads.push_back(m_.points[static_cast<std::size_t>(point)].name);
+    for (std::size_t j = 0; j < c_.root_roles.size(); ++j)
+      if (c_.root_roles[j] == core::RootRole::working_mode) named.push_back(c_.root_points[j]);
+    if (named != dyads) throw FalseClaim("roots: there is not one for every dyad and slider, by its name");
     // Limits that keep a number, and so bound nothing, were left out.
     if (c_.limit_roots.size() != limit_ends(m_))
       throw core::InputError({m_.file}, "the model has a limit that the certificate knows no root of",

@@ -128,6 +128,7 @@ class PoseRangeCheck {
     }
     ++examination_.zones;
     if (free.assembly_mode == 0 && free.signs.empty()) return;
+    if (free.name.empty()) throw FalseClaim("signs: they are of no zone, at " + place(free.from, free.to));
     const Rational middle = (free.from + free.to) / 2;
     const PoseSigns signs = signs_at(m_, task(mode, middle, middle), deadline_, shown_);
     if (free.assembly_mode * signs.determinant != 0) {
@@ -171,12 +172,32 @@ class PoseRangeCheck {
       refuse_reached(mode, from, to);
       leave("that " + place(from, to) + " is out of reach");
     }
+    if (from > lower_) check_end_of_reach(mode, from, false);
+    if (to < upper_) check_end_of_reach(mode, to, true);
     for (const PoseRangeClaim::Point& point : mode.points) {
       if (point.at < from || point.at > to) continue;
       if (point.at - from > narrow() && to - point.at > narrow())
         throw FalseClaim("points: one is out of reach, at " + place(point.at, point.at));
       if (point.kind != core::LocusKind::workspace_boundary) check_at_boundary(mode, point, from, to);
     }
+  }
+
+  /// A boundary is where an interval begins or ends beside what is out of reach, and what vanishes there is named.
+  void check_end_of_reach(const PoseRangeClaim::Mode& mode, const Rational& end, bool begins) {
+    const PoseRangeClaim::Point* boundary = nullptr;
+    for (const PoseRangeClaim::Point& point : mode.points) {
+      if (point.kind != core::LocusKind::workspace_boundary || abs(point.at - end) > narrow() / 10 ||
+          (begins ? point.at > end : point.at < end))
+        continue;
+      if (boundary != nullptr) throw FalseClaim("points: two boundaries are at " + place(end, end));
+      boundary = &point;
+    }
+    if (boundary == nullptr) throw FalseClaim("points: no boundary is at " + place(end, end));
+    const Rational beyond = 2 * boundary->at - end;
+    const Rational &from = begins ? beyond : end, &to = begins ? end : beyond;
+    if (!holds(without_demands(mode, from, to), Holding::regular)) return;  // nothing closes beyond
+    require_named(mode, signs_at(m_, task(mode, from, from), deadline_, shown_),
+                  signs_at(m_, task(mode, to, to), deadline_, shown_), from, to);
   }
 
   /// Poses between two at which the mechanism closes are within reach.
@@ -241,19 +262,20 @@ class PoseRangeCheck {
     if (!refuted.empty()) throw FalseClaim(what + ": " + refuted + " does not vanish");
   }
 
-  /// Whatever changes its sign between two poses vanishes there, where |A| does not.
+  /// Whatever changes its sign between two poses vanishes there, where |A| does not, an odd number of times.
   void require_named(const PoseRangeClaim::Mode& mode, const PoseSigns& before, const PoseSigns& behind,
                      const Rational& from, const Rational& to) const {
     for (std::size_t d = 0; d < mode.demands.size(); ++d) {
       const core::TaskDemand& demand = mode.demands[d];
       if (demand.least > 0 || demand.bound || before.demands[d] * behind.demands[d] >= 0) continue;
       const Reaction reaction{demand.joint, demand.quantity};
-      if (std::none_of(mode.points.begin(), mode.points.end(), [&](const PoseRangeClaim::Point& point) {
-            return point.at >= from && point.at <= to &&
-                   std::find(point.vanishing.begin(), point.vanishing.end(), reaction) != point.vanishing.end();
-          }))
-        throw FalseClaim(fmt::format("points: {}_{} vanishes at {}, and none names it",
-                                     core::to_string(demand.quantity), demand.joint, place(from, to)));
+      const auto count = std::count_if(mode.points.begin(), mode.points.end(), [&](const PoseRangeClaim::Point& point) {
+        return point.at >= from && point.at <= to &&
+               std::find(point.vanishing.begin(), point.vanishing.end(), reaction) != point.vanishing.end();
+      });
+      if (count % 2 == 0)
+        throw FalseClaim(fmt::format("points: {}_{} vanishes at {}, and {} name it", core::to_string(demand.quantity),
+                                     demand.joint, place(from, to), count));
     }
   }
 

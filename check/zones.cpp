@@ -7,6 +7,7 @@
 
 #include "check/identity.hpp"
 #include "check/plane.hpp"
+#include "check/zone_borders.hpp"
 
 namespace clearloci::check {
 namespace {
@@ -18,12 +19,8 @@ using core::Polyline;
 constexpr double on_border = 1e-7;
 // Poses of the box that are looked at in every mode: a lattice of so many either way, askew to what designs like.
 constexpr int poses_a_side = 23;
-
-std::vector<const Polyline*> rings_of(const ZoneClaim& zone) {
-  std::vector<const Polyline*> rings = {&zone.outer};
-  for (const Polyline& hole : zone.holes) rings.push_back(&hole);
-  return rings;
-}
+// As many times as far from an arc as what is said to be on it, a pose is beside it.
+constexpr double off_arcs = 4;
 
 double area_of(const Polyline& ring) {
   double twice = 0;
@@ -61,7 +58,7 @@ class ZoneCheck {
   ZoneCheck(const mechanism::Mechanism& m, const CertificateFile& c, Examination& examination)
       : m_(m), c_(c), examination_(examination), unknowns_(reactions_of(m)) {
     for (std::size_t i = 0; i < 4; ++i) box_[i] = c.box[i].get_d();
-    reach_ = on_border * std::max(box_[1] - box_[0], box_[3] - box_[2]) + 2 * c.tolerance;
+    reach_ = near() + 2 * c.tolerance;
   }
 
   void run() {
@@ -76,7 +73,17 @@ class ZoneCheck {
       check_arcs_within(zone);
       ++examination_.zones;
     }
-    for (int mode = 0; mode < static_cast<int>(c_.modes.size()); ++mode) check_poses(mode);
+    for (int mode = 0; mode < static_cast<int>(c_.modes.size()); ++mode) {
+      const std::vector<const ZoneClaim*> zones = zones_of(mode);
+      const bool all = c_.in_doubt[static_cast<std::size_t>(mode)] == 0 &&
+                       std::all_of(zones.begin(), zones.end(), [](const auto* zone) { return zone->certified; });
+      check_poses(mode, zones, all);
+      if (all)
+        check_cover(mode, zones);
+      else
+        examination_.unchecked.push_back(
+            fmt::format("mode {}: whether the zones are all of the workspace, which is said to be in doubt", mode + 1));
+    }
   }
 
  private:
@@ -154,26 +161,82 @@ class ZoneCheck {
     }
   }
 
-  void check_poses(int mode) const {
-    const bool all =
-        std::all_of(c_.zones.begin(), c_.zones.end(), [](const ZoneClaim& zone) { return zone.certified; });
-    if (std::none_of(c_.zones.begin(), c_.zones.end(), [&](const ZoneClaim& zone) { return zone.mode == mode; }))
-      return;
-    for (int i = 0; i < poses_a_side; ++i)
-      for (int k = 0; k < poses_a_side; ++k) {
-        const Point2 at = {box_[0] + (i + 0.3719) / poses_a_side * (box_[1] - box_[0]),
-                           box_[2] + (k + 0.6173) / poses_a_side * (box_[3] - box_[2])};
-        if (!solve_at(mode, at) || is_on_arc(mode, at)) continue;
-        int zones = 0;
-        for (const ZoneClaim& zone : c_.zones) {
-          if (zone.mode != mode || !is_inside(zone, at)) continue;
-          ++zones;
-          if (zone.certified) (void)has_signs_of(zone, at);
-        }
-        if (zones > 1 || (zones == 0 && all))
-          throw FalseClaim(fmt::format("zones: the pose ({}, {}) is in {} of them", at[0], at[1], zones));
-      }
+  std::vector<const ZoneClaim*> zones_of(int mode) const {
+    std::vector<const ZoneClaim*> zones;
+    for (const ZoneClaim& zone : c_.zones)
+      if (zone.mode == mode) zones.push_back(&zone);
+    return zones;
   }
+
+  /// A pose off the arcs is in one of the mode's zones, and has its signs. `all`: not in none.
+  void check_pose(int mode, const std::vector<const ZoneClaim*>& zones, bool all, const Point2& at) const {
+    const bool in_box = box_[0] < at[0] && at[0] < box_[1] && box_[2] < at[1] && at[1] < box_[3];
+    if (!in_box || !solve_at(mode, at) || is_on_arc(mode, at)) return;
+    int count = 0;
+    for (const ZoneClaim* zone : zones) {
+      if (!is_inside(*zone, at)) continue;
+      ++count;
+      if (zone->certified) (void)has_signs_of(*zone, at);
+    }
+    if (count > 1 || (count == 0 && all))
+      throw FalseClaim(fmt::format("zones: the pose ({}, {}) is in {} of them", at[0], at[1], count));
+  }
+
+  void check_poses(int mode, const std::vector<const ZoneClaim*>& zones, bool all) const {
+    for (const ZoneClaim* zone : zones) check_pose(mode, zones, all, zone->sample);
+    for (int i = 0; i < poses_a_side; ++i)
+      for (int k = 0; k < poses_a_side; ++k)
+        check_pose(mode, zones, all,
+                   {box_[0] + (i + 0.3719) / poses_a_side * (box_[1] - box_[0]),
+                    box_[2] + (k + 0.6173) / poses_a_side * (box_[3] - box_[2])});
+  }
+
+  /// Beyond its border each zone has another one, or the workspace ends there; so it is zones as far as it hangs
+  /// together. Every part of it that is not the box alone has an arc, both sides of which are looked at.
+  void check_cover(int mode, const std::vector<const ZoneClaim*>& zones) const {
+    const ZoneBorders borders(zones);
+    for (const auto& [a, b] : borders.one_sided())
+      if (!is_on_box(a, b) && !(may_be_boundary(mode, a) && may_be_boundary(mode, b)))
+        throw FalseClaim(fmt::format("zones: none is on the other side of a border at ({}, {})", a[0], a[1]));
+    for (const CurveClaim& curve : c_.curves) {
+      if (curve.mode != mode || !curve.certified || curve.kind == core::LocusKind::component) continue;
+      for (const core::Arc& arc : curve.arcs) {
+        for (const double side : {-1.0, 1.0}) check_pose(mode, zones, true, beside(arc.points, side));
+        if (curve.kind == core::LocusKind::workspace_boundary) continue;
+        for (const Point2& at : arc.points)
+          if (!borders.has_vertex(at) && std::none_of(zones.begin(), zones.end(), [&](const ZoneClaim* zone) {
+                return is_near_border(*zone, at, reach_);
+              }))
+            throw FalseClaim(fmt::format("zones: an arc at ({}, {}) is no border of one", at[0], at[1]));
+      }
+    }
+  }
+
+  bool is_on_box(const Point2& a, const Point2& b) const {
+    for (std::size_t side = 0; side < 4; ++side) {
+      const std::size_t axis = side / 2;
+      if (std::max(std::abs(a[axis] - box_[side]), std::abs(b[axis] - box_[side])) <= near()) return true;
+    }
+    return false;
+  }
+
+  /// Whether a root may be zero there.
+  bool may_be_boundary(int mode, const Point2& at) const {
+    const auto around = [&](double middle) { return Interval(middle - near(), middle + near(), cell_bits); };
+    const auto here = posture(m_, sides_of(c_, mode), around(at[0]), around(at[1]));
+    return !here || std::any_of(here->squares.begin(), here->squares.end(),
+                                [](const Interval& square) { return square.contains_zero(); });
+  }
+
+  /// A little off the middle of an arc.
+  Point2 beside(const Polyline& points, double side) const {
+    const Point2 &a = points[points.size() / 2 - 1], &b = points[points.size() / 2];
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]),
+                 off = length > 0 ? side * off_arcs * reach_ / length : 0;
+    return {0.5 * (a[0] + b[0]) - off * (b[1] - a[1]), 0.5 * (a[1] + b[1]) + off * (b[0] - a[0])};
+  }
+
+  double near() const { return on_border * std::max(box_[1] - box_[0], box_[3] - box_[2]); }
 
   const mechanism::Mechanism& m_;
   const CertificateFile& c_;
@@ -186,7 +249,7 @@ class ZoneCheck {
 }  // namespace
 
 void check_zones(const mechanism::Mechanism& m, const CertificateFile& certificate, Examination& examination) {
-  if (!certificate.zones.empty()) ZoneCheck(m, certificate, examination).run();
+  if (certificate.command == "zones" || !certificate.zones.empty()) ZoneCheck(m, certificate, examination).run();
 }
 
 }  // namespace clearloci::check

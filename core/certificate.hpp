@@ -54,6 +54,7 @@ struct Certificate {
   std::vector<OpenClaim> open;
   LocusMap map;             ///< that was traced
   std::vector<Zone> zones;  ///< that were cut
+  std::vector<ZonedMode> zoned_modes;
   /// A free coordinate of the mechanism file is from + scale times the one that all of the above speaks of.
   std::array<Rational, 2> from{};
   Rational scale = 1;

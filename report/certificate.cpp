@@ -291,6 +291,12 @@ std::string certificate_text(const CertificateSource& source, const core::Certif
                                {"sample", zone.sample},
                                {"certified", zone.certified}});
     }
+    root["in_doubt"] = Json::array();
+    for (const core::WorkingMode& mode : problem.modes) {
+      const auto found = std::find_if(certificate.zoned_modes.begin(), certificate.zoned_modes.end(),
+                                      [&](const core::ZonedMode& zoned) { return zoned.mode == mode; });
+      root["in_doubt"].push_back(found == certificate.zoned_modes.end() ? 0 : found->in_doubt);
+    }
   }
   return text_of(root);
 }

@@ -99,6 +99,43 @@ loads:
   expect_weakest(model, {0.16, 0.06}, "{x: [0.1599, 0.1601], y: [0.0599, 0.0601]}", {"C", Quantity::F});
 }
 
+/// What the cells of the proof meet is known to a part of its distance.
+TEST(LeastForceOfATask, IsNotMetNearerThanTheMargin) {
+  const Model model = Model::parse(R"(format: 1
+name: a five-bar by a coupler
+workspace:
+  x: [-0.31, 0.734]
+  y: [-0.851, 0.559]
+points:
+  A: [0, 0]
+  E: [0.424, -0.195]
+  P: [x, y]
+  B: {dyad: [A, P], lengths: [0.825, 0.473], side: right}
+  C: {on: [B, P], offset: [0.215, -0.118]}
+  F: {dyad: [E, C], lengths: [0.605, 0.628], side: left}
+links:
+  a: {points: [A, B]}
+  b: {points: [B, P, C]}
+  c: {points: [E, F]}
+  d: {points: [F, C]}
+joints:
+  A: {revolute: [ground, a], at: A, actuated: true, clearance: {radial: 0.00001}}
+  B: {revolute: [a, b], at: B, clearance: {radial: 0.00005}}
+  C: {revolute: [b, d], at: C, clearance: {radial: 0.00005}}
+  F: {revolute: [d, c], at: F, clearance: {radial: 0.00005}}
+  E: {revolute: [ground, c], at: E, actuated: true, clearance: {radial: 0.00002, angular: 0.0001}}
+end_effector: {link: b, at: P}
+loads:
+  - {link: b, at: P, force: [-87, 43], couple: 5}
+  - {link: b, at: P, force: '57*(A - P)'}
+)");
+  const Verification answer = verify(
+      model, parse_task("format: 1\ncircle: {centre: [0.2744, -0.4228], radius: 0.0209}\nmin_force: 423.332\n", model));
+  ASSERT_TRUE(answer.verified() && answer.margin && answer.nearest);
+  EXPECT_NEAR(*answer.margin, 0.0159448138, 1e-9);
+  EXPECT_GE(answer.nearest->distance, *answer.margin);
+}
+
 TEST(LeastForceOfATask, IsThatOfTeethToo) {
   const Model model = Model::parse(example_text("geared_five_bar"));
   expect_weakest(model, {70 * std::numbers::pi / 180}, "{theta: [69.99, 70.01]}", {"W", Quantity::F});

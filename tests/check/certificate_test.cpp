@@ -479,15 +479,6 @@ TEST(Zones, AreHeldAgainstTheModel) {
     zone["outer"] = certificate["zones"][1]["outer"];
     zone["area"] = certificate["zones"][1]["area"];
   });
-  const auto without = [&](std::size_t zone) {
-    Json changed = certificate;
-    changed["zones"].erase(zone);
-    return changed;
-  };
-  for (std::size_t zone = 0; zone < certificate["zones"].size(); ++zone)
-    if (certificate["zones"][zone]["area"] > 0.02) {
-      EXPECT_FALSE(examination_of(model, without(zone).dump()).accepted) << zone;
-    }
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ TEST(PoseRangeCertificate, IsRejectedWhereAClaimIsMadeFalse) {
          mode(c)["free"].erase(1);
        }},
       {"a point that is left out", [&](Json& c) { mode(c)["points"].erase(0); }},
+      {"a point twice", [&](Json& c) { mode(c)["points"].push_back(Json(mode(c)["points"][0])); }},
       {"a point where no locus is", [&](Json& c) { mode(c)["points"][0]["at"] = mode(c)["free"][0]["from"]; }},
       {"a sign of |A|",
        [&](Json& c) { mode(c)["free"][0]["assembly_mode"] = -mode(c)["free"][0]["assembly_mode"].get<int>(); }},
@@ -124,14 +125,38 @@ TEST(PoseRangeCertificate, IsRejectedWhereAClaimIsMadeFalse) {
   }
 }
 
-/// Out of reach there are no points but at its ends.
-TEST(PoseRangeCertificate, IsRejectedWhereAPointIsOutOfReach) {
+/// Out of reach there are no points but at its ends, where teeth change flanks: each is a boundary at which their force
+/// vanishes.
+TEST(PoseRangeCertificate, IsRejectedWherePointsAreNotThoseOfTheEndsOfTheReach) {
   const std::string model = example("geared_five_bar.yaml"), certificate = range_certified(model, false);
-  Json changed = Json::parse(certificate);
-  Json& points = changed["pose_range"]["modes"][0]["points"];
-  points.push_back(point_of(changed["pose_range"]["modes"][0], "workspace-boundary"));
-  points.back()["at"] = "2";
-  EXPECT_FALSE(examination_of(model, changed.dump()).accepted);
+  const auto is_accepted = [&](const std::function<void(Json&)>& change) {
+    Json changed = Json::parse(certificate);
+    change(changed["pose_range"]["modes"][0]);
+    return examination_of(model, changed.dump()).accepted;
+  };
+  EXPECT_FALSE(is_accepted([](Json& mode) {
+    mode["points"].push_back(point_of(mode, "workspace-boundary"));
+    mode["points"].back()["at"] = "2";
+  }));
+  const Json points = Json::parse(certificate)["pose_range"]["modes"][0]["points"];
+  const auto first = [&](const auto& wanted) {
+    return static_cast<std::size_t>(std::find_if(points.begin(), points.end(), wanted) - points.begin());
+  };
+  const std::size_t of_teeth = first([](const Json&point) { return point["vanishing"].dump() == R"([["W","F"]])"; }),
+                    boundary = first([](const Json&point) { return point["kind"] == "workspace-boundary"; });
+  ASSERT_LT(std::max(of_teeth, boundary), points.size());
+  for (const std::size_t point : {of_teeth, boundary})
+    EXPECT_FALSE(is_accepted([&](Json& mode) { mode["points"].erase(point); })) << point;
+  EXPECT_FALSE(is_accepted([&](Json& mode) { mode["points"].push_back(points[boundary]); })) << "twice";
+  EXPECT_FALSE(is_accepted([](Json& mode) { mode["free"][0]["assembly_mode"] = 1; })) << "of no zone";
+}
+
+/// Also where a zone begins beyond what is out of reach.
+TEST(PoseRangeCertificate, SaysOnceWhatVanishesAtTheEndsOfZones) {
+  const Json certificate = Json::parse(range_certified(example("geared_five_bar.yaml"), true));
+  const Json& points = certificate["pose_range"]["modes"][0]["points"];
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(points[i], points[k]);
 }
 
 /// A mechanism whose legs reach no point of the line together, and one that its limit holds from every pose.
