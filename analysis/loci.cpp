@@ -146,8 +146,7 @@ void claim_no_curves(const std::vector<core::LocusFactor>& factors, core::Certif
     for (int v = 0; v < factor.sheet.variables; ++v) variables.push_back(builder.variable(v));
     const core::StraightLine line = builder.line(builder.polynomial(factor.sheet, variables));
     for (int mode = 0; mode < static_cast<int>(problem.modes.size()); ++mode)
-      certificate.sheets.push_back(
-          {mode, factor.role, factor.expression, line, {}, domain, {{kind, 0, 0, 0}}});
+      certificate.sheets.push_back({mode, factor.role, factor.expression, line, {}, domain, {{kind, 0, 0, 0}}});
   }
 }
 

@@ -61,7 +61,8 @@ struct Derivation {
   const std::string& point_name(mechanism::PointIndex point) const;
   /// Of one of `factors`, over the tower.
   const Poly& sheet_of(std::size_t factor);
-  /// Of |A| and of what is asked for; a certificate claims that they have no zeros, but for points. They alone of `rest` have sheets.
+  /// Of |A| and of what is asked for; a certificate claims that they have no zeros, but for points. They alone of
+  /// `rest` have sheets.
   void keep_without_curves(core::FactorRole role, const std::string& expression, const std::vector<Poly>& sheets);
 
   const mechanism::Mechanism& mechanism;

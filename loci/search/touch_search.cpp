@@ -138,7 +138,8 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
 }
 
 /// Of g in what the cell is in, where f = 0, along a curve that runs along that coordinate. Where the curves touch, the
-/// gradient of g is a sum of those of f and of the bonds of the lifted roots, which vanish: without them g hardly varies.
+/// gradient of g is a sum of those of f and of the bonds of the lifted roots, which vanish: without them g hardly
+/// varies.
 Interval TouchSearch::value_on_curve(int along) {
   SheetCell& cell = *cell_;
   const Interval plain = cell.centred(1);
@@ -160,8 +161,7 @@ Interval TouchSearch::value_on_curve(int along) {
       share[bond] = share[bond] + cell.slope(1, across[k]).middle() * Interval(inverse[k * n + bond]);
   Interval value = cell.middle_value(1);
   for (std::size_t bond = 0; bond < n; ++bond)
-    value =
-        value - share[bond] * (bond == 0 ? cell.middle_value(0) : cell.middle_bond(static_cast<int>(bond) - 1));
+    value = value - share[bond] * (bond == 0 ? cell.middle_value(0) : cell.middle_bond(static_cast<int>(bond) - 1));
   for (int d = 0; d < cell.dimension(); ++d) {
     Interval rest = cell.slope(1, d);
     for (std::size_t bond = 0; bond < n; ++bond) rest = rest - share[bond] * slope(bond, d);

@@ -26,18 +26,17 @@ TEST_P(OnceRejected, IsAccepted) {
   EXPECT_GT(examination.arcs, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Corpus, OnceRejected,
-                         testing::Values(Once{"end_of_a_guide"}, Once{"guide_beside_the_boundary"},
-                                         Once{"point_where_a_spring_has_no_length"}, Once{"chord_beside_another"},
-                                         Once{"line_crossed_at_its_middle"}, Once{"torsion_slit", {core::Quantity::M}},
-                                         Once{"spring_named_as_a_point", {core::Quantity::M}},
-                                         Once{"force_of_one_component", {core::Quantity::fx}},
-                                         Once{"crank_next_to_its_end_of_reach", {core::Quantity::M}},
-                                         Once{"legs_that_never_align", {core::Quantity::f}, {.joints = {"B2"}}},
-                                         Once{"margins_at_a_cone",
-                                              {core::Quantity::f},
-                                              {.joints = {"A1"}, .min_force = 10}}),
-                         [](const auto& candidate) { return std::string(candidate.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Corpus, OnceRejected,
+    testing::Values(Once{"end_of_a_guide"}, Once{"guide_beside_the_boundary"},
+                    Once{"point_where_a_spring_has_no_length"}, Once{"chord_beside_another"},
+                    Once{"line_crossed_at_its_middle"}, Once{"torsion_slit", {core::Quantity::M}},
+                    Once{"spring_named_as_a_point", {core::Quantity::M}},
+                    Once{"force_of_one_component", {core::Quantity::fx}},
+                    Once{"crank_next_to_its_end_of_reach", {core::Quantity::M}},
+                    Once{"legs_that_never_align", {core::Quantity::f}, {.joints = {"B2"}}},
+                    Once{"margins_at_a_cone", {core::Quantity::f}, {.joints = {"A1"}, .min_force = 10}}),
+    [](const auto& candidate) { return std::string(candidate.param.name); });
 
 TEST(Kinds, FollowFromWhatVanishes) {
   const std::string model = example("../tests/corpus/certificates/kinds.yaml");
