@@ -82,6 +82,17 @@ core::LocusMap trace_surfaces(const LociRequest& request, const std::vector<symb
   return std::move(*joined);
 }
 
+/// Whether no pose keeps a limit: what is left to it is a negative number wherever points are placed.
+bool all_are_beyond(const std::vector<symbolic::DerivedProblem>& derived) {
+  return std::all_of(derived.begin(), derived.end(), [](const symbolic::DerivedProblem& one) {
+    const std::vector<core::Root>& roots = one.problem.tower.roots;
+    return std::any_of(roots.begin(), roots.end(), [](const core::Root& root) {
+      const core::Polynomial& square = root.square;
+      return square.is_constant() && !square.is_zero() && sgn(square.terms.front().coefficient) < 0;
+    });
+  });
+}
+
 /// Of the pieces and sheets of one mechanism together. `parts`: those of a single piece, where there are several.
 core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociRequest& request,
                             std::vector<symbolic::DerivedProblem>& derived, const std::vector<DyadSides>& sides,
@@ -97,6 +108,8 @@ core::LocusMap trace_pieces(const mechanism::Mechanism& mechanism, const LociReq
                                    .sketch = effort == TraceEffort::sketch,
                                    .certificate = means.certificate,
                                    .searches = searches};
+  if (options.certificate != nullptr && all_are_beyond(derived))
+    throw core::InputError({mechanism.file}, words_of_no_pose(mechanism), "leave --certificate out");
   if (options.certificate != nullptr)
     for (const core::Root& root : derived.front().problem.tower.roots)
       if (root.square.is_constant() || root.name == core::fold_name)
@@ -228,6 +241,7 @@ TracedProblem derive_and_trace(const mechanism::Mechanism& mechanism, const Loci
       for (const std::string& note : one.notes)
         if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
     map.notes.insert(map.notes.begin(), notes.begin(), notes.end());
+    if (mechanism.coordinates.size() > 2 && all_are_beyond(derived)) map.notes.push_back(words_of_no_pose(mechanism));
     traced.problem = std::move(derived.front().problem);
     FileTexts(derived).write(traced);
   } catch (const core::LimitReached& limit) {
