@@ -301,7 +301,8 @@ class ArcCheck {
         };
         // What ends on something graver is named after that. At a cone |A| vanishes whatever its curve does.
         const auto is_singular = [&](const KnownArc& other) {
-          return other.curve->kind == core::LocusKind::direct_singularity && passes(other);
+          return curve_.claim.role != FactorRole::direct_singularity &&
+                 other.curve->kind == core::LocusKind::direct_singularity && passes(other);
         };
         there = std::any_of(arcs_.begin(), arcs_.end(), passes) &&
                 (at_cone(x, y) ? std::none_of(arcs_.begin(), arcs_.end(), is_singular) : !on_singularity()) &&
