@@ -1,7 +1,6 @@
 // GMP's constructor of two integers leaves them as they are, and all of its arithmetic asks for lowest terms.
 #pragma once
 
-
 #include "clearloci/exact.hpp"
 
 namespace clearloci::inline core {
