@@ -394,10 +394,6 @@ EffortExclusion exclusion_of(const std::vector<EffortInequality>& rows, const st
   return exclusion;
 }
 
-}  // namespace
-
-namespace {
-
 /// Of a row over a box of efforts.
 core::Interval value_over(const EffortInequality& row, const std::vector<core::Interval>& box) {
   const auto enclosed = [](const Bounded& value) {

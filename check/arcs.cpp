@@ -272,11 +272,7 @@ class ArcCheck {
     const Point2& at = end == 0 ? arc.points.front() : arc.points.back();
     const double reach = same_place * curve_.size;
     const Interval x = around(at[0], reach), y = around(at[1], reach);
-    const auto on_boundary = [&] {
-      const auto here = posture(m_, sides_of(c_, curve_.claim.mode), x, y);
-      return !here || std::any_of(here->squares.begin(), here->squares.end(),
-                                  [](const Interval& q) { return q.contains_zero(); });
-    };
+    const auto on_boundary = [&] { return may_be_on_boundary(m_, c_, curve_.claim.mode, x, y); };
     const auto on_singularity = [&] {
       return std::any_of(singular_.begin(), singular_.end(), [&](const core::StraightLine* program) {
         Sheet sheet(parts_of(c_, curve_.claim.mode, curve_.claim.at_zero), {program});

@@ -244,6 +244,13 @@ Sides sides_of(const CertificateFile& certificate, int mode) {
   return sides;
 }
 
+bool may_be_on_boundary(const mechanism::Mechanism& m, const CertificateFile& certificate, int mode, const Interval& x,
+                        const Interval& y) {
+  const auto here = posture(m, sides_of(certificate, mode), x, y);
+  return !here ||
+         std::any_of(here->squares.begin(), here->squares.end(), [](const Interval& q) { return q.contains_zero(); });
+}
+
 SheetParts parts_of(const CertificateFile& certificate, int mode, std::vector<int> at_zero) {
   return {&certificate.squares, certificate.modes.at(static_cast<std::size_t>(mode)), std::move(at_zero),
           certificate.slits, certificate.deadline};

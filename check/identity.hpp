@@ -18,6 +18,9 @@ namespace clearloci::check {
 /// A mode's signs, of the dyads and sliders alone.
 Sides sides_of(const CertificateFile& certificate, int mode);
 SheetParts parts_of(const CertificateFile& certificate, int mode, std::vector<int> at_zero = {});
+/// Whether some pose of a box may be out of reach, or have a root that is zero.
+bool may_be_on_boundary(const mechanism::Mechanism& m, const CertificateFile& certificate, int mode, const Interval& x,
+                        const Interval& y);
 
 /// Of every function, twice its exponent.
 using Exponents = std::vector<int>;

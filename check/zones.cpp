@@ -223,9 +223,7 @@ class ZoneCheck {
   /// Whether a root may be zero there.
   bool may_be_boundary(int mode, const Point2& at) const {
     const auto around = [&](double middle) { return Interval(middle - near(), middle + near(), cell_bits); };
-    const auto here = posture(m_, sides_of(c_, mode), around(at[0]), around(at[1]));
-    return !here || std::any_of(here->squares.begin(), here->squares.end(),
-                                [](const Interval& square) { return square.contains_zero(); });
+    return may_be_on_boundary(m_, c_, mode, around(at[0]), around(at[1]));
   }
 
   /// A little off the middle of an arc.

@@ -121,8 +121,9 @@ void Tracer::find(const std::vector<Cutter>& cutters) {
   std::vector<Chain> pieces;
   const std::vector<Edge> edges = edges_of(cuts);
   for (Chain& chain : chains(graph_)) {
-    if (options_.colour) chain.colour = options_.colour(point_inside(graph_, chain.legs, size_));
-    for (Chain& part : kept_parts(std::move(chain), edges)) pieces.push_back(std::move(part));
+    const core::Point2 inner = point_inside(graph_, chain.legs, size_);
+    if (options_.colour) chain.colour = options_.colour(inner);
+    for (Chain& part : kept_parts(std::move(chain), inner, edges)) pieces.push_back(std::move(part));
   }
   pieces_ = join_at_junctions(graph_, std::move(pieces));
 }
@@ -264,9 +265,8 @@ PlaneCell Tracer::place_of(const Leg& leg) const {
   return {hull(Interval(a[0]), Interval(b[0])), hull(Interval(a[1]), Interval(b[1]))};
 }
 
-std::vector<Chain> Tracer::kept_parts(Chain chain, const std::vector<Edge>& edges) {
+std::vector<Chain> Tracer::kept_parts(Chain chain, const core::Point2& inner, const std::vector<Edge>& edges) {
   const int along = along_side(chain.colour);
-  const core::Point2 inner = point_inside(graph_, chain.legs, size_);
   const auto all_as_inside = [&] {
     const std::optional<bool> kept = is_kept(inner, along, edges);
     if (!kept) graph_.undecided.push_back({inner[0], inner[1]});

@@ -138,8 +138,8 @@ class Tracer {
   std::optional<bool> is_kept(const core::Point2& at, int along, const std::vector<Edge>& edges) const;
 
   /// What of a chain is on the kept side of every region's edge: all of it or nothing, but where an edge may meet the
-  /// curve in a place that stays open, and has not cut it there.
-  std::vector<Chain> kept_parts(Chain chain, const std::vector<Edge>& edges);
+  /// curve in a place that stays open, and has not cut it there. `inner`: a point of the chain.
+  std::vector<Chain> kept_parts(Chain chain, const core::Point2& inner, const std::vector<Edge>& edges);
 
   /// A box around a leg.
   PlaneCell place_of(const Leg& leg) const;

@@ -284,10 +284,6 @@ class Run {
   std::vector<LiftedPoint> ends_;  // where each leg ends
 };
 
-}  // namespace
-
-namespace {
-
 /// Half of the way: where a curve is hard to tell there are many legs, of no length.
 const Stretch& middle_of(const CurveGraph& graph, const std::vector<Leg>& legs) {
   std::vector<double> way = {0};

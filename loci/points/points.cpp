@@ -9,6 +9,7 @@
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
+#include "core/reduced.hpp"
 #include "loci/curves/curves.hpp"
 #include "loci/numbers/numbers.hpp"
 #include "loci/points/sheet_roots.hpp"
@@ -407,8 +408,8 @@ class SheetLine {
   bool reaches(const Rational& from, const Rational& to, std::size_t first_unplaced) {
     std::size_t untold = 0;
     // Where one number is next to a zero of what holds an angle, another one is not.
-    for (const Rational& part : {Rational(1, 2), Rational(7, 16), Rational(11, 16)}) {
-      const Rational at = from + (to - from) * part;
+    for (const int part : {8, 7, 11}) {
+      const Rational at = from + (to - from) * core::reduced(part, 16);
       RealRoot sample = number(at);
       const RootPlace place(problem_.tower, mode_, sample, first_unplaced);
       if (!place.reachable()) return false;

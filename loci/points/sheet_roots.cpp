@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "core/reduced.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -157,8 +158,8 @@ bool SheetRoots::narrow(SheetRoot& root, int sign_below, const Rational& width, 
     int sign = 0;
     Rational at;
     // Where one number is the zero itself, or next to it, another one is not.
-    for (const Rational& part : {Rational(1, 2), Rational(3, 8), Rational(5, 8)}) {
-      at = root.lower + span * part;
+    for (const int eighths : {4, 3, 5}) {
+      at = root.lower + span * core::reduced(eighths, 8);
       sign = sign_at(at, at, {});
       if (sign != 0) break;
     }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "loci/search/zero_search.hpp"
@@ -82,14 +83,15 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
     ZeroSearch search(program, mode, system);
     const std::vector<PlaneCell> seeds = plane ? outside_holes(parts) : std::vector<PlaneCell>{{{0, 1}, {-1, 1}}};
     const double chart_size = plane ? size : 1.0;
-    TouchSearch touches(sheet.tower, {sheet.functions[0], sheet.functions[1]}, mode, chart_size,
-                        one_touch * options.smallest);
+    std::optional<TouchSearch> touches;
+    if (options.touches)
+      touches.emplace(sheet.tower, std::vector{sheet.functions[0], sheet.functions[1]}, mode, chart_size,
+                      one_touch * options.smallest);
     const FoundZeros found = search.run(
         seeds,
         {std::max(options.smallest * chart_size, plane ? spacing : 0.0),
          static_cast<std::size_t>(result.gave_up ? options.most_cells / share_after_giving_up : options.most_cells),
-         2e-15 * size, options.stop, options.touches ? &touches : nullptr,
-         widest_at_touch * options.smallest * chart_size});
+         2e-15 * size, options.stop, touches ? &*touches : nullptr, widest_at_touch * options.smallest * chart_size});
     result.gave_up = result.gave_up || found.gave_up;
     for (const PlaneCell& cell : found.undecided) result.undecided.push_back(chart.to_plane(cell));
     const auto add = [&](const std::vector<Interval>& enclosure, std::vector<SheetZero>& list) {
