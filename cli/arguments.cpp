@@ -11,7 +11,6 @@
 
 #include "core/errors.hpp"
 #include "core/text.hpp"
-#include "loci/search/search.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/import/import.hpp"
 #include "mechanism/read.hpp"
@@ -107,7 +106,6 @@ std::vector<mechanism::Override> parse_overrides(const std::vector<std::string>&
 }
 
 mechanism::Mechanism read_model(const CommonArguments& arguments) {
-  loci::keep_to_threads_to_be_had();
   return mechanism::read_mechanism(arguments.model, parse_overrides(arguments.overrides));
 }
 

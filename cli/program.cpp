@@ -18,6 +18,7 @@
 #include "cli/out_of_memory.hpp"
 #include "cli/standard_streams.hpp"
 #include "core/errors.hpp"
+#include "loci/search/search.hpp"
 #include "mechanism/read.hpp"
 #include "report/files.hpp"
 
@@ -102,6 +103,7 @@ int parse_and_run(int argc, const char* const* argv) {
       else
         end_where_memory_ends();
       report::keep_inputs(named_inputs(*command.app));
+      loci::keep_to_threads_to_be_had();
       return command.run();
     }
   return exit_wrong_input;
