@@ -2,33 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include "core/parts.hpp"
 
 namespace clearloci::check {
-namespace {
-
-/// What hangs together.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
-
-  int of(int i) {
-    int& parent = parents_[static_cast<std::size_t>(i)];
-    while (parent != parents_[static_cast<std::size_t>(parent)]) parent = parents_[static_cast<std::size_t>(parent)];
-    return parent;
-  }
-  /// False: they are one part already.
-  bool join(int a, int b) {
-    a = of(a), b = of(b);
-    parents_[static_cast<std::size_t>(a)] = b;
-    return a != b;
-  }
-
- private:
-  std::vector<int> parents_;
-};
-
-}  // namespace
 
 std::vector<const core::Polyline*> rings_of(const ZoneClaim& zone) {
   std::vector<const core::Polyline*> rings = {&zone.outer};
@@ -50,7 +26,7 @@ ZoneBorders::ZoneBorders(const std::vector<const ZoneClaim*>& zones) {
           numbers_.try_emplace(vertex, static_cast<int>(numbers_.size()));
       }
   // What has a zone on both sides ends in it: it closes no way round.
-  Parts parts(numbers_.size());
+  core::Parts parts(numbers_.size());
   std::vector<const Piece*> within;
   for (const auto& [piece, zone] : left_) {
     const auto other = left_.find({piece.second, piece.first});

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
 #include <variant>
 
 #include "core/errors.hpp"
+#include "core/parts.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/spring_ends.hpp"
@@ -32,19 +32,14 @@ bool is_ball(const Joint& joint) { return joint.type == JointType::spherical || 
 
 /// Groups of links that anything but a ball joins, without those on the ground.
 std::vector<std::vector<LinkIndex>> groups_between_balls(const Mechanism& m) {
-  const std::size_t ground_place = m.links.size();
-  std::vector<std::size_t> parent(m.links.size() + 1);
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  const auto place = [&](LinkIndex link) { return link == ground ? ground_place : static_cast<std::size_t>(link); };
+  const auto ground_place = static_cast<LinkIndex>(m.links.size());
+  core::Parts parts(m.links.size() + 1);
+  const auto place = [&](LinkIndex link) { return link == ground ? ground_place : link; };
   for (const Joint& joint : m.joints)
-    if (!is_ball(joint)) parent[root(place(joint.from))] = root(place(joint.to));
+    if (!is_ball(joint)) parts.join(place(joint.to), place(joint.from));
   std::vector<std::vector<LinkIndex>> groups(m.links.size() + 1);
-  for (std::size_t i = 0; i < m.links.size(); ++i)
-    if (root(i) != root(ground_place)) groups[root(i)].push_back(static_cast<LinkIndex>(i));
+  for (LinkIndex i = 0; i < ground_place; ++i)
+    if (parts.of(i) != parts.of(ground_place)) groups[static_cast<std::size_t>(parts.of(i))].push_back(i);
   std::erase_if(groups, [](const auto& group) { return group.empty(); });
   return groups;
 }

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "core/errors.hpp"
+#include "core/parts.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -186,7 +187,6 @@ struct CurveArrangement::Implementation {
   void add_edges_of(std::size_t curve);
   void add_edges_of_verticals();
   void add_edge(Piece piece, int from, int to);
-  int root_of(int node);
   int vertex_of(int node);
   int node_of(std::size_t curve, const Real& x, int point) const {
     return columns[curve].at(x).nodes[static_cast<std::size_t>(point)];
@@ -221,7 +221,7 @@ struct CurveArrangement::Implementation {
   std::vector<Meeting> meetings;
   std::map<Real, std::size_t, IsLess> verticals;  ///< x, curve
   std::vector<Node> nodes;
-  std::vector<int> parents;         ///< of nodes that are one
+  core::Parts<> joined{0};          ///< nodes that are one
   std::vector<int> vertex_of_root;  ///< -2: not looked at yet, -1: outside the box
 };
 
@@ -318,32 +318,24 @@ void CurveArrangement::Implementation::number_nodes(std::size_t curve) {
   }
 }
 
-int CurveArrangement::Implementation::root_of(int node) {
-  while (parents[static_cast<std::size_t>(node)] != node)
-    node = parents[static_cast<std::size_t>(node)] =
-        parents[static_cast<std::size_t>(parents[static_cast<std::size_t>(node)])];
-  return node;
-}
-
 /// Nodes of several curves that are one point; the curve of the lowest degree stands for them.
 void CurveArrangement::Implementation::join_nodes() {
-  parents.resize(nodes.size());
-  std::iota(parents.begin(), parents.end(), 0);
+  joined = core::Parts(nodes.size());
   vertex_of_root.assign(nodes.size(), -2);
   const auto degree_of = [&](int node) {
     return core::total_degree(curves[static_cast<std::size_t>(nodes[static_cast<std::size_t>(node)].curve)]);
   };
   for (const Meeting& meeting : meetings) {
-    const int one = root_of(node_of(meeting.curves[0], meeting.x, meeting.points[0]));
-    const int other = root_of(node_of(meeting.curves[1], meeting.x, meeting.points[1]));
+    const int one = joined.of(node_of(meeting.curves[0], meeting.x, meeting.points[0]));
+    const int other = joined.of(node_of(meeting.curves[1], meeting.x, meeting.points[1]));
     const bool keeps_one = degree_of(one) <= degree_of(other);
-    parents[static_cast<std::size_t>(keeps_one ? other : one)] = keeps_one ? one : other;
+    joined.join(keeps_one ? one : other, keeps_one ? other : one);
   }
 }
 
 /// -1: outside the box.
 int CurveArrangement::Implementation::vertex_of(int node) {
-  const int root = root_of(node);
+  const int root = joined.of(node);
   int& vertex = vertex_of_root[static_cast<std::size_t>(root)];
   if (vertex == -2) {
     Vertex vertex_between{nodes[static_cast<std::size_t>(root)], {}};
@@ -404,7 +396,7 @@ void CurveArrangement::Implementation::add_edges_of_verticals() {
     for (std::size_t c = 0; c < curves.size(); ++c) {
       if (is_vertical(c)) continue;
       for (const int node : columns[c].at(x).nodes)
-        if (vertex_of(node) >= 0) roots.insert(root_of(node));
+        if (vertex_of(node) >= 0) roots.insert(joined.of(node));
     }
     const auto is_below = [&](int a, int b) {
       for (int bits = rough_bits; a != b; bits *= 2) {  // they are different points

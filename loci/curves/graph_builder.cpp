@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+
+#include "core/parts.hpp"
 
 namespace clearloci::loci::sheet {
 namespace {
@@ -103,21 +104,13 @@ void GraphBuilder::pair_in_leaves(int patch) {
 
 void GraphBuilder::join_clusters(int patch) {
   const std::vector<Leaf>& leaves = graph_.patches[patch].tree->leaves();
-  std::vector<int> parent(leaves.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto find = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  core::Parts parts(leaves.size());
   for (const auto& [p, a, b] : touching_)
-    if (p == patch) {
-      const int first = find(a), second = find(b);
-      parent[std::max(first, second)] = std::min(first, second);
-    }
+    if (p == patch) parts.join(std::min(parts.of(a), parts.of(b)), std::max(parts.of(a), parts.of(b)));
   const Chart& chart = graph_.patches[patch].chart;
   std::map<int, std::vector<int>> members;
   for (std::size_t l = 0; l < leaves.size(); ++l)
-    if (leaves[l].kind == LeafKind::undecided) members[find(static_cast<int>(l))].push_back(static_cast<int>(l));
+    if (leaves[l].kind == LeafKind::undecided) members[parts.of(static_cast<int>(l))].push_back(static_cast<int>(l));
   for (const auto& [root, cells] : members) {
     std::vector<LeafCrossing> branches;
     PlaneCell place = leaves[root].cell;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include "core/errors.hpp"
+#include "core/parts.hpp"
 #include "loci/search/second_look.hpp"
 
 namespace clearloci::loci::sheet {
@@ -530,22 +530,17 @@ std::vector<PlaneCell> clusters(std::vector<PlaneCell> cells) {
   std::sort(cells.begin(), cells.end(), [](const PlaneCell& a, const PlaneCell& b) {
     return a.x.lower() != b.x.lower() ? a.x.lower() < b.x.lower() : a.y.lower() < b.y.lower();
   });
-  std::vector<std::size_t> parent(cells.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  core::Parts<std::size_t> parts(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i)
     for (std::size_t k = i + 1; k < cells.size() && cells[k].x.lower() <= cells[i].x.upper(); ++k)
       if (!disjoint(cells[i].y, cells[k].y)) {
-        const std::size_t a = find(i), b = find(k);
-        parent[std::max(a, b)] = std::min(a, b);
+        const std::size_t a = parts.of(i), b = parts.of(k);
+        parts.join(std::min(a, b), std::max(a, b));
       }
   std::vector<PlaneCell> result;
   std::vector<std::size_t> index(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::size_t root = find(i);
+    const std::size_t root = parts.of(i);
     if (root == i) {
       index[i] = result.size();
       result.push_back(cells[i]);

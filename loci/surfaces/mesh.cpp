@@ -1,7 +1,8 @@
 #include "loci/surfaces/mesh.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include "core/parts.hpp"
 
 namespace clearloci::loci::surface {
 
@@ -38,22 +39,13 @@ std::vector<MeshEdge> edges_of(const Mesh& mesh) {
 }
 
 std::vector<int> components_of(const Mesh& mesh) {
-  std::vector<int> parent(mesh.points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) {
-      int& above = parent[static_cast<std::size_t>(i)];
-      above = parent[static_cast<std::size_t>(above)];
-      i = above;
-    }
-    return i;
-  };
+  core::Parts parts(mesh.points.size());
   for (const Triangle& t : mesh.triangles)
-    for (const int corner : {t[1], t[2]}) parent[static_cast<std::size_t>(root(corner))] = root(t[0]);
+    for (const int corner : {t[1], t[2]}) parts.join(t[0], corner);
   std::vector<int> number(mesh.points.size(), -1), result;
   int next = 0;
   for (const Triangle& t : mesh.triangles) {
-    int& label = number[static_cast<std::size_t>(root(t[0]))];
+    int& label = number[static_cast<std::size_t>(parts.of(t[0]))];
     if (label < 0) label = next++;
     result.push_back(label);
   }

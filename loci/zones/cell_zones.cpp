@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "core/parts.hpp"
 #include "loci/zones/zone_cells.hpp"
 
 namespace clearloci::loci::pose {
@@ -15,20 +15,6 @@ const HalfSpace& all_of_it() {
   static const HalfSpace all{{}, -1};
   return all;
 }
-
-/// Sets that are joined.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t of(std::size_t cell) {
-    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
-    return cell;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// Free cells and parts are numbered two a cell: 2 c, 2 c + 1.
 class Zones {
@@ -84,7 +70,7 @@ class Zones {
         for (std::size_t j = 0; j < 2; ++j) {
           const HalfSpace *one = part(a, i), *two = part(b, j);
           if (one != nullptr && two != nullptr && meet(a, *one, b, *two, face))
-            groups_.join(number_of(a, i), number_of(b, j));
+            groups_.join(number_of(b, j), number_of(a, i));
         }
     });
   }
@@ -250,9 +236,9 @@ class Zones {
     for (const auto& [signs, zones] : by_signs) {
       std::vector<bool> may(cells_.size(), false);
       for (std::size_t c = 0; c < cells_.size(); ++c) may[c] = doubt_[c] > 0 && may_have(cells_[c].signs, signs);
-      Groups groups(cells_.size());
+      core::Parts<std::size_t> groups(cells_.size());
       for (const auto& [a, b] : doubts)
-        if (may[a] && may[b]) groups.join(a, b);
+        if (may[a] && may[b]) groups.join(b, a);
       std::map<std::size_t, double> sizes;
       for (std::size_t c = 0; c < cells_.size(); ++c)
         if (may[c]) sizes[groups.of(c)] += doubt_[c];
@@ -303,7 +289,7 @@ class Zones {
   const CellZoneEffort& effort_;
   ZoneCells& tree_;
   const std::vector<ZoneCell>& cells_;
-  Groups groups_;
+  core::Parts<std::size_t> groups_;
   std::vector<int> zone_;  ///< of parts, by their numbers
   std::vector<double> doubt_;
   CellZones result_;

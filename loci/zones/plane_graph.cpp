@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "core/parts.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -24,15 +25,11 @@ HalfEdge next(const PlaneGraph& graph, HalfEdge half) {
 
 /// Nodes that hang together.
 std::vector<int> components(const PlaneGraph& graph) {
-  std::vector<int> parent(graph.nodes.size());
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = static_cast<int>(i);
-  const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
-    return i;
-  };
-  for (const GraphEdge& edge : graph.edges) parent[static_cast<std::size_t>(root(edge.from))] = root(edge.to);
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = root(static_cast<int>(i));
-  return parent;
+  core::Parts parts(graph.nodes.size());
+  for (const GraphEdge& edge : graph.edges) parts.join(edge.to, edge.from);
+  std::vector<int> result(graph.nodes.size());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = parts.of(static_cast<int>(i));
+  return result;
 }
 
 double distance(const core::Point2& from, const core::Point2& a, const core::Point2& b) {
