@@ -32,8 +32,13 @@ using Status = core::StudyDesign::Status;
 
 /// Boxes are cut down to this part of each range.
 const Rational finest(1, 1 << 18);
-/// That are looked at.
-constexpr long most_cells = 4'000;
+/// Ranges that are looked at.
+constexpr long most_ranges = 4'000;
+/// Cells of the statics that are looked at in all ranges. A force of several components that vanishes at single poses
+/// is proven to fail for no range, however small.
+constexpr long most_cells = 300'000;
+/// Ranges of more than this part of the whole are looked at first, the widest before the others.
+constexpr double wide = 1.0 / 64;
 
 /// The size of the smallest preload of a range.
 double least_size(const WantedEffort& wanted, const ExactRange& range) {
@@ -50,7 +55,7 @@ VerifyRequest in_part_of_time(VerifyRequest request, double part) {
   return request;
 }
 
-/// Ranges of one effort, of which those of the smallest size come first, each proven as a whole or cut in halves.
+/// Ranges of one effort, each proven as a whole or cut in halves; after the wide ones those of the smallest size first.
 class PreloadSearch {
  public:
   PreloadSearch(const Mechanism& mechanism, WantedEffort wanted, const Task& task, const VerifyRequest& request)
@@ -62,11 +67,13 @@ class PreloadSearch {
 
   core::PreloadAnswer run() {
     push({wanted_.lower, wanted_.upper});
-    loci::SearchMeter meter({.most_cells = most_cells, .deadline = request_.loci.deadline});
+    loci::SearchMeter meter({.most_cells = most_ranges, .deadline = request_.loci.deadline});
     while (!left_.empty()) {
       const SizedRange part = left_.take();
       const bool over = !meter.begin();
       const BoxVerdict verdict = over ? BoxVerdict{} : judged(part.range);
+      cells_of_statics_ += verdict.cells;
+      if (cells_of_statics_ > most_cells) meter.stop();
       const Status status = status_of(verdict.verdict);
       if (status == Status::undecided && !over && !is_finest(part.range)) {
         const Rational middle = (part.range.first + part.range.second) / 2;
@@ -100,14 +107,19 @@ class PreloadSearch {
 
   void push(const ExactRange& range) {
     const double size = least_size(wanted_, range);
-    left_.push({size, range}, size);
+    const double part = part_of_all(range);
+    left_.push({size, range}, part > wide ? -part : size);
   }
 
   /// Much is spent on some ranges that are not the finest: else large ranges of little reserve would be cut to dust.
   bool in_earnest(const ExactRange& range) const {
     constexpr int every = 4;
-    const double part = core::to_double((range.second - range.first) / (wanted_.upper - wanted_.lower));
+    const double part = part_of_all(range);
     return part < 1 && std::ilogb(part) % every == 0;
+  }
+
+  double part_of_all(const ExactRange& range) const {
+    return core::to_double((range.second - range.first) / (wanted_.upper - wanted_.lower));
   }
 
   bool is_finest(const ExactRange& range) const {
@@ -176,6 +188,7 @@ class PreloadSearch {
   std::optional<numeric::EffortGap> own_gap_;
   loci::BoxSearch<SizedRange> left_{loci::SearchOrder::least_key_first};
   std::vector<core::StudyCell> cells_;
+  long cells_of_statics_ = 0;
   std::optional<SizedRange> smallest_;
   double least_open_ = std::numeric_limits<double>::infinity();  ///< of what is not decided, the smallest size
   core::PreloadAnswer answer_;

@@ -177,8 +177,8 @@ class StaticsPreload : public PreloadJudge {
     if (!unlike.empty() || !too_small.empty()) return {};  // the box as a whole does not verify
     constexpr long coarse = 2'000, fine = 40'000;
     const loci::SearchBudget budget{.most_cells = finest ? fine : coarse, .deadline = request_.deadline};
-    const Verdict verdict = loci::pose::prove_poses(statics_, region, margin_, all_fail, budget).verdict;
-    return {verdict, reason};
+    const loci::CoverProof proof = loci::pose::prove_poses(statics_, region, margin_, all_fail, budget);
+    return {proof.verdict, reason, proof.cost.cells};
   }
 
  private:

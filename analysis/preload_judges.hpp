@@ -15,6 +15,7 @@ struct BoxVerdict {
   /// `refuted`: all of its efforts fail.
   core::Verdict verdict = core::Verdict::undecided;
   std::string reason = {};  ///< why they fail: "contact lost in A1, B1"
+  long cells = 0;           ///< of the statics, that were looked at
 };
 
 class PreloadJudge {

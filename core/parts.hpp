@@ -16,7 +16,8 @@ class Parts {
 
   /// The one that stands for the part that holds `number`.
   Number of(Number number) {
-    for (Number above = parent(number); above != number; above = parent(number)) number = parent(number) = parent(above);
+    for (Number above = parent(number); above != number; above = parent(number))
+      number = parent(number) = parent(above);
     return number;
   }
   /// What stands for the part of `kept` then stands for both. False: they are one part already.
