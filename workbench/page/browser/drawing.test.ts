@@ -68,6 +68,38 @@ describe("the gallery", () => {
   });
 });
 
+describe("the hand on the sheet", () => {
+  it("puts back with Escape what it drags", async () => {
+    const sheet = await blank();
+    const { page } = sheet;
+    await fiveBar(sheet);
+    await sheet.take("select");
+    const before = await sheet.file();
+    await page.mouse.move(...(await sheet.at([-100, 150])));
+    await page.mouse.down();
+    await page.mouse.move(...(await sheet.at([-150, 120])), { steps: 5 });
+    await rest(page);
+    expect(await sheet.file()).not.toBe(before);
+    await page.keyboard.press("Escape");
+    await page.mouse.move(...(await sheet.at([-180, 90])), { steps: 5 });
+    await page.mouse.up();
+    await rest(page);
+    expect(await sheet.file()).toBe(before);
+  });
+
+  it("says why a name is refused", async () => {
+    const sheet = await blank();
+    const { page } = sheet;
+    await fiveBar(sheet);
+    await sheet.take("select");
+    await sheet.click([-100, 150]);
+    const name = page.locator('.on-element input[name="name"]');
+    await name.fill("A");
+    await name.press("Enter");
+    expect(await page.locator(".on-element .fault").textContent()).toBe("'A' is the name of another one");
+  });
+});
+
 describe("a five-bar from nothing", () => {
   it("says what is missing at the element, shows loci, and ends in a proven task, in under forty actions", async () => {
     const sheet = await blank();

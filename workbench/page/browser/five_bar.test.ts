@@ -83,6 +83,34 @@ describe("the hand", () => {
     expect(Buffer.compare(before, await page.locator(".stage:not(.space)").screenshot())).not.toBe(0);
   });
 
+  it("shows no posture of another design", async () => {
+    const page = await start();
+    await type(page, "L", "0.233");
+    expect(await page.locator(".notice").textContent()).toContain("out of reach");
+    expect(await page.locator('[data-fact="pose error"]').count()).toBe(0);
+    await type(page, "L", "0.5");
+    expect(await page.locator('[data-fact="pose error"]').count()).toBe(1);
+  });
+
+  it("names curves by the numbers of the present design", async () => {
+    const page = await start();
+    const legend = page.locator(".legend");
+    const ids = async (): Promise<string[]> => [...((await legend.textContent()) ?? "").matchAll(/c\d+/g)].map(([id]) => id);
+    expect(await ids()).toContain("c10");
+    await type(page, "force at P, x", "-24");
+    expect(await ids()).not.toContain("c10");
+  });
+
+  it("says how large take-up is drawn in the present view", async () => {
+    const page = await start();
+    const fact = page.locator('[data-fact="take-up drawn"]');
+    const times = async (): Promise<number> => Number(((await fact.textContent()) ?? "").replace(/[^0-9]/g, ""));
+    await expect.poll(times).toBe(1000);
+    await page.locator(".stage:not(.space)").focus();
+    for (let k = 0; k < 12; ++k) await page.keyboard.press("+");
+    await expect.poll(times).toBeLessThan(1000);
+  });
+
   it("works from the keyboard alone", async () => {
     const page = await start();
     const before = await pose(page);

@@ -74,7 +74,7 @@ export class Following<T> {
 
   constructor(
     private readonly question: string,
-    private readonly onAnswer: (answer: T, made: number) => void,
+    private readonly onAnswer: (answer: T, made: number, question: object) => void,
     private readonly onFault: (fault: Fault) => void,
     private readonly first?: FirstPart,
   ) {}
@@ -125,7 +125,7 @@ export class Following<T> {
       if (number === this.asked && number > this.answered) first.onFirst(part, next.made);
     });
     ask<T>(this.question, { ...next.body, ...first?.from() }, onFirst).then(
-      (answer) => finish(() => this.onAnswer(answer, next.made)),
+      (answer) => finish(() => this.onAnswer(answer, next.made, next.body)),
       (error: unknown) =>
         finish(() => {
           if (error instanceof AskingError) {

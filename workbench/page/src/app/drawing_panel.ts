@@ -2,7 +2,7 @@
 import { insertEntry, removeAt, setValue, typed, wordAt, type ValuePath } from "../data/file_text";
 import { jointFields } from "../drawing/fields";
 import { firstFree } from "../drawing/names";
-import { rename } from "../drawing/rename";
+import { rename, renameFault } from "../drawing/rename";
 import { h, replace, section } from "./dom";
 import type { Panel } from "./panels";
 import type { Workbench } from "./workbench";
@@ -18,6 +18,7 @@ export function drawingPanel(bench: Workbench): Panel {
   const body = h("div", {});
   const parameters = h("div", { class: "parameters" });
   const clearances = h("div", {});
+  const fault = h("div", { class: "fault", role: "alert" });
   const write = (path: ValuePath, value: string): void => bench.edit(setValue(bench.state.text, path, typed(value)));
   name.addEventListener("change", () => name.value.trim() !== "" && write(["name"], name.value.trim()));
   const selects = units.map(([key, label, usual, names]) => {
@@ -38,6 +39,7 @@ export function drawingPanel(bench: Workbench): Panel {
     h("label", { class: "on-field" }, h("span", {}, "name"), name),
     h("div", {}, ...selects.map((one) => one.row), h("p", { class: "quiet" }, "If you choose another unit, the numbers do not change.")),
     parameters,
+    fault,
     add,
     section("Clearances and fits", false, h("p", { class: "quiet" }, "A number, or a fit of ISO 286 with its diameter: H7/g6 12."), clearances),
   );
@@ -61,7 +63,10 @@ export function drawingPanel(bench: Workbench): Panel {
       parameters,
       ...list.map((one) =>
         h("div", { class: "parameter-row" },
-          cell(`name of parameter ${one.name}`, one.name, (value) => change(rename(bench.drawing, "parameter", one.name, value))),
+          cell(`name of parameter ${one.name}`, one.name, (value) => {
+            change(rename(bench.drawing, "parameter", one.name, value));
+            fault.textContent = renameFault(bench.drawing, "parameter", one.name, value) ?? "";
+          }),
           cell(`value of parameter ${one.name}`, one.text, (value) => write(["parameters", one.name], value)),
           h("button", { type: "button", "aria-label": `Delete parameter ${one.name}`, click: () => bench.edit(removeAt(bench.state.text, ["parameters", one.name])) }, "×"))),
     );

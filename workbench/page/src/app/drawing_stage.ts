@@ -318,6 +318,13 @@ export class DrawingStage {
     if (event.pointerType === "touch") this.pointer = undefined;
   }
 
+  /** What the hand holds goes where it was. */
+  private putBack(): void {
+    this.pull.stop();
+    this.bench.cancelGesture();
+    this.letGo();
+  }
+
   private letGo(): void {
     this.hold = undefined;
     this.arrow = undefined;
@@ -360,7 +367,10 @@ export class DrawingStage {
     if (along) {
       event.preventDefault();
       this.nudge(along);
-    } else if (event.key === "Escape") this.take(this.begun ? this.tool : selectTool);
+    } else if (event.key === "Escape") {
+      if (this.hold?.kind === "grip") this.putBack();
+      else this.take(this.begun ? this.tool : selectTool);
+    }
     else if (event.key === "Delete" || event.key === "Backspace") this.removeSelected();
     else if (event.key === "+" || event.key === "=") this.zoom(1.25);
     else if (event.key === "-") this.zoom(0.8);

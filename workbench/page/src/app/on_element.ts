@@ -34,6 +34,7 @@ export class OnElement {
     if (now === this.built) return;
     const typing = document.activeElement instanceof HTMLInputElement && this.element.contains(document.activeElement) ? document.activeElement.name : undefined;
     this.built = now;
+    const fault = h("div", { class: "fault", role: "alert" });
     replace(
       this.element,
       h("strong", {}, titleOf(drawing, selected)),
@@ -41,7 +42,9 @@ export class OnElement {
         const input = h("input", { type: "text", class: "exact", name: field.label, value: field.text, placeholder: field.hint, "aria-label": field.label, spellcheck: "false", autocomplete: "off" });
         input.addEventListener("change", () => {
           const now = nameField(this.bench.drawing, selected);
-          const text = [...(now ? [now] : []), ...fieldsOf(this.bench.drawing, selected)][k]?.write(input.value);
+          const written = [...(now ? [now] : []), ...fieldsOf(this.bench.drawing, selected)][k];
+          const text = written?.write(input.value);
+          fault.textContent = written?.fault?.(input.value) ?? "";
           if (text === undefined) return void (input.value = field.text);
           if (field.label === "name" && "name" in selected) this.stage.selected = { ...selected, name: input.value.trim() };
           this.bench.edit(text);
@@ -57,6 +60,7 @@ export class OnElement {
         });
         return h("label", { class: "tick" }, box, one.label);
       }),
+      fault,
       h("button", { type: "button", click: () => this.stage.removeSelected() }, "Delete"),
     );
     if (typing !== undefined) this.element.querySelector<HTMLInputElement>(`[name="${CSS.escape(typing)}"]`)?.focus();

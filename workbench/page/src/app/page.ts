@@ -101,7 +101,7 @@ export function buildPage(bench: Workbench, root: HTMLElement): void {
   const events = new EventSource(`api/progress?client=${client}`);
   events.onmessage = (event: MessageEvent<string>) => {
     const news = JSON.parse(event.data) as { lane: string; fraction: number; stage: string };
-    if (news.lane !== "loci") return;
+    if (news.lane !== "loci" || !bench.tracing) return; // news may come after the answer
     bench.progress = news;
     bench.tell("progress");
   };

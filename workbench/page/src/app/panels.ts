@@ -59,7 +59,8 @@ export function legendPanel(bench: Workbench): Panel {
       return replace(notes);
     }
     const groups = [...picture.curve_groups, ...picture.point_groups, ...picture.surface_groups];
-    const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group)]), bench.state.hidden, bench.dark, picture.notes, picture.loci.complete, bench.zonesFault]);
+    const incomplete = picture.loci.complete ? "" : incompleteWords(picture.loci);
+    const now = JSON.stringify([groups.map((group) => [group.kind, group.what, groupKey(group), idsOf(group)]), bench.state.hidden, bench.dark, picture.notes, incomplete, bench.zonesFault]);
     if (now === signature) return;
     signature = now;
     const rows = groups.map((group) => {
@@ -73,7 +74,7 @@ export function legendPanel(bench: Workbench): Panel {
     replace(
       notes,
       ...notesInShort(picture.notes).map((note) => h("p", {}, note)),
-      picture.loci.complete ? undefined : h("p", { class: "fault" }, incompleteWords(picture.loci)),
+      incomplete ? h("p", { class: "fault" }, incomplete) : undefined,
       bench.zonesFault ? h("p", { class: "fault" }, `zones: ${bench.zonesFault}`) : undefined,
     );
   };

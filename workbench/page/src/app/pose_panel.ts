@@ -81,7 +81,10 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
       slider.value = String(value);
     });
     fault.textContent = bench.poseFault ?? "";
-    if (!pose) return;
+    if (!pose) {
+      replace(facts);
+      return replace(table);
+    }
     const worst = pose.worst_case["dp"];
     const shown: [string, string][] = [
       ["pose error", errorWords(pose, bench.units)],
@@ -101,6 +104,6 @@ export function posePanel(bench: Workbench, stage: Stage): Panel {
   };
   return {
     element: section("Pose", true, fields, playBar(bench, (n) => n > 1), fault, facts, h("div", { class: "scroll" }, table)),
-    update: (news) => (news.has("pose") || news.has("model") || news.has("state")) && update(),
+    update: (news) => ["pose", "model", "state", "view"].some((one) => news.has(one)) && update(),
   };
 }

@@ -35,6 +35,10 @@ export class Pull {
     if (!this.running) void this.run(name);
   }
 
+  stop(): void {
+    this.target = undefined;
+  }
+
   private async run(name: string): Promise<void> {
     this.running = true;
     const { bench } = this;

@@ -178,6 +178,7 @@ export class Stage {
     const context = this.top.begin();
     const { view, bench } = this;
     if (!view || !this.active) return;
+    this.tellMagnification();
     const { theme, state, pose } = bench;
     if (state.task && !this.cycle) drawTask(context, view, state.task, bench.verdict, theme, bench.model.metres);
     const sketch = this.sketch;
@@ -205,6 +206,13 @@ export class Stage {
     const sizes = Object.values(this.bench.pose?.take_up ?? {}).map((own) => Math.hypot(own.dx ?? 0, own.dy ?? 0));
     const largest = Math.max(0, ...sizes) * (this.view?.scale[0] ?? 1);
     return largest > 0 ? 10 ** Math.floor(Math.log10(14 / largest)) : 1;
+  }
+
+  private told = 0;
+  private tellMagnification(): void {
+    if (this.told === this.magnification) return;
+    this.told = this.magnification;
+    this.bench.tell("view");
   }
 
   // ---- Moving

@@ -25,6 +25,17 @@ describe("undo", () => {
     expect(history.present.text).toBe("4");
     expect(history.canRedo).toBe(false);
   });
+  it("takes back a gesture that is cancelled, and nothing before it", () => {
+    const history = new History(freshState("a", "0"));
+    history.set({ ...history.present, text: "1" });
+    history.endGesture();
+    history.cancelGesture();
+    expect(history.present.text).toBe("1");
+    for (const text of ["2", "3"]) history.set({ ...history.present, text }, "drag");
+    history.cancelGesture();
+    expect(history.present.text).toBe("1");
+    expect(history.canRedo).toBe(false);
+  });
   it("forgets what was undone once something else is done", () => {
     const history = new History(freshState("a", "0"));
     history.set({ ...history.present, text: "1" });

@@ -91,6 +91,13 @@ export class History {
     this.gesture = undefined;
   }
 
+  /** Back to before the gesture; there is nothing to redo. */
+  cancelGesture(): void {
+    if (this.gesture === undefined) return;
+    this.undo();
+    this.future = [];
+  }
+
   /** What follows from the state, such as a first pose: no step of its own. */
   amend(next: State): void {
     this.present = next;

@@ -38,6 +38,7 @@ export class Workbench {
   zones: Zones | undefined;
   zonesStale = false;
   pose: Pose | undefined;
+  private designOfPose = "";
   modes: Modes | undefined;
   verdict: Verdict | undefined;
   kept: Picture | undefined;
@@ -75,7 +76,7 @@ export class Workbench {
       onFirst: (part, made) => this.onCarried((part as { carried: Picture }).carried, made),
     }),
     zones: new Following<Zones>("zones", (zones) => this.onZones(zones), (fault) => this.onNoZones(fault)),
-    pose: new Following<Pose>("pose", (pose, made) => this.onPose(pose, made), (fault) => this.onPoseFault(fault)),
+    pose: new Following<Pose>("pose", (pose, made, question) => this.onPose(pose, made, question), (fault) => this.onPoseFault(fault)),
     verify: new Following<Verdict>("verify", (verdict) => this.onVerdict(verdict), (fault) => this.onTaskFault(fault)),
     modes: new Following<Modes>("modes", (modes) => this.onModes(modes), () => undefined),
     sweep: new Following<Sweep>("sweep", (sweep) => this.onSweep(sweep), () => undefined),
@@ -142,6 +143,10 @@ export class Workbench {
   get nothing(): boolean {
     return this.state.text.trim() === "";
   }
+  /** Whether loci are still to be answered. */
+  get tracing(): boolean {
+    return this.lanes.loci.busy;
+  }
   adjustable(id: string): Adjustable | undefined {
     return this.model.adjustables.find((one) => one.id === id);
   }
@@ -184,6 +189,10 @@ export class Workbench {
 
   undo(): void {
     this.walk(() => this.history.undo());
+  }
+  /** As if the hand had not begun what it is doing. */
+  cancelGesture(): void {
+    this.walk(() => this.history.cancelGesture());
   }
   redo(): void {
     this.walk(() => this.history.redo());
@@ -430,9 +439,12 @@ export class Workbench {
     this.tell("zones");
   }
 
-  private onPose(pose: Pose, made: number): void {
+  private onPose(pose: Pose, made: number, question: object): void {
     this.poseFault = pose.unreachable ? `out of reach: ${pose.unreachable} cannot be placed` : undefined;
-    if (!pose.unreachable) this.pose = pose;
+    const design = JSON.stringify({ ...question, at: undefined });
+    if (!pose.unreachable) [this.pose, this.designOfPose] = [pose, design];
+    // The posture of another design is none of this one's. The sheet keeps its points.
+    else if (design !== this.designOfPose && !this.state.drawing) this.pose = undefined;
     this.moves.push({ name: "pose", made });
     this.tell("pose");
   }

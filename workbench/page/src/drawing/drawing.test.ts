@@ -11,7 +11,7 @@ import { fieldsOf, switchesOf } from "./fields";
 import { angleText, arrowScale, elementAt, gripAt, handlesOf } from "./grips";
 import { missingIn } from "./missing";
 import { removeElement } from "./remove";
-import { rename } from "./rename";
+import { rename, renameFault } from "./rename";
 import { linksAt, snap } from "./snap";
 import { tools } from "./tools/list";
 import { moveGrip } from "./tools/select";
@@ -179,6 +179,13 @@ describe("what is drawn", () => {
     sheet.use("workspace", [100, 400], [400, 700]).grip([400, 700], [450, 650]);
     expect(sheet.lines).toEqual(expect.arrayContaining(["  x: {place: x, of: D, within: [100, 450]}", "  y: {place: y, of: D, within: [400, 650]}"]));
   });
+  it("is dragged where a handle that stands at so many pixels lies over it", () => {
+    const sheet = new Sheet().use("ground", [0, 0]).use("ground", [40, 0]).use("link", [0, 0], [0, 300]).use("motor", [0, 0]);
+    const [low] = handlesOf(sheet.drawing, pixel);
+    expect(low?.at).toEqual([0.04, 0]);
+    expect(gripAt(sheet.drawing, [0.04, 0], pixel)).toEqual({ kind: "element", element: { kind: "point", name: "B" } });
+    expect(gripAt(sheet.drawing, [0.02, 0], pixel / 2)).toEqual(low?.grip);
+  });
   it("keeps a range's ends in their order, and within a turn", () => {
     const { drawing } = fiveBar().use("motor", [0, 0]);
     const own: DrawnCoordinate = { name: "A", kind: "angle", of: "AC", from: undefined, axis: 0, low: 0, high: Math.PI, range: undefined };
@@ -262,7 +269,10 @@ loads: [{link: AC, at: C, force: '30*(A - C) + AC*CC'}]
     expect(joint).toContain("springs: [{joint: Motor,");
     expect(rename(drawing, "joint", "C", "S")).toContain("of: S}}\n");
     expect(rename(drawing, "parameter", "AC", "h")).toContain("C: [1, h]");
-    for (const taken of ["A", "theta", "", "2x", "a b"]) expect(rename(drawing, "point", "C", taken)).toBeUndefined();
+    for (const taken of ["A", "theta", "", "2x", "a b", "null"]) {
+      expect(rename(drawing, "point", "C", taken)).toBeUndefined();
+      expect(renameFault(drawing, "point", "C", taken)).toContain(`'${taken}'`);
+    }
   });
 });
 

@@ -5,13 +5,13 @@ import { carriers, placeOf, type Drawing, type DrawnJoint, type DrawnTie } from 
 import { again, setMass, toggleMotor, writtenCoordinates, type Edit } from "./edit";
 import type { Element } from "./element";
 import { removeElement } from "./remove";
-import { rename } from "./rename";
+import { rename, renameFault } from "./rename";
 
 /** What its name is; nothing where it has none. */
 export function nameField(drawing: Drawing, element: Element): Field | undefined {
   if (!("name" in element)) return undefined;
   const { kind, name } = element;
-  return { label: "name", text: name, hint: "", unit: "", write: (text) => rename(drawing, kind, name, text.trim()) };
+  return { label: "name", text: name, hint: "", unit: "", write: (text) => rename(drawing, kind, name, text.trim()), fault: (text) => renameFault(drawing, kind, name, text.trim()) };
 }
 
 export interface Field {
@@ -22,6 +22,8 @@ export interface Field {
   hint: string;
   unit: string;
   write: (text: string) => Edit;
+  /** Why a text cannot be written. */
+  fault?: (text: string) => string | undefined;
 }
 
 function field(drawing: Drawing, label: string, path: ValuePath, unit: string, hint = ""): Field {

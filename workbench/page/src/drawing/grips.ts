@@ -148,8 +148,15 @@ export function elementAt(drawing: Drawing, at: Point, pixel: number): Element |
 
 export function gripAt(drawing: Drawing, at: Point, pixel: number): Grip | undefined {
   const near = (place: Point | undefined, reach: number): boolean => place !== undefined && Math.hypot(place[0] - at[0], place[1] - at[1]) <= reach * pixel;
-  const handle = handlesOf(drawing, pixel).find((one) => near(one.at, 8));
-  if (handle) return handle.grip;
+  const away = (place: Point | undefined): number => (place ? Math.hypot(place[0] - at[0], place[1] - at[1]) / pixel : Infinity);
+  const [handle] = handlesOf(drawing, pixel).filter((one) => near(one.at, 8)).sort((a, b) => away(a.at) - away(b.at));
+  if (handle) {
+    // Those of an angle stand at so many pixels: who looks nearer finds them beside a point, which comes first.
+    const { grip } = handle;
+    const ofAngle = grip.kind === "range" && drawing.coordinates.some((own) => own.name === grip.name && own.kind === "angle");
+    const nearest = Math.min(...drawing.points.map((one) => away(one.at)));
+    if (nearest > away(handle.at) + (ofAngle ? 3 : -3)) return grip;
+  }
   const scale = arrowScale(drawing);
   const element = elementAt(drawing, at, pixel);
   if (element?.kind !== "point") {

@@ -48,12 +48,22 @@ function namedAt(path: ValuePath, drawing: Drawing): "link" | "joint" | "text" |
   return "formula";
 }
 
+/** Why an element cannot have another name. */
+export function renameFault(drawing: Drawing, kind: Named, from: string, to: string): string | undefined {
+  if (!/^[A-Za-z]\w*$/.test(to)) return `'${to}' is no name: write a letter, then letters, digits or _`;
+  if (/^null$/i.test(to)) return `'${to}' means nothing in a mechanism file`;
+  const symbols = [...drawing.coordinates, ...drawing.parameters, ...drawing.points];
+  const taken = kind === "link" || kind === "joint" ? listsOf(drawing)[kind] : symbols;
+  return to !== from && taken.some((one) => one.name === to) ? `'${to}' is the name of another one` : undefined;
+}
+
+function listsOf(drawing: Drawing): Record<Named, { name: string }[]> {
+  return { point: drawing.points, link: [...drawing.links, { name: "ground" }], joint: [...drawing.joints, ...drawing.ties], coordinate: drawing.coordinates, parameter: drawing.parameters };
+}
+
 /** Nothing where the name is taken or is none. */
 export function rename(drawing: Drawing, kind: Named, from: string, to: string): Edit {
-  const lists = { point: drawing.points, link: [...drawing.links, { name: "ground" }], joint: [...drawing.joints, ...drawing.ties], coordinate: drawing.coordinates, parameter: drawing.parameters };
-  const symbols = [...drawing.coordinates, ...drawing.parameters, ...drawing.points];
-  const taken = kind === "link" || kind === "joint" ? lists[kind] : symbols;
-  if (!/^[A-Za-z]\w*$/.test(to) || taken.some((one) => one.name === to) || !lists[kind].some((one) => one.name === from)) return undefined;
+  if (to === from || renameFault(drawing, kind, from, to) !== undefined || !listsOf(drawing)[kind].some((one) => one.name === from)) return undefined;
   const word = new RegExp(`(?<![\\w.])${from}(?!\\w)`, "g");
   const changed = wordsOf(drawing.text).flatMap(({ path, node, key }) => {
     const { range } = node;
