@@ -52,6 +52,12 @@ class PoseTensions {
       all_.notes.emplace_back(
           "tensions are a choice: of those within their bounds the ones whose largest part of its upper bound is "
           "smallest; others are given by --preload CABLE=VALUE");
+      const auto& joints = all_.mechanism.joints;
+      if (std::any_of(joints.begin(), joints.end(),
+                      [](const auto& joint) { return joint.clearance && !mechanism::is_cable(joint); }))
+        all_.notes.emplace_back(
+            "the ranges of tensions hold their bounds alone: with some of them other joints may be without contact, or "
+            "in their backlash; verify tells");
     }
     for (std::size_t i = 0; i < free.size(); ++i) mechanism::give_effort(all_.mechanism, free[i], efforts[i]);
     for (const Tension& tension : tensions_) {

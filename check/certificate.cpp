@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "core/errors.hpp"
@@ -338,8 +339,16 @@ bool same_text(const std::string& model, const std::string& in_certificate) {
 }
 
 Json parse_certificate(const std::string& text, const std::string& file) {
-  Json root = Json::parse(text, nullptr, false);
   const Reader reader(file);
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto each_once = [&](int, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
+      reader.fail("the key '" + parsed.get<std::string>().substr(0, 40) + "' is twice in one object");
+    return true;
+  };
+  Json root = Json::parse(text, each_once, false);
   if (root.is_discarded()) reader.fail("it is not JSON");
   reader.check_format(root);
   return root;

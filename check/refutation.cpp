@@ -55,6 +55,8 @@ class RefutationCheck {
       const Joint& joint = joint_named(own_.joints[k]);
       const auto& within = mechanism::is_cable(joint) ? joint.within : joint.free_effort->within;
       const auto& [lower, upper] = own_.ranges[k];
+      if (lower > upper || (!within && lower == upper))
+        throw FalseClaim("refutation: the range of the effort of " + own_.joints[k] + " is empty");
       if (within && (lower > within->first || upper < within->second))
         throw FalseClaim("refutation: the effort of " + own_.joints[k] + " may be beyond its range");
       if (!within)

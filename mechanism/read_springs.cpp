@@ -11,9 +11,9 @@ namespace {
 
 using core::InputError;
 
-/// "S1", "S2", ... by its place among the springs, with underscores where another one has that name.
-std::string usual_name(const Mechanism& mechanism) {
-  std::string name = "S" + std::to_string(mechanism.springs.size() + 1);
+/// "S1", "S2", ... by its place among the springs of the file, with underscores where another one has that name.
+std::string usual_name(const Mechanism& mechanism, int number) {
+  std::string name = "S" + std::to_string(number);
   while (std::any_of(mechanism.springs.begin(), mechanism.springs.end(),
                      [&](const Spring& other) { return other.name == name; }))
     name += '_';
@@ -90,14 +90,14 @@ void read_torsion(const Mechanism& mechanism, const Mapping& mapping, Spring& sp
   for (const LinkIndex link : {spring.from, spring.to}) check_direction(mechanism, spring, link);
 }
 
-Spring read_spring(Mechanism& mechanism, const Value& described) {
+Spring read_spring(Mechanism& mechanism, const Value& described, int number) {
   const std::vector<std::string> between = {"name", "links", "at", "stiffness", "free_length", "force"};
   const std::vector<std::string> in_joint = {"name", "joint", "stiffness", "rest"};
   const bool torsion = described.node.has("joint");
   const Mapping mapping(described, torsion ? in_joint : between);
   Spring spring;
   spring.where = described.where;
-  spring.name = usual_name(mechanism);
+  spring.name = usual_name(mechanism, number);
   if (const auto name = mapping.find("name")) {
     spring.name = text_of(*name);
     check_label(spring.name, name->where, "a spring");
@@ -172,7 +172,7 @@ void read_springs(Mechanism& mechanism, const std::optional<Value>& value) {
   int number = 0;
   for (Value described : elements(*value)) {
     described.what = "spring " + std::to_string(++number);
-    mechanism.springs.push_back(read_spring(mechanism, described));
+    mechanism.springs.push_back(read_spring(mechanism, described, number));
   }
 }
 

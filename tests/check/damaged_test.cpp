@@ -27,6 +27,13 @@ TEST(Damaged, TextsAreUnreadable) {
     EXPECT_THROW((void)examination_of(model, text), core::InputError) << text.substr(0, 60);
 }
 
+TEST(Damaged, KeysThatAreTwiceAreUnreadable) {
+  const std::string model = example("five_bar.yaml");
+  std::string certificate = certificate_of(model);
+  certificate.insert(certificate.find('{') + 1, R"("version": 1, )");
+  EXPECT_THROW((void)examination_of(model, certificate), core::InputError);
+}
+
 TEST(Damaged, BytesAreNotAccepted) {
   const std::string model = example("five_bar.yaml");
   const std::string certificate = certificate_of(model);

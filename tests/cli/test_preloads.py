@@ -472,6 +472,7 @@ class Certificates(InOwnFolder):
         yield "a load", lambda own: own["patterns"][0]["rows"][0].update(load=["1000", "0"])
         yield "another reaction", lambda own: own["patterns"][0]["rows"][0].update(reaction="M_P")
         yield "a smaller range", lambda own: own["ranges"][0].__setitem__(0, "0")
+        yield "an empty range", lambda own: own["ranges"].__setitem__(0, own["ranges"][0][::-1])
         yield "no effort of the model", lambda own: own["joints"].__setitem__(0, "A1")
         yield "other efforts are chosen", lambda own: own["patterns"][0].update(joints=[])
 

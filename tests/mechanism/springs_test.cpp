@@ -2,6 +2,10 @@
 // says of mistakes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
 #include "five_bar_text.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
@@ -50,6 +54,17 @@ TEST(ReadSprings, KnowsTheThreeKinds) {
   EXPECT_EQ(m.springs[2].kind, Spring::Kind::torsion);
   EXPECT_EQ(m.springs[2].to, 0);
   EXPECT_EQ(unknowns(m).size(), 12U) << "springs are no unknowns";
+}
+
+TEST(ReadSprings, CountsThoseOfTheFileWhereABeltPullsToo) {
+  std::ifstream file(source_dir() + "/examples/scara_belt.yaml");
+  const std::string belt((std::istreambuf_iterator<char>(file)), {});
+  const Mechanism m = parsed(belt + "springs: [{joint: O, stiffness: 2}, {joint: E, stiffness: 3}]\n");
+  const auto named = [&](const char* name) {
+    return std::any_of(m.springs.begin(), m.springs.end(), [&](const Spring& spring) { return spring.name == name; });
+  };
+  EXPECT_EQ(m.springs.size(), 3U);
+  EXPECT_TRUE(named("S1") && named("S2")) << "of the belt the pull is a spring, too";
 }
 
 TEST(ReadSprings, SaysWhatIsWrong) {

@@ -2,6 +2,7 @@
 import { roundText, shortNumber } from "../data/exact";
 import { unitOf } from "../data/units";
 import { axesIn } from "../space/axes";
+import { barsOf } from "../space/bars";
 import { h, replace } from "./dom";
 import type { Panel } from "./panels";
 import { readingOf } from "./reading";
@@ -80,25 +81,10 @@ export class SpaceStage implements Panel {
     const unit = unitOf(bench.units, range?.angle ?? false);
     this.words.textContent = `${range?.name ?? ""} = ${shortNumber(slice.at / unit.size)} ${unit.name}`;
     if (["loci", "state", "theme", "model"].some((one) => news.has(one))) scene?.show(bench.picture, bench.theme, new Set(bench.state.hidden), slice, axesIn(bench.units, bench.coordinates), bench.proven);
-    scene?.showPose(bench.state.at, this.bars());
+    scene?.showPose(bench.state.at, bench.facts && bench.pose ? barsOf(bench.facts, bench.pose) : []);
     const shape = bench.state.task?.shape;
     const [low, high] = shape?.kind === "ranges" ? [shape.low, shape.high] : [];
     scene?.showTask(low, high, verdictColour(bench.verdict, bench.theme));
-  }
-
-  /** The links, where the coordinates are the end effector's place in space. */
-  private bars(): number[][][] {
-    const { pose, facts } = this.bench;
-    if (!pose || !facts?.spatial || facts.coordinates.some((one) => one.angle)) return [];
-    const place = (name: string): number[] => pose.posture[name] ?? [];
-    const links = facts.links.map((link) => link.points.map(place)).map((points) => (points.length > 2 && points[0] ? [...points, points[0]] : points));
-    // A telescopic leg reaches from its cylinder's point to its rod's.
-    const first = (link: string): string | undefined => facts.links.find((one) => one.name === link)?.points[0];
-    const legs = facts.joints.filter((joint) => joint.type === "prismatic").flatMap((joint) => {
-      const [from, to] = [first(joint.from), first(joint.to)];
-      return from && to ? [[place(from), place(to)]] : [];
-    });
-    return [...links, ...legs].filter((line) => line.length > 1 && line.every((point) => point.length === 3));
   }
 
   /** From -1 to 1 across the stage, and up. */

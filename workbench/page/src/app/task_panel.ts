@@ -102,11 +102,12 @@ export function taskPanel(bench: Workbench, stage: Stage): Panel {
     if (!task) return;
     words.textContent = "Looking for a place …";
     try {
-      const verdict = await ask<Verdict>("verify", { text: bench.state.text, mode: bench.state.mode ?? [], task: bench.taskFile(task), fit: goal, lane: "fit" });
+      const verdict = await ask<Verdict>("verify", { text: bench.state.text, file: bench.state.file, mode: bench.state.mode ?? [], task: bench.taskFile(task), fit: goal, lane: "fit" });
       if (verdict.moved_by) set({ shape: movedShape(task.shape, verdict.moved_by) });
       else words.textContent = verdict.verified ? "It fits where it is." : "No place was found at which the task is verified.";
     } catch (error) {
       if (!(error instanceof AskingError)) throw error;
+      update();
       fault.textContent = error.fault.message;
     }
   };
