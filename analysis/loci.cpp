@@ -16,9 +16,11 @@
 #include "analysis/request_limits.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
+#include "core/shown_units.hpp"
 #include "core/straight_line.hpp"
 #include "loci/curves/curves.hpp"
 #include "loci/surfaces/surfaces.hpp"
+#include "mechanism/frame.hpp"
 #include "mechanism/group_closing.hpp"
 #include "mechanism/notes.hpp"
 #include "mechanism/written_unit.hpp"
@@ -371,10 +373,41 @@ core::LocusMap unfinished_map(const mechanism::Mechanism& mechanism, const std::
   return map;
 }
 
+namespace {
+
+/// Doubles keep the digits of all ranges and lengths beside each other up to such a ratio: beyond it a workspace may be
+/// missing as a whole.
+void require_comparable_ranges(const mechanism::Mechanism& mechanism) {
+  const core::Rational most(10'000'000);
+  const auto refuse = [&](const std::string& what) {
+    throw core::InputError({mechanism.file}, what,
+                           "change the ranges of 'workspace', or check the units; ranges and lengths may be in the "
+                           "ratio 1e7");
+  };
+  const auto told = [&](const core::Rational& length) {
+    return core::told(core::to_double(length), "m", mechanism.units, 3);
+  };
+  const core::Rational size = mechanism::size_of(mechanism);
+  core::Rational largest = size;
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates) {
+    const core::Rational width = coordinate.upper - coordinate.lower;
+    if (!coordinate.angle) largest = std::max(largest, width);
+    if (coordinate.angle && width * most < 1) refuse("the range of " + coordinate.name + " is too narrow");
+    if (!coordinate.angle && width > most * size)
+      refuse("the range of " + coordinate.name + " is " + told(width) + ", the mechanism's size is some " + told(size));
+  }
+  for (const mechanism::Coordinate& coordinate : mechanism.coordinates)
+    if (const core::Rational width = coordinate.upper - coordinate.lower; !coordinate.angle && width * most < largest)
+      refuse("the range of " + coordinate.name + " is " + told(width) + ", beside lengths or ranges of some " +
+             told(largest));
+}
+
+}  // namespace
+
 void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t least, std::size_t most,
                          const std::string& what) {
   const std::size_t count = mechanism.coordinates.size();
-  if (least <= count && count <= most) return;
+  if (least <= count && count <= most) return require_comparable_ranges(mechanism);
   const std::string wanted = least == most ? std::to_string(least) : "one to three";
   throw core::InputError(
       {mechanism.file}, what + " over " + wanted + " free coordinates; this workspace has " + std::to_string(count),

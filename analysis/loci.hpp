@@ -71,7 +71,8 @@ std::vector<symbolic::DerivedProblem> derived_problems(const mechanism::Mechanis
 /// The coordinates of the mechanism in place of those of the charts.
 void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map);
 
-/// Throws core::InputError, saying what has no meaning here, where the number of free coordinates is another.
+/// Throws core::InputError, saying what has no meaning here, where the number of free coordinates is another, or where
+/// ranges and lengths differ by more than doubles resolve beside each other.
 void require_coordinates(const mechanism::Mechanism& mechanism, std::size_t least, std::size_t most,
                          const std::string& what);
 

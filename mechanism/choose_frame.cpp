@@ -81,6 +81,8 @@ class Choice {
     return frame;
   }
 
+  Rational size() const { return power_of_two(size_exponent(origin_of_few_digits())); }
+
   bool far() const {
     constexpr int near_sizes = 4;
     const Frame frame = run();
@@ -230,6 +232,14 @@ Frame frame_of(const Mechanism& mechanism) {
     Frame usual;
     usual.from.resize(mechanism.coordinates.size());
     return usual;
+  }
+}
+
+Rational size_of(const Mechanism& mechanism) {
+  try {
+    return Choice(mechanism).size();
+  } catch (const NotPolynomial&) {
+    return 1;
   }
 }
 

@@ -35,6 +35,24 @@ TEST(Loci, SayThatNoPoseIsReached) {
   EXPECT_THAT(notes("../tests/corpus/loci/coaxial_cones_on_a_circle.yaml", {}), testing::Not(testing::Contains(note)));
 }
 
+/// Where doubles do not resolve ranges and lengths beside each other a whole workspace would be missing.
+TEST(Loci, RangesBeyondTheSizeOfTheMechanismAreRefused) {
+  std::ifstream file(source_dir() + "/examples/five_bar.yaml");
+  const std::string text((std::istreambuf_iterator<char>(file)), {}), usual = "x: [-0.5, 1.0]";
+  const auto with_range = [&](const std::string& range) {
+    std::string changed = text;
+    return Model::parse(changed.replace(changed.find(usual), usual.size(), "x: " + range));
+  };
+  for (const char* range : {"[-3e7, 3e7]", "[-1e14, 1e14]", "[0.2, 0.2 + 1e-8]"}) {
+    const Model model = with_range(range);
+    EXPECT_THROW((void)trace_loci(model), InputError) << range;
+    EXPECT_THROW((void)find_zones(model), InputError) << range;
+  }
+  EXPECT_THROW((void)trace_loci(with_range("[-0.5, 1]").with({{"L", "1e-9"}})), InputError);
+  for (const char* range : {"[-1e6, 1e6]", "[0.2, 0.2 + 1e-6]"})
+    EXPECT_FALSE(trace_loci(with_range(range)).curves.empty()) << range;
+}
+
 /// All commands say so in the same words, also where it is a limit that no pose keeps.
 TEST(Loci, NoPoseIsReachedInAllCommands) {
   for (const std::string name : {"five_bar", "four_bar"}) {

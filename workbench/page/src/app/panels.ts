@@ -223,7 +223,7 @@ export function modesPanel(bench: Workbench): Panel {
       ...modes.modes.map((one) => {
         const chosen = one.mode.length === own.length && one.mode.every((side, k) => side === own[k]);
         const canvas = thumbnail(one.sketch, theme);
-        return h("button", { type: "button", class: "mode", role: "radio", "aria-checked": String(chosen), title: words(one.mode), disabled: one.sample === null, click: () => bench.change({ mode: one.mode, ...(bench.state.at ? {} : { at: one.sample ?? undefined }) }) }, canvas, h("span", {}, one.sample === null ? "reaches nothing" : words(one.mode)));
+        return h("button", { type: "button", class: "mode", role: "radio", "aria-checked": String(chosen), title: words(one.mode), click: () => bench.change({ mode: one.mode, ...(bench.state.at ? {} : { at: one.sample ?? undefined }) }) }, canvas, h("span", {}, `${words(one.mode)}${one.sample === null ? ": no pose found" : ""}`));
       }),
     );
   };

@@ -61,6 +61,7 @@ export function playBar(bench: Workbench, over: (n: number) => boolean): HTMLEle
   };
   const stop = (): void => {
     last = undefined;
+    said.textContent = "";
     bench.history.endGesture();
     play.textContent = "Play";
     play.setAttribute("aria-pressed", "false");
