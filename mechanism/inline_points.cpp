@@ -41,9 +41,11 @@ std::string written(const Node& node) {
 class Hoist {
  public:
   explicit Hoist(const Value& document) : document_(document) {
-    const Node points = part("points");
-    for (const auto& [name, form] : points.pairs())
-      if (name.IsScalar()) names_.insert(name.Scalar());
+    for (const char* name_of_part : {"points", "drawn"}) {
+      const Node points = part(name_of_part);
+      for (const auto& [name, form] : points.pairs())
+        if (name.IsScalar()) names_.insert(name.Scalar());
+    }
   }
 
   Value run() {
@@ -61,6 +63,8 @@ class Hoist {
       const auto found = key.IsScalar() ? read.find(key.Scalar()) : read.end();
       pairs.emplace_back(key, found == read.end() ? content : found->second);
     }
+    if (!document_.node.has("points"))  // of a drawing
+      pairs.emplace_back(Node::scalar("points", document_.node.where()), read.at("points"));
     return {Node::map(std::move(pairs), document_.node.where()), document_.what, document_.where};
   }
 

@@ -78,6 +78,34 @@ TEST(InlinePoints, OfAJointHasItsNameWhereNoOtherPointDoes) {
   EXPECT_EQ(m.points[3].name, "B1");
 }
 
+/// A drawing has no `points` of its own, and a drawn point may have the name that a described one would get.
+TEST(InlinePoints, StandInDrawings) {
+  const Mechanism m = parse_mechanism(R"(format: 1
+workspace: {theta: {angle: [0, 1], of: AB}}
+drawn: {A: [0, 0], B: [0.2, 0.1], C: [0.9, 0.8], D: [1, 0.1], spring1: [1.2, 0.1]}
+links:
+  AB: {points: [A, B]}
+  BC: {points: [B, C]}
+  CD: {points: [D, C]}
+joints:
+  A: {revolute: [ground, AB], at: A, actuated: true}
+  B: {revolute: [AB, BC], at: B}
+  C: {revolute: [BC, CD], at: C}
+  D: {revolute: [ground, CD], at: D}
+end_effector: {link: CD, at: C}
+springs:
+  - {links: [CD, ground], at: [C, [0.75, 2]], stiffness: 194, free_length: 0}
+  - {links: [CD, ground], at: [C, spring1], stiffness: 194, free_length: 0}
+)",
+                                      "m.yaml");
+  const auto places = sample_points(m, {0.5});
+  const auto& described = places.at(static_cast<std::size_t>(m.springs.at(0).to_point));
+  ASSERT_TRUE(described);
+  EXPECT_EQ((*described)[0], 0.75);
+  EXPECT_EQ((*described)[1], 2);
+  EXPECT_EQ(m.points.at(static_cast<std::size_t>(m.springs.at(1).to_point)).name, "spring1");
+}
+
 TEST(InlinePoints, AreCheckedLikeOthers) {
   EXPECT_NE(complaint(with(unnamed, "at: [0, 0], act", "at: [0, 0.1], act")).find("is no point of link A1B1"),
             std::string::npos);
