@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -168,6 +169,17 @@ std::vector<double> without_rounding(const core::WitnessLoad& load) {
   return couple;
 }
 
+/// Two different values by as many digits as tell them apart.
+std::array<std::string, 2> told_apart(double one, double other) {
+  std::array<std::string, 2> words;
+  constexpr int all_digits = 17;
+  for (int digits = size_digits; digits <= all_digits; ++digits) {
+    words = {engineering(one, digits), engineering(other, digits)};
+    if (words[0] != words[1]) break;
+  }
+  return words;
+}
+
 }  // namespace
 
 std::string witness_words(const core::TaskWitness& witness, const core::Units& units, bool of_angles) {
@@ -197,9 +209,8 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
     case Kind::too_small: {
       const core::Vanishing& reaction = witness.too_small.front();
       const ShownUnit unit = shown_unit(core::unit_of(reaction.quantity), units);
-      words = fmt::format("|{}| is {} {}, less than {}", reaction_name(reaction),
-                          engineering(*witness.size * unit.per_si, size_digits), unit.name,
-                          engineering(core::to_double(*witness.least) * unit.per_si, size_digits));
+      const auto [size, least] = told_apart(*witness.size * unit.per_si, core::to_double(*witness.least) * unit.per_si);
+      words = fmt::format("|{}| is {} {}, less than {}", reaction_name(reaction), size, unit.name, least);
       break;
     }
     case Kind::beyond_bound: {
@@ -210,17 +221,18 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
       }
       const core::Vanishing& effort = witness.beyond_bound.front();
       const ShownUnit unit = shown_unit(core::unit_of(effort.quantity), units);
-      words = fmt::format(
-          "{} is {} {}, {} {}", reaction_name(effort), engineering(*witness.size * unit.per_si, size_digits), unit.name,
-          witness.least ? "less than" : "more than",
-          engineering(core::to_double(witness.least ? *witness.least : *witness.most) * unit.per_si, size_digits));
+      const core::Rational& bound = witness.least ? *witness.least : *witness.most;
+      const auto [size, told_bound] = told_apart(*witness.size * unit.per_si, core::to_double(bound) * unit.per_si);
+      words = fmt::format("{} is {} {}, {} {}", reaction_name(effort), size, unit.name,
+                          witness.least ? "less than" : "more than", told_bound);
       break;
     }
-    case Kind::displaced:
-      words = fmt::format("the clearances displace the end effector by {} {}, more than {}",
-                          engineering(*witness.size * length.per_si, size_digits), length.name,
-                          engineering(core::to_double(*witness.most) * length.per_si, size_digits));
+    case Kind::displaced: {
+      const auto [size, most] =
+          told_apart(*witness.size * length.per_si, core::to_double(*witness.most) * length.per_si);
+      words = fmt::format("the clearances displace the end effector by {} {}, more than {}", size, length.name, most);
       break;
+    }
   }
   if (!witness.load.empty()) words += " under the load " + vector(witness.load);
   for (const core::WitnessLoad& load : witness.loads)

@@ -162,6 +162,17 @@ TEST(Wording, TellsACoupleThatIsARoundingOfItsForceAsNone) {
   EXPECT_EQ(witness_words(witness).find(" 0 N m"), std::string::npos) << witness_words(witness);
 }
 
+TEST(Wording, TellsASizeApartFromItsBound) {
+  core::TaskWitness witness;
+  witness.kind = core::TaskWitness::Kind::beyond_bound;
+  witness.beyond_bound = {{"K1", core::Quantity::F, 1}};
+  witness.size = 4.99999999;
+  witness.least = 5;
+  EXPECT_EQ(witness_words(witness), "F_K1 is 4.99999999 N, less than 5");
+  witness.size = 4.2;
+  EXPECT_EQ(witness_words(witness), "F_K1 is 4.2 N, less than 5");
+}
+
 TEST(Wording, TellsWhereAGivenEffortIsAmongTheFeasibleOnes) {
   core::FeasibleEfforts efforts;
   efforts.joint = "A";
