@@ -36,34 +36,39 @@ Nearest nearest_on(const Polyline& line, std::size_t i, const Point2& from) {
 
 /// The point of the curve nearest to `centre`, from one near it: slide along the curve towards the foot, by the secant
 /// method on what is left of the way along the tangent.
-Point2 slid(const CurveProjection& curve, const Point2& start, const Point2& centre) {
+CurvePoint slid(const CurveProjection& curve, CurvePoint now, const Point2& centre) {
   constexpr double least_slope = 0.1, most_slope = 10;  // of what is left over the way; 1 on a straight line
-  CurvePoint now = curve(start);
   const auto left_at = [&](const CurvePoint& p) {
     return (centre[0] - p.at[0]) * p.tangent[0] + (centre[1] - p.at[1]) * p.tangent[1];
   };
-  double slope = 1;
+  double slope = 1, left = left_at(now), far = distance(now.at, centre);
   for (int i = 0; i < 8; ++i) {
-    const double left = left_at(now), way = left / slope;
+    const double way = left / slope;
     if (std::abs(left) < rounding * (1 + std::abs(now.at[0]) + std::abs(now.at[1]))) break;
     CurvePoint next = curve({now.at[0] + way * now.tangent[0], now.at[1] + way * now.tangent[1]});
-    if (distance(next.at, centre) >= distance(now.at, centre)) break;
     if (next.tangent[0] * now.tangent[0] + next.tangent[1] * now.tangent[1] < 0)
       next.tangent = {-next.tangent[0], -next.tangent[1]};
-    slope = std::clamp((left - left_at(next)) / way, least_slope, most_slope);
+    // Near the foot all distances are the same to rounding, but what is left still tells half of the digits.
+    const double distant = distance(next.at, centre), still_left = left_at(next);
+    if (distant > far * (1 + rounding) || (distant >= far && std::abs(still_left) >= std::abs(left))) break;
+    slope = std::clamp((left - still_left) / way, least_slope, most_slope);
     now = next;
+    left = still_left;
+    far = distant;
   }
-  return now.at;
+  return now;
 }
 
 /// What the circle touches: a point of an obstacle; a corner stays where it is, a foot slides as the centre moves.
 struct Contact {
-  Point2 at{};
+  CurvePoint on;
   const CurveProjection* slides = nullptr;
+
+  const Point2& at() const { return on.at; }
 };
 
 void follow(Contact& contact, const Point2& centre) {
-  if (contact.slides != nullptr) contact.at = slid(*contact.slides, contact.at, centre);
+  if (contact.slides != nullptr) contact.on = slid(*contact.slides, contact.on, centre);
 }
 
 /// Where the circle, grown by `slack`, reaches obstacles: one point a pass.
@@ -72,7 +77,7 @@ std::vector<Contact> contacts(const Circle& circle, const std::vector<Obstacle>&
   std::vector<Contact> list;
   const auto add = [&](const Contact& contact) {
     const bool is_present = std::any_of(list.begin(), list.end(), [&](const Contact& other) {
-      return other.slides == contact.slides && distance(other.at, contact.at) < same_contact * circle.radius;
+      return other.slides == contact.slides && distance(other.at(), contact.at()) < same_contact * circle.radius;
     });
     if (!is_present) list.push_back(contact);
   };
@@ -81,9 +86,9 @@ std::vector<Contact> contacts(const Circle& circle, const std::vector<Obstacle>&
     const Polyline& line = *obstacle.line;
     std::optional<Nearest> best;
     const auto finish = [&] {
-      if (best && (best->end || obstacle.curve == nullptr)) add({best->at, nullptr});
+      if (best && (best->end || obstacle.curve == nullptr)) add({{best->at, {}}, nullptr});
       if (best && !best->end && obstacle.curve != nullptr)
-        add({slid(*obstacle.curve, best->at, circle.centre), obstacle.curve});
+        add({slid(*obstacle.curve, (*obstacle.curve)(best->at), circle.centre), obstacle.curve});
       best.reset();
     };
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -96,14 +101,14 @@ std::vector<Contact> contacts(const Circle& circle, const std::vector<Obstacle>&
     finish();
   }
   for (const Point2& p : points) {
-    if (distance(p, circle.centre) <= reach) add({p, nullptr});
+    if (distance(p, circle.centre) <= reach) add({{p, {}}, nullptr});
   }
   return list;
 }
 
 double least_distance(const std::vector<Contact>& from, const Point2& at) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Contact& contact : from) least = std::min(least, distance(contact.at, at));
+  for (const Contact& contact : from) least = std::min(least, distance(contact.at(), at));
   return least;
 }
 
@@ -113,7 +118,8 @@ std::optional<Circle> largest_between(const std::vector<Contact>& contacts, cons
     double nx, ny, offset;
   };
   std::vector<Line> lines;
-  for (const auto& [p, slides] : contacts) {
+  for (const Contact& contact : contacts) {
+    const Point2& p = contact.at();
     const double d = distance(p, centre);
     if (d == 0) return std::nullopt;
     const double nx = (centre[0] - p[0]) / d, ny = (centre[1] - p[1]) / d;
@@ -147,9 +153,9 @@ std::optional<Circle> largest_between(const std::vector<Contact>& contacts, cons
 
 /// Between two opposite contacts the circle is widest where it can roll neither way: where they face each other.
 std::optional<Circle> widest_between(Contact first, Contact second, const Circle& start) {
-  const double gap = distance(first.at, second.at);
+  const double gap = distance(first.at(), second.at());
   if (gap < 1.8 * start.radius) return std::nullopt;
-  const Point2 across = {(second.at[0] - first.at[0]) / gap, (second.at[1] - first.at[1]) / gap};
+  const Point2 across = {(second.at()[0] - first.at()[0]) / gap, (second.at()[1] - first.at()[1]) / gap};
   const Point2 along = {-across[1], across[0]};
   struct Rolled {
     Circle circle;
@@ -162,13 +168,13 @@ std::optional<Circle> widest_between(Contact first, Contact second, const Circle
     for (int i = 0; i < 12; ++i) {
       follow(first, z);
       follow(second, z);
-      const double a = distance(first.at, z), b = distance(second.at, z), shift = (b - a) / 2;
+      const double a = distance(first.at(), z), b = distance(second.at(), z), shift = (b - a) / 2;
       radius = std::min(a, b);
       if (std::abs(shift) < rounding * start.radius) break;
       z = {z[0] + shift * across[0], z[1] + shift * across[1]};
     }
     double pull = 0;
-    for (const Point2& foot : {first.at, second.at})
+    for (const Point2& foot : {first.at(), second.at()})
       for (std::size_t c = 0; c < 2; ++c) pull += (z[c] - foot[c]) / radius * along[c];
     return Rolled{{z, radius}, pull};
   };
@@ -176,18 +182,23 @@ std::optional<Circle> widest_between(Contact first, Contact second, const Circle
   Rolled at_low = rolled(low), at_high = rolled(high);
   if (at_low.pull <= 0 || at_high.pull >= 0)
     return at_low.circle.radius > at_high.circle.radius ? at_low.circle : at_high.circle;
-  // Regula falsi, with the weight of an end that stays halved (the Illinois rule).
+  // Regula falsi, with the weight of an end halved that stays once more (the Illinois rule).
   double weight_low = at_low.pull, weight_high = at_high.pull;
   Rolled best = at_low;
+  int moved = 0;
   for (int i = 0; i < 60 && high - low > 1e-9 * start.radius; ++i) {
     const double way = low + (high - low) * weight_low / (weight_low - weight_high);
     best = rolled(way);
     if (std::abs(best.pull) < 1e-12) break;
-    if (best.pull > 0) {
-      low = way, weight_low = best.pull, weight_high /= 2;
+    const int side = best.pull > 0 ? 1 : -1;
+    if (side > 0) {
+      low = way, weight_low = best.pull;
+      if (moved == side) weight_high /= 2;
     } else {
-      high = way, weight_high = best.pull, weight_low /= 2;
+      high = way, weight_high = best.pull;
+      if (moved == side) weight_low /= 2;
     }
+    moved = side;
   }
   return best.circle;
 }

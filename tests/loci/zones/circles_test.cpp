@@ -81,6 +81,28 @@ TEST(LargestCircle, KeepsClearOfPoints) {
   EXPECT_LE(circle.radius, std::hypot(2 - circle.centre[0], 2 - circle.centre[1]));
 }
 
+// Between the two sides of a lens the circle is widest on the line through their ends' middle. Where it touches them is
+// told to rounding, not to its root, as the distances alone would.
+TEST(LargestCircle, StandsAmidALens) {
+  const core::LocusProblem problem;
+  std::vector<CurveProjection> curves;
+  std::vector<Polyline> sides;
+  for (const int side : {-1, 1}) {
+    core::LocusCurve curve;
+    const core::Rational a(side, 2);  // the centres are at x = 1/2 and -1/2, the radius is 2
+    curve.closed_form = core::CircleForm{{-a, core::Rational(0)}, 4, 2};
+    curves.emplace_back(problem, curve, nullptr);
+    const Point2 centre = {-0.5 * side, 0};
+    const auto at = [&](double angle) { return on_circle(centre, 2, (side > 0 ? 0 : std::numbers::pi) + angle); };
+    sides.push_back(circle_arc(centre, 2, at(-1.2), at(0.1), at(1.2), false, 1e-4));
+  }
+  const core::Circle circle =
+      polished({{0.001, 0.12}, 1.49}, {{&sides[0], &curves[0]}, {&sides[1], &curves[1]}}, {}, 1e-4);
+  EXPECT_NEAR(circle.centre[0], 0, 1e-12);
+  EXPECT_NEAR(circle.centre[1], 0, 1e-11);
+  EXPECT_NEAR(circle.radius, 1.5, 1e-12);
+}
+
 // Where Newton leads nowhere the circle given is made smaller until it holds no obstacle.
 TEST(LargestCircle, IsNeverLargerThanTheWayToAnObstacle) {
   const Polyline side = wall({0, 0}, {10, 0});
