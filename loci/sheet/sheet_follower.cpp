@@ -27,19 +27,25 @@ SheetFollower::SheetFollower(const SheetProgram& program, double size)
       size_(size),
       n_(program.variables()),
       residual_(n_),
-      matrix_(n_, std::vector<double>(n_ + 1)) {}
+      entries_(static_cast<std::size_t>(n_) * (n_ + 1)),
+      rows_(n_) {
+  for (int r = 0; r < n_; ++r) rows_[r] = entries_.data() + r * (n_ + 1);
+}
 
 void SheetFollower::evaluate(const LiftedPoint& point) {
-  for (int v = 0; v < n_; ++v) registers_.set(v, point[v]);
-  for (int j = 0; j < program_->roots(); ++j) registers_.run_square(j);
-  registers_.run_values();
-  registers_.run_gradients();
+  if (point != evaluated_) {
+    evaluated_ = point;
+    for (int v = 0; v < n_; ++v) registers_.set(v, point[v]);
+    for (int j = 0; j < program_->roots(); ++j) registers_.run_square(j);
+    registers_.run_values();
+    registers_.run_gradients();
+  }
   residual_[0] = registers_.value(0);
-  for (int v = 0; v < n_; ++v) matrix_[0][v] = registers_.partial(0, v);
+  for (int v = 0; v < n_; ++v) entry(0, v) = registers_.partial(0, v);
   for (int j = 0; j < program_->roots(); ++j) {
     residual_[1 + j] = point[2 + j] * point[2 + j] - registers_.square(j);
-    for (int v = 0; v < n_; ++v) matrix_[1 + j][v] = -registers_.square_partial(j, v);
-    matrix_[1 + j][2 + j] += 2 * point[2 + j];
+    for (int v = 0; v < n_; ++v) entry(1 + j, v) = -registers_.square_partial(j, v);
+    entry(1 + j, 2 + j) += 2 * point[2 + j];
   }
 }
 
@@ -48,32 +54,32 @@ bool SheetFollower::correct(LiftedPoint& point, const LiftedPoint& row, double v
   double last = 0;
   for (int step = 0; step < most_steps; ++step) {
     evaluate(point);
-    for (int r = 0; r + 1 < n_; ++r) matrix_[r][n_] = -residual_[r];
-    std::copy(row.begin(), row.end(), matrix_[n_ - 1].begin());
-    matrix_[n_ - 1][n_] = value - dot(row, point);
-    for (auto& r : matrix_) {
+    for (int r = 0; r + 1 < n_; ++r) entry(r, n_) = -residual_[r];
+    std::copy(row.begin(), row.end(), rows_[n_ - 1]);
+    entry(n_ - 1, n_) = value - dot(row, point);
+    for (int r = 0; r < n_; ++r) {
       double largest = 0;
-      for (int c = 0; c < n_; ++c) largest = std::max(largest, std::abs(r[c]));
+      for (int c = 0; c < n_; ++c) largest = std::max(largest, std::abs(entry(r, c)));
       if (largest == 0) return false;
-      for (double& entry : r) entry /= largest;
+      for (int c = 0; c <= n_; ++c) entry(r, c) /= largest;
     }
     for (int c = 0; c < n_; ++c) {
       int pivot = c;
       for (int r = c + 1; r < n_; ++r)
-        if (std::abs(matrix_[r][c]) > std::abs(matrix_[pivot][c])) pivot = r;
-      std::swap(matrix_[pivot], matrix_[c]);
-      if (std::abs(matrix_[c][c]) < 1e-14) return false;
+        if (std::abs(entry(r, c)) > std::abs(entry(pivot, c))) pivot = r;
+      std::swap(rows_[pivot], rows_[c]);
+      if (std::abs(entry(c, c)) < 1e-14) return false;
       for (int r = c + 1; r < n_; ++r) {
-        const double factor = matrix_[r][c] / matrix_[c][c];
+        const double factor = entry(r, c) / entry(c, c);
         if (factor == 0) continue;
-        for (int k = c + 1; k <= n_; ++k) matrix_[r][k] -= factor * matrix_[c][k];
+        for (int k = c + 1; k <= n_; ++k) entry(r, k) -= factor * entry(c, k);
       }
     }
     double size = 0;
     for (int c = n_ - 1; c >= 0; --c) {
-      double delta = matrix_[c][n_];
-      for (int k = c + 1; k < n_; ++k) delta -= matrix_[c][k] * residual_[k];
-      delta /= matrix_[c][c];
+      double delta = entry(c, n_);
+      for (int k = c + 1; k < n_; ++k) delta -= entry(c, k) * residual_[k];
+      delta /= entry(c, c);
       residual_[c] = delta;  // reused for the step
       point[c] += delta;
       // Roots may be much larger than the region, and their rounding with them.
@@ -102,30 +108,30 @@ LiftedPoint SheetFollower::tangent(const LiftedPoint& point) {
   for (int c = 0; c < n_; ++c) order[c] = c;
   for (int r = 0; r + 1 < n_; ++r) {
     double largest = 0;
-    for (int c = 0; c < n_; ++c) largest = std::max(largest, std::abs(matrix_[r][c]));
+    for (int c = 0; c < n_; ++c) largest = std::max(largest, std::abs(entry(r, c)));
     if (largest == 0) return {};
-    for (int c = 0; c < n_; ++c) matrix_[r][c] /= largest;
+    for (int c = 0; c < n_; ++c) entry(r, c) /= largest;
   }
   for (int r = 0; r + 1 < n_; ++r) {
     int best_row = r, best_column = r;
     double best = 0;
     for (int i = r; i + 1 < n_; ++i)
       for (int c = r; c < n_; ++c)
-        if (std::abs(matrix_[i][order[c]]) > best) best = std::abs(matrix_[i][order[c]]), best_row = i, best_column = c;
+        if (std::abs(entry(i, order[c])) > best) best = std::abs(entry(i, order[c])), best_row = i, best_column = c;
     if (best < 1e-14) return {};
-    std::swap(matrix_[r], matrix_[best_row]);
+    std::swap(rows_[r], rows_[best_row]);
     std::swap(order[r], order[best_column]);
     for (int i = r + 1; i + 1 < n_; ++i) {
-      const double factor = matrix_[i][order[r]] / matrix_[r][order[r]];
-      for (int c = r; c < n_; ++c) matrix_[i][order[c]] -= factor * matrix_[r][order[c]];
+      const double factor = entry(i, order[r]) / entry(r, order[r]);
+      for (int c = r; c < n_; ++c) entry(i, order[c]) -= factor * entry(r, order[c]);
     }
   }
   LiftedPoint result(n_);
   result[order[n_ - 1]] = 1;
   for (int r = n_ - 2; r >= 0; --r) {
     double sum = 0;
-    for (int c = r + 1; c < n_; ++c) sum -= matrix_[r][order[c]] * result[order[c]];
-    result[order[r]] = sum / matrix_[r][order[r]];
+    for (int c = r + 1; c < n_; ++c) sum -= entry(r, order[c]) * result[order[c]];
+    result[order[r]] = sum / entry(r, order[r]);
   }
   const double norm = std::sqrt(dot(result, result));
   for (double& entry : result) entry /= norm;

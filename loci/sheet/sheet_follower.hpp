@@ -15,6 +15,8 @@ class SheetFollower {
  public:
   /// Function 0 of the program is the curve. `size`: of the region, sets the accuracy that counts as converged.
   SheetFollower(const SheetProgram& program, double size);
+  SheetFollower(const SheetFollower&) = delete;
+  SheetFollower& operator=(const SheetFollower&) = delete;
 
   static constexpr double accuracy = 1e-13;  ///< a tenth of what vertices are held to, relative to the region
   /// Moves `point` to the curve in the hyperplane row . u = value. False: no convergence to `within` of the size, of
@@ -26,13 +28,16 @@ class SheetFollower {
 
  private:
   void evaluate(const LiftedPoint& point);
+  double& entry(int row, int column) { return rows_[static_cast<std::size_t>(row)][column]; }
 
   const SheetProgram* program_;
   SheetProgram::Registers<double> registers_;
   double size_;
-  int n_;                                    // variables
-  std::vector<double> residual_;             // of N, G_1 ... G_m
-  std::vector<std::vector<double>> matrix_;  // their gradients, one row more for the hyperplane
+  int n_;                         // variables
+  LiftedPoint evaluated_;         // which registers hold
+  std::vector<double> residual_;  // of N, G_1 ... G_m
+  std::vector<double> entries_;   // of the matrix: their gradients, one row more for the hyperplane
+  std::vector<double*> rows_;     // of it, which are swapped
 };
 
 double dot(const LiftedPoint& a, const LiftedPoint& b);
