@@ -76,11 +76,12 @@ std::optional<EnclosedPoint> curve_point(const Polynomial& curve, const std::arr
                                        std::abs(core::evaluate(core::derivative(curve, 1), near))};
   const std::size_t across = slope[0] > slope[1] ? 0 : 1, fixed = 1 - across;
   const Rational level(near[fixed]), centre(near[across]), radius(reach);
+  std::vector<Rational> of_level = {1};
   std::map<int, Rational, std::greater<>> powers;
   for (const core::Term& term : curve.terms) {
-    Rational coefficient = term.coefficient;
-    for (int k = 0; k < term.exponents[fixed]; ++k) coefficient *= level;
-    powers[term.exponents[across]] += coefficient;
+    const auto power = static_cast<std::size_t>(term.exponents[fixed]);
+    while (of_level.size() <= power) of_level.push_back(of_level.back() * level);
+    powers[term.exponents[across]] += term.coefficient * of_level[power];
   }
   Polynomial line;
   line.variables = 1;

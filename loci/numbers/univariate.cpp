@@ -104,6 +104,31 @@ int descartes_bound(const Univariate& p, const Rational& lower, const Rational& 
   return variations(shifted(scaled, 1));
 }
 
+/// Powers of a denominator, one after the other: of a power of two they are shifts.
+class Powers {
+ public:
+  explicit Powers(const Integer& base) : base_(base), bits_(mpz_sizeinbase(base.get_mpz_t(), 2) - 1) {
+    is_shift_ = mpz_scan1(base.get_mpz_t(), 0) == bits_;
+  }
+  /// sum + c times the next power.
+  void add(Integer& sum, const Integer& c) {
+    if (is_shift_) {
+      mpz_mul_2exp(power_.get_mpz_t(), c.get_mpz_t(), shift_);
+      sum += power_;
+      shift_ += bits_;
+    } else {
+      mpz_addmul(sum.get_mpz_t(), c.get_mpz_t(), power_.get_mpz_t());
+      power_ *= base_;
+    }
+  }
+
+ private:
+  const Integer& base_;
+  mp_bitcnt_t bits_, shift_ = 0;
+  bool is_shift_;
+  Integer power_ = 1;
+};
+
 Univariate linear_factor(const Rational& root) { return {-root.get_num(), root.get_den()}; }
 
 }  // namespace
@@ -164,10 +189,11 @@ std::vector<Univariate> irreducible_factors(const Univariate& p) {
 
 int sign_at(const Univariate& p, const Rational& x) {
   // Numerator of p(n/d): Horner over the integers.
-  Integer sum = 0, power = 1;
+  Integer sum = 0;
+  Powers powers(x.get_den());
   for (auto c = p.rbegin(); c != p.rend(); ++c) {
-    sum = sum * x.get_num() + *c * power;
-    power *= x.get_den();
+    sum *= x.get_num();
+    powers.add(sum, *c);
   }
   return sgn(sum);
 }
@@ -228,23 +254,26 @@ void narrow_by(RealRoot& root, int bits) {
   while (won < bits && !root.exact()) {
     const Rational width = root.upper - root.lower, middle = root.lower + width / 2;
     // The value at n / d times d^degree, the slope times d^(degree - 1): whole numbers.
-    Integer value = 0, slope = 0, power = 1;
+    Integer value = 0, slope = 0;
+    Powers powers(middle.get_den());
     for (auto c = root.polynomial.rbegin(); c != root.polynomial.rend(); ++c) {
-      slope = slope * middle.get_num() + value;
-      value = value * middle.get_num() + *c * power;
-      power *= middle.get_den();
+      slope *= middle.get_num();
+      slope += value;
+      value *= middle.get_num();
+      powers.add(value, *c);
     }
-    // A part of the interval about Newton's place, with ends on a grid of it.
-    Rational place = -1;
-    if (slope != 0) place = (middle - core::reduced(value, slope * middle.get_den()) - root.lower) / width;
-    if (sgn(place) <= 0 || place >= 1) {
+    // A part of the interval about Newton's place, with ends on a grid of it. Its share of the width, not reduced: from
+    // the middle on, 1 / 2 - value / (slope * denominator * width).
+    const Integer half = slope * middle.get_den() * width.get_num(), whole = 2 * half,
+                  share = half - 2 * value * width.get_den();
+    if (sgn(share) * sgn(whole) <= 0 || mpz_cmpabs(share.get_mpz_t(), whole.get_mpz_t()) >= 0) {
       halve();
       continue;
     }
     const int step = std::min(sure, bits - won + 1);
     Integer nearest;
-    mpz_mul_2exp(nearest.get_mpz_t(), place.get_num_mpz_t(), static_cast<mp_bitcnt_t>(step));
-    mpz_fdiv_q(nearest.get_mpz_t(), nearest.get_mpz_t(), place.get_den_mpz_t());
+    mpz_mul_2exp(nearest.get_mpz_t(), share.get_mpz_t(), static_cast<mp_bitcnt_t>(step));
+    mpz_fdiv_q(nearest.get_mpz_t(), nearest.get_mpz_t(), whole.get_mpz_t());
     Rational part = width;
     mpq_div_2exp(part.get_mpq_t(), part.get_mpq_t(), static_cast<mp_bitcnt_t>(step));
     const auto sign_on = [&](const Rational& x) {
