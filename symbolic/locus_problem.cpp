@@ -108,7 +108,6 @@ Piece problems_of(const Mechanism& mechanism, const Selection& selection, const 
   Piece piece;
   const Charts half_angles = charts_of(mechanism, charts);
   std::vector<SheetGeometry> sheets = sheet_geometries(mechanism, half_angles, modes, &piece.bent);
-  piece.without_modes.problem = problem_without_modes(Geometry(mechanism, false, half_angles, {modes.front()}), charts);
   KnownEliminations known;
   KnownEliminations* const shared = sheets.size() > 1 ? &known : nullptr;
   const auto refuse = [&](const Geometry& geometry, const std::vector<Sides>& singular, const std::string& why) {
@@ -136,6 +135,9 @@ Piece problems_of(const Mechanism& mechanism, const Selection& selection, const 
     piece.problems.back().symbolic_seconds += preparation;
     start = Clock::now();
   }
+  if (piece.problems.empty())
+    piece.without_modes.problem =
+        problem_without_modes(Geometry(mechanism, false, half_angles, {modes.front()}), charts);
   return piece;
 }
 
