@@ -354,6 +354,28 @@ std::optional<PolyFactor> Poly::take_low_factor() {
   return factor;
 }
 
+std::vector<PolyFactor> Poly::mirrored_factors() const {
+  if (length() > short_enough) return {};
+  const Poly whole = primitive();
+  for (int v = ring_->size() - 1; v >= 0; --v) {
+    if (degree(v) != 4) continue;
+    const std::vector<Poly> parts = whole.coefficients(v);
+    if (!parts[1].is_zero() || !parts[3].is_zero()) continue;
+    // +-(a v^2 + b v + c) (a v^2 - b v + c) = +-(a^2 v^4 + (2 a c - b^2) v^2 + c^2), whole numbers by Gauss's lemma.
+    Poly a(*ring_), b(*ring_), c(*ring_), root(*ring_);
+    for (const auto& [sign, side] : {std::pair(1, 1), {1, -1}, {-1, 1}, {-1, -1}}) {
+      if (!parts[4].scaled(sign).square_root(a) || !parts[0].scaled(sign).square_root(c)) continue;
+      c = c.scaled(side);
+      const Poly ac = a * c, squared = ac.scaled(2) - parts[2].scaled(sign);
+      if (squared.is_zero() || !squared.square_root(b) || !gcd(gcd(a, b), c).is_constant()) continue;
+      if ((squared - ac.scaled(4)).square_root(root)) continue;  // each is a product of two
+      const Poly x = variable(*ring_, v), even = a * x * x + c, odd = b * x;
+      return {{(even + odd).primitive(), 1}, {(even - odd).primitive(), 1}};
+    }
+  }
+  return {};
+}
+
 std::vector<PolyFactor> Poly::factors(Rational& constant) const {
   std::vector<PolyFactor> result;
   constant = 0;
@@ -368,7 +390,10 @@ std::vector<PolyFactor> Poly::factors(Rational& constant) const {
     if (!factor) break;
     result.push_back(std::move(*factor));
   }
-  if (!rest.is_constant() && is_seen_irreducible(rest.value_->zpoly, *ring_)) {
+  if (std::vector<PolyFactor> pair = rest.is_constant() ? std::vector<PolyFactor>{} : rest.mirrored_factors();
+      !pair.empty()) {
+    std::move(pair.begin(), pair.end(), std::back_inserter(result));
+  } else if (!rest.is_constant() && is_seen_irreducible(rest.value_->zpoly, *ring_)) {
     result.push_back({rest.primitive(), 1});
   } else if (!rest.is_constant()) {
     fmpq_mpoly_factor_t factorisation;

@@ -115,6 +115,9 @@ class Poly {
   /// An irreducible factor that is linear or quadratic in some variable, of multiplicity 1, is divided out; nothing
   /// where there is none to be had quickly. Required: no constant.
   std::optional<PolyFactor> take_low_factor();
+  /// Both factors of a polynomial in the square of some variable that is f(v) f(-v) with f irreducible and quadratic in
+  /// it, as norms of two mirrored circles are; none where it is not seen to be.
+  std::vector<PolyFactor> mirrored_factors() const;
 
   const Ring* ring_;
   mutable fmpq_mpoly_t value_;

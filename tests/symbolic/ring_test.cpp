@@ -60,6 +60,40 @@ TEST_F(RingTest, QuadraticsSplitWhereTheirDiscriminantIsASquare) {
   }
 }
 
+TEST_F(RingTest, MirroredFactorsAreTakenApart) {
+  // f(y) f(-y) is told by the roots of its coefficients. What has such coefficients and other factors must not pass.
+  const auto mirrored = [&](const Poly& even, const Poly& odd) { return (even + odd * y) * (even - odd * y); };
+  const Poly circle = x * x + y * y + number(5);
+  struct Case {
+    Poly product;
+    std::vector<int> multiplicities;
+  };
+  const std::vector<Case> cases = {{mirrored(circle, number(Rational(3, 7))), {1, 1}},
+                                   {-mirrored(circle, x - s.pow(2)).scaled(Rational(2, 3)), {1, 1}},
+                                   {mirrored(y * y * s - x, s + number(1)), {1, 1}},
+                                   {circle * circle, {2}},
+                                   {mirrored(y * y + x * x * number(2), x.scaled(3)), {1, 1, 1, 1}},
+                                   {mirrored(y * y * s + s * x, s), {2, 1, 1}},
+                                   {mirrored(circle, x).pow(2), {2, 2}},
+                                   {circle * (x * x + y * y - number(7)), {1, 1}},
+                                   {(x * y * y + number(1)) * (y * y + s), {1, 1}},
+                                   {y.pow(4) + (y * y).scaled(3) + number(1), {1}},
+                                   {y.pow(4) + x.pow(4) + number(1), {1}}};
+  for (const Case& c : cases) {
+    Rational constant;
+    const std::vector<PolyFactor> factors = c.product.factors(constant);
+    std::vector<int> multiplicities;
+    Poly product = number(constant);
+    for (const PolyFactor& factor : factors) {
+      multiplicities.push_back(factor.multiplicity);
+      product *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity));
+      EXPECT_TRUE(factor.poly == factor.poly.primitive());
+    }
+    EXPECT_EQ(multiplicities, c.multiplicities);
+    EXPECT_TRUE(product == c.product);
+  }
+}
+
 TEST_F(RingTest, ConstantsAndZeroHaveNoFactors) {
   Rational constant;
   EXPECT_TRUE(number(0).factors(constant).empty());
