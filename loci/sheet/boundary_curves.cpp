@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "loci/sheet/remembered.hpp"
 #include "loci/sheet/star.hpp"
 
 namespace clearloci::loci::sheet {
@@ -39,18 +40,29 @@ std::optional<Quadratic> in_powers_of(const Polynomial& distance, Polynomial p) 
   return coefficients;
 }
 
-std::vector<BoundaryCurve> circles_of(const core::RootTower& tower, int root) {
+/// Of root 0.
+std::vector<BoundaryCurve> circles_of_square(const Polynomial& square, const std::vector<Polynomial>& denominators) {
   std::vector<BoundaryCurve> circles;
-  for (const Polynomial& denominator : tower.denominators) {
+  for (const Polynomial& denominator : denominators) {
     const auto centre = double_point(denominator);
     if (!centre) continue;
-    const auto coefficients = in_powers_of(denominator, tower.roots[static_cast<std::size_t>(root)].square);
+    const auto coefficients = in_powers_of(denominator, square);
     if (!coefficients) continue;
     const Rational scale = denominator.terms.front().coefficient;
     for (const Rational& zero : rational_zeros(*coefficients))
-      if (zero > 0) circles.push_back({root, false, (*centre)[0], (*centre)[1], zero / scale, {}, {}});
+      if (zero > 0) circles.push_back({0, false, (*centre)[0], (*centre)[1], zero / scale, {}, {}});
     break;
   }
+  return circles;
+}
+
+std::vector<BoundaryCurve> circles_of(const core::RootTower& tower, int root) {
+  const Polynomial& square = tower.roots[static_cast<std::size_t>(root)].square;
+  const auto compute = [&] { return circles_of_square(square, tower.denominators); };
+  thread_local Remembered<std::vector<BoundaryCurve>, Polynomial, std::vector<Polynomial>> known;
+  std::vector<BoundaryCurve> circles =
+      square.terms.size() > most_terms_remembered ? compute() : known(compute, square, tower.denominators);
+  for (BoundaryCurve& circle : circles) circle.root = root;
   return circles;
 }
 

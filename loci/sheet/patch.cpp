@@ -8,6 +8,7 @@
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
 #include "loci/sheet/apex.hpp"
+#include "loci/sheet/remembered.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -122,14 +123,20 @@ std::optional<PlaneCell> Chart::from_plane(const PlaneCell& place) const {
 }
 
 core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower) {
-  for (const Polynomial& denominator : tower.denominators) {
-    if (!double_point(denominator)) continue;
-    while (std::optional<Polynomial> quotient = exact_quotient(function, denominator)) {
-      if (quotient->is_zero()) break;
-      function = std::move(*quotient);
+  const auto compute = [&] {
+    Polynomial rest = function;
+    for (const Polynomial& denominator : tower.denominators) {
+      if (!double_point(denominator)) continue;
+      while (std::optional<Polynomial> quotient = exact_quotient(rest, denominator)) {
+        if (quotient->is_zero()) break;
+        rest = std::move(*quotient);
+      }
     }
-  }
-  return function;
+    return rest;
+  };
+  if (function.terms.size() > most_terms_remembered) return compute();
+  thread_local Remembered<Polynomial, Polynomial, std::vector<Polynomial>> known;
+  return known(compute, function, tower.denominators);
 }
 
 core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
@@ -178,6 +185,19 @@ core::StraightLine polar_angle(const Star& star, const core::Root& root) {
   return core::line_of_angle(polar_line(star, y, order), polar_line(star, x, order));
 }
 
+/// A polynomial around a star as a straight line without `order` powers of u; none: all that it has in common.
+core::StraightLine polar_form(const Star& star, const Polynomial& p, std::optional<int> order) {
+  const auto compute = [&] {
+    const Polynomial moved = around(star, p);
+    return polar_line(star, moved, order ? *order : moved.is_zero() ? 0 : order_at(star, moved));
+  };
+  if (star.apex || p.terms.size() > most_terms_remembered) return compute();
+  std::vector<int> shape = {static_cast<int>(star.shape), star.along_y ? 1 : 0, order.value_or(-1)};
+  shape.insert(shape.end(), star.roots.begin(), star.roots.end());
+  thread_local Remembered<core::StraightLine, Rational, Rational, Rational, std::vector<int>, Polynomial> known;
+  return known(compute, star.x, star.y, star.slope, shape, p);
+}
+
 }  // namespace
 
 Charting::Charting(const core::RootTower& tower, std::vector<SheetFunction> functions, const std::vector<Star>& stars)
@@ -206,12 +226,10 @@ const Charting::AtStar& Charting::at_star(int index) {
       continue;
     }
     at_star.squares.push_back(
-        polar_line(star, around(star, tower_.roots[j].square), 2 * star.power_of_root(static_cast<int>(j))));
+        polar_form(star, tower_.roots[j].square, 2 * star.power_of_root(static_cast<int>(j))));
   }
-  for (const SheetFunction& f : functions_) {
-    const Polynomial moved = around(star, f.polynomial);
-    at_star.functions.push_back(polar_line(star, moved, moved.is_zero() ? 0 : order_at(star, moved)));
-  }
+  for (const SheetFunction& f : functions_)
+    at_star.functions.push_back(polar_form(star, f.polynomial, std::nullopt));
   known_.push_back(std::move(at_star));
   return known_.back();
 }

@@ -6,6 +6,7 @@
 
 #include "core/dense_terms.hpp"
 #include "core/errors.hpp"
+#include "loci/sheet/remembered.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -354,8 +355,9 @@ Polynomial around_algebraic(const AlgebraicPoint& point, const Polynomial& p) {
 
 }  // namespace
 
-Polynomial around(const Star& star, const Polynomial& p) {
-  if (is_algebraic(star)) return around_algebraic(*star.apex->exact, p);
+namespace {
+
+Polynomial around_rational(const Star& star, const Polynomial& p) {
   Polynomial moved = shifted(shifted(p, 0, star.x), 1, star.y);
   if (!star.is_sheared() || star.slope == 0) return moved;
   // off = off' + slope along
@@ -374,6 +376,16 @@ Polynomial around(const Star& star, const Polynomial& p) {
     }
   }
   return as_polynomial(p.variables, sheared);
+}
+
+}  // namespace
+
+Polynomial around(const Star& star, const Polynomial& p) {
+  if (is_algebraic(star)) return around_algebraic(*star.apex->exact, p);
+  const auto compute = [&] { return around_rational(star, p); };
+  if (p.terms.size() > most_terms_remembered) return compute();
+  thread_local Remembered<Polynomial, Rational, Rational, Rational, int, Polynomial> known;
+  return known(compute, star.x, star.y, star.slope, star.is_sheared() ? star.along_y ? 2 : 1 : 0, p);
 }
 
 namespace {
