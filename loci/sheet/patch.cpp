@@ -225,11 +225,9 @@ const Charting::AtStar& Charting::at_star(int index) {
       at_star.squares.push_back(polar_angle(star, tower_.roots[j]));
       continue;
     }
-    at_star.squares.push_back(
-        polar_form(star, tower_.roots[j].square, 2 * star.power_of_root(static_cast<int>(j))));
+    at_star.squares.push_back(polar_form(star, tower_.roots[j].square, 2 * star.power_of_root(static_cast<int>(j))));
   }
-  for (const SheetFunction& f : functions_)
-    at_star.functions.push_back(polar_form(star, f.polynomial, std::nullopt));
+  for (const SheetFunction& f : functions_) at_star.functions.push_back(polar_form(star, f.polynomial, std::nullopt));
   known_.push_back(std::move(at_star));
   return known_.back();
 }

@@ -97,7 +97,7 @@ TEST(LargestCircle, StandsAmidALens) {
     sides.push_back(circle_arc(centre, 2, at(-1.2), at(0.1), at(1.2), false, 1e-4));
   }
   const core::Circle circle =
-      polished({{0.001, 0.12}, 1.49}, {{&sides[0], &curves[0]}, {&sides[1], &curves[1]}}, {}, 1e-4);
+      polished({{0.0003, 0.02}, 1.4993}, {{&sides[0], &curves[0]}, {&sides[1], &curves[1]}}, {}, 1e-4);
   EXPECT_NEAR(circle.centre[0], 0, 1e-12);
   EXPECT_NEAR(circle.centre[1], 0, 1e-11);
   EXPECT_NEAR(circle.radius, 1.5, 1e-12);
