@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
-#include "core/reduced.hpp"
 #include "core/thread_end.hpp"
 
 namespace clearloci::loci {
