@@ -267,4 +267,23 @@ double PlaneCurve::Jet::distance() const {
   return g > 0 && std::abs(f) * bend <= 0.1 * g * g ? std::abs(f) / g : -1;
 }
 
+int curve_through(const std::vector<core::Polynomial>& curves, const core::Point2& at) {
+  const std::vector<core::Rational> exact = {core::Rational(at[0]), core::Rational(at[1])};
+  const auto square = [&](const core::Polynomial& p) {
+    const core::Rational value = core::evaluate(p, exact);
+    return core::Rational(value * value);
+  };
+  int best = 0;
+  core::Rational least;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const core::Rational slope = square(core::derivative(curves[i], 0)) + square(core::derivative(curves[i], 1));
+    core::Rational off = square(curves[i]);
+    if (slope != 0) off /= slope;
+    if (i > 0 && off >= least) continue;
+    least = std::move(off);
+    best = static_cast<int>(i);
+  }
+  return best;
+}
+
 }  // namespace clearloci::loci

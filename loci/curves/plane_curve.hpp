@@ -82,4 +82,8 @@ class PlaneCurve {
   int degree_x_ = 0, degree_y_ = 0;
 };
 
+/// The curve of a list that a point lies on, to first order and in exact arithmetic: near a point in which many
+/// branches of both meet doubles do not tell, nor twice their digits.
+int curve_through(const std::vector<core::Polynomial>& curves, const core::Point2& at);
+
 }  // namespace clearloci::loci

@@ -44,21 +44,6 @@ bool is_wanted(const LocusProblem& problem, std::size_t f) {
   return factor.role != FactorRole::reaction || !widest_label(problem, f).vanishing.empty();
 }
 
-/// The curve of a list that a point lies on.
-int nearest_curve(const std::vector<PlaneCurve>& curves, const Point2& at) {
-  int best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const PlaneCurve::Jet jet = curves[i].jet(at);
-    const double off = jet.slope() > 0 ? std::abs(jet.f) / jet.slope() : std::abs(jet.f);
-    if (off < least) {
-      least = off;
-      best = static_cast<int>(i);
-    }
-  }
-  return best;
-}
-
 bool is_line_or_circle(const core::ClosedForm& form) {
   return std::holds_alternative<core::LineForm>(form) || std::holds_alternative<core::CircleForm>(form);
 }
@@ -166,7 +151,6 @@ void fit_legs(const core::RootTower& tower, const core::Polynomial& function, st
 sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& factor, const core::WorkingMode& mode,
                               const CurveAlgebras& algebras, const std::vector<sheet::NestedMeeting>& nested,
                               const MarginNodes& nodes, sheet::SheetTraceOptions options) {
-  std::vector<PlaneCurve> curves;
   std::vector<core::ClosedForm> forms;
   std::vector<std::shared_ptr<CurveAlgebra>> algebra;
   for (const core::Polynomial& p : factor.implicit) {
@@ -174,9 +158,9 @@ sheet::SheetTrace trace_share(const LocusProblem& problem, const LocusFactor& fa
     forms.push_back(core::recognise_closed_form(p));
     options.closed_form.push_back(is_line_or_circle(forms.back()));
     options.along_side.push_back(side_along(problem, p));
-    if (factor.implicit.size() > 1) curves.emplace_back(p);
   }
-  if (curves.size() > 1) options.colour = [&curves](const Point2& at) { return nearest_curve(curves, at); };
+  if (factor.implicit.size() > 1)
+    options.colour = [&factor](const Point2& at) { return curve_through(factor.implicit, at); };
   for (sheet::Star& corner : sheet::corners_on(problem.tower, factor.sheet, nested)) {
     corner.singular = is_singular(problem, mode, corner);
     options.special.push_back(std::move(corner));

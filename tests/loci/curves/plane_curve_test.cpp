@@ -68,5 +68,22 @@ TEST(PlaneCurve, TellsDistancesWhereTermsCancel) {
   EXPECT_NEAR(curve.jet({at[0] + off, at[1]}).distance(), off, off / 20);
 }
 
+/// The parabola x = by y^2 through (1, 1), shifted, with many branches of others that cross there.
+Polynomial one_of_many_branches(const Rational& by) {
+  const Polynomial x = core::variable_polynomial(2, 0) - number(1), y = core::variable_polynomial(2, 1) - number(1);
+  Polynomial product = x - number(by) * y * y;
+  for (int i = 1; i <= 12; ++i) product = product * (x * x + number(i) * y * y);
+  return core::primitive_part(product);
+}
+
+TEST(PlaneCurve, TellsWhichOfTwoPassesNextToAPointOfManyBranches) {
+  const std::vector<Polynomial> curves = {one_of_many_branches(1), one_of_many_branches(-1)};
+  for (const int share : {4, 8, 12}) {
+    const double away = std::ldexp(1.0, -share);
+    EXPECT_EQ(curve_through(curves, {1 + away * away, 1 + away}), 0) << share;
+    EXPECT_EQ(curve_through(curves, {1 - away * away, 1 + away}), 1) << share;
+  }
+}
+
 }  // namespace
 }  // namespace clearloci::loci
