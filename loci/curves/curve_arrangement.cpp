@@ -462,6 +462,21 @@ std::size_t CurveArrangement::vertices() const { return implementation_->vertice
 const std::vector<ArrangementEdge>& CurveArrangement::edges() const { return implementation_->edges; }
 const std::vector<ArrangementPoint>& CurveArrangement::isolated_points() const { return implementation_->points; }
 
+std::vector<std::pair<int, int>> CurveArrangement::passed_outside() const {
+  const auto turn = kernel_turn();
+  Implementation& self = *implementation_;
+  std::set<std::pair<int, int>> passed;
+  for (const Implementation::Meeting& meeting : self.meetings)
+    for (const std::size_t i : {0u, 1u}) {
+      const int root = self.root_of(self.node_of(meeting.curves[i], meeting.x, meeting.points[i]));
+      if (const int vertex = self.vertex_of_root[static_cast<std::size_t>(root)]; vertex >= 0)
+        passed.emplace(vertex, static_cast<int>(meeting.curves[i]));
+    }
+  for (const ArrangementEdge& edge : self.edges)
+    for (const int vertex : {edge.from, edge.to}) passed.erase({vertex, edge.curve});
+  return {passed.begin(), passed.end()};
+}
+
 core::Point2 CurveArrangement::at(int vertex) const {
   const auto turn = kernel_turn();
   return implementation_->at(implementation_->vertices[static_cast<std::size_t>(vertex)]);

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/locus_map.hpp"
@@ -47,6 +48,8 @@ class CurveArrangement {
   std::size_t vertices() const;
   const std::vector<ArrangementEdge>& edges() const;
   const std::vector<ArrangementPoint>& isolated_points() const;
+  /// Vertices through which a curve passes of which no edge there is inside the box, each with that curve.
+  std::vector<std::pair<int, int>> passed_outside() const;
 
   /// Where a vertex is, within 1e-15, absolutely. It is worked out when it is asked for: a millisecond where curves of
   /// high degree cross.

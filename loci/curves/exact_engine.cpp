@@ -84,6 +84,7 @@ class ExactTrace {
         list_(distinct_curves(problem)),
         found_(arrangement_of(problem, list_.curves, options)),
         arrangement_(*found_),
+        passed_(arrangement_.passed_outside()),
         signs_(problem.tower, arrangement_),
         lines_(arrangement_.edges().size()),
         cones_(sheet::cones(problem.tower)) {
@@ -168,7 +169,19 @@ class ExactTrace {
     return traced;
   }
 
-  VertexMarks mark_vertices(const std::vector<EdgeInMode>& edges) const {
+  /// Whether |A| vanishes in a vertex through which a curve passes, in the mode.
+  bool is_singular(int vertex, int curve, const WorkingMode& mode) const {
+    for (std::size_t f = 0; f < problem_.factors.size(); ++f) {
+      const auto& indices = list_.of_factor[f];
+      if (problem_.factors[f].role == FactorRole::direct_singularity &&
+          std::find(indices.begin(), indices.end(), curve) != indices.end() &&
+          ArcCheck(problem_, problem_.factors[f], mode).holds(position(vertex), core::ArcEnd::none))
+        return true;
+    }
+    return false;
+  }
+
+  VertexMarks mark_vertices(const std::vector<EdgeInMode>& edges, const WorkingMode& mode) const {
     const std::size_t count = arrangement_.vertices();
     VertexMarks marks{std::vector<bool>(count), std::vector<bool>(count), std::vector<bool>(count)};
     for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -182,6 +195,9 @@ class ExactTrace {
         if (label.kind == LocusKind::direct_singularity) mark(marks.direct_singularity);
       }
     }
+    // What touches the box from outside meets the arcs of others in a point.
+    for (const auto& [vertex, curve] : passed_)
+      if (is_singular(vertex, curve, mode)) marks.direct_singularity[static_cast<std::size_t>(vertex)] = true;
     // Where the ends of a leg of equal lengths meet the sheet ends in a point.
     for (const ArrangementPoint& point : arrangement_.isolated_points()) {
       if (owned_by(point.curve, FactorRole::construction) && is_cone(point.at)) mark_at(point.at, marks.boundary);
@@ -244,7 +260,7 @@ class ExactTrace {
 
   void trace_mode(const WorkingMode& mode) {
     const std::vector<EdgeInMode> edges = label_edges(problem_, mode, arrangement_, list_.of_factor, signs_, sheets_);
-    VertexMarks marks = mark_vertices(edges);
+    VertexMarks marks = mark_vertices(edges, mode);
     const std::size_t count_before = map_.isolated_points.size();
     add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, cones_, map_);
     // Where the sheet ends in a point that is a direct singularity too, that is the graver of the two.
@@ -345,6 +361,7 @@ class ExactTrace {
   CurveList list_;
   std::shared_ptr<const CurveArrangement> found_;
   const CurveArrangement& arrangement_;
+  std::vector<std::pair<int, int>> passed_;  ///< vertices and curves that have no edge there
   SheetSigns signs_;
   std::vector<int> sheets_;
   std::vector<core::ClosedForm> forms_;

@@ -107,8 +107,9 @@ TEST(Engines, AgreeOnDesignsOfTheCorpus) {
     return mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml");
   };
   const LociRequest request = all_modes(loci::Engine::adaptive_then_exact);
-  for (const std::string name : {"five_bar_node_at_touching_rims", "five_bar_singularity_leaves_the_box",
-                                 "five_bar_parallel_singularity", "five_bar_rim_half_singular"}) {
+  for (const std::string name :
+       {"five_bar_node_at_touching_rims", "five_bar_singularity_leaves_the_box", "five_bar_parallel_singularity",
+        "five_bar_rim_half_singular", "rrrpr_singularity_touches_a_side"}) {
     SCOPED_TRACE(name);
     expect_agreement(kept(name), request, test::EndsOnSides::by_place);
   }
