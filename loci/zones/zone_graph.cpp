@@ -736,8 +736,8 @@ class Builder {
                              [&](const Point2& p, const Point2& q) { return p == chord.a && q == chord.b; });
       if (start == edge.points.end()) continue;  // halved already: it crosses two
       const std::optional<Point2> on = projection(edge.owners.front())->between(chord.a, chord.b);
-      const Point2 middle = {(chord.a[0] + chord.b[0]) / 2, (chord.a[1] + chord.b[1]) / 2};
-      if (!on || distance(*on, middle) > chords_apart * map_.tolerance) return false;
+      // Amid the chord of the lifted curve it need not be over the middle of this one.
+      if (!on || !is_beside_chord(*on, chord.a, chord.b, chords_apart * map_.tolerance)) return false;
       edge.points.insert(start + 1, *on);
       boxed_edges_.erase(chord.of);
     }
