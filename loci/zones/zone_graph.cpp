@@ -286,6 +286,19 @@ class Builder {
     if (!is_one_curve(curve(first), curve(second))) return false;
     for (const Point2& at : own_crossings(curve(first).closed_form))
       if (passed_by(first, at) && passed_by(second, at)) node_at(at);
+    const core::LocusFactor *one = factor_of(problem_, curve(first)), *other = factor_of(problem_, curve(second));
+    if (sketch_ || one == nullptr || other == nullptr || one == other ||
+        !core::circles_of(curve(first).closed_form).empty())
+      return true;
+    // In other points where it crosses itself both factors vanish on the sheet. What is not told shows in the chords.
+    for (const sheet::PlaneCell& place : meeting_places(first, second)) {
+      const std::vector<core::Rational> lower = {core::Rational(place.x.lower()), core::Rational(place.y.lower())},
+                                        upper = {core::Rational(place.x.upper()), core::Rational(place.y.upper())};
+      sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, {one->sheet, one->line},
+                                                   {other->sheet, other->line}, lower, upper, effort_in(place));
+      keep_passed(found, first, second);
+      add_zeros(found);
+    }
     return true;
   }
 
@@ -327,13 +340,12 @@ class Builder {
       doubt_for_good("crossings of " + curve(a).id + " and " + curve(b).id + " are not proven");
       return true;
     }
-    sheet::ZeroOptions effort = effort_;
+    sheet::ZeroOptions effort = effort_in(place);
     // Where both have gradients a leg without length is a crossing like others.
     std::erase_if(effort.special, [&](const sheet::Star& star) {
       return star.no_length && !star.is_sheared() && sheet::is_smooth_at(star, first->sheet) &&
              sheet::is_smooth_at(star, second->sheet);
     });
-    effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
     if (!margin_nodes_) margin_nodes_ = std::make_unique<MarginNodes>(problem_, mode_, effort_);
     for (sheet::Star& node : margin_nodes_->of(*first, *second)) effort.special.push_back(std::move(node));
     if (first != second && !share_a_curve(*first, *second)) {
@@ -349,10 +361,23 @@ class Builder {
     const auto widened = [&](const core::Polynomial& p) { return core::with_variables(p, problem_.tower.variables()); };
     sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, widened(curve(a).implicit),
                                                  widened(curve(b).implicit), lower, upper, effort);
-    std::erase_if(found.zeros, [&](const sheet::SheetZero& zero) {
-      return !passed_by(a, {zero.x, zero.y}) || !passed_by(b, {zero.x, zero.y});
-    });
+    keep_passed(found, a, b);
     return add_zeros(found);
+  }
+
+  sheet::ZeroOptions effort_in(const sheet::PlaneCell& place) const {
+    sheet::ZeroOptions effort = effort_;
+    effort.smallest = std::min(0.1, effort_.smallest * size_ / std::max(place.x.width(), place.y.width()));
+    return effort;
+  }
+
+  /// Of zeros those in which both curves have arcs.
+  void keep_passed(sheet::ZeroSet& found, int a, int b) {
+    const auto is_elsewhere = [&](const sheet::SheetZero& zero) {
+      return !passed_by(a, {zero.x, zero.y}) || !passed_by(b, {zero.x, zero.y});
+    };
+    std::erase_if(found.zeros, is_elsewhere);
+    std::erase_if(found.touches, is_elsewhere);
   }
 
   /// Of margins that touch or run side by side: where either crosses what they differ in, or a curve that holds all of
@@ -364,14 +389,11 @@ class Builder {
     const auto [known, is_new] = apart_.try_emplace({&first, &second});
     Apart& apart = known->second;
     if (is_new) apart.on_sheet = margins_apart(problem_, first, second);
-    const auto is_passed = [&](const Point2& at) { return passed_by(a, at) && passed_by(b, at); };
     const auto crosses_all = [&](const core::LocusFactor& margin, const core::Polynomial& other) {
       if (other.is_zero()) return false;
       sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, {margin.sheet, margin.line},
                                                    sheet::SheetFunction{other}, lower, upper, effort);
-      const auto is_elsewhere = [&](const sheet::SheetZero& zero) { return !is_passed({zero.x, zero.y}); };
-      std::erase_if(found.zeros, is_elsewhere);
-      std::erase_if(found.touches, is_elsewhere);
+      keep_passed(found, a, b);
       return add_zeros(found);
     };
     if (crosses_all(first, apart.on_sheet) || crosses_all(second, apart.on_sheet)) return true;
