@@ -46,6 +46,8 @@ class ModeZones {
 
   bool finer_may_tell() const { return cut_.finer_may_tell; }
   bool is_cut_certified() const { return cut_.certified; }
+  /// Once zones are found: there are some of which no pose was, since chords are as coarse as they are wide.
+  bool has_lost() const { return lost_ > 0; }
 
   /// The mode's zones go to `map`, which holds the loci that this was made from.
   void find(core::Zones& map, const ZoneLabel& label) {
@@ -563,7 +565,10 @@ CutZones zones(const core::LocusProblem& problem, core::LocusMap traced, bool sk
   }
   cut.left = may_leave && cut.finer_may_tell && !is_certified;
   if (cut.left) return cut;
-  for (ModeZones& zones : modes) zones.find(map, label);
+  for (ModeZones& zones : modes) {
+    zones.find(map, label);
+    cut.left = cut.left || (may_leave && cut.finer_may_tell && zones.has_lost());
+  }
   number_zones(map.zones);
   return cut;
 }

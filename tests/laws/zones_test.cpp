@@ -179,6 +179,16 @@ TEST(Zones, OfTheCorpusAreCertified) {
   }
 }
 
+// Beside a locus that leaves the boundary at a tangent, where chords of the usual tolerance are as coarse as it is
+// wide.
+TEST(Zones, AreTracedFinerWhereOneIsThinnerThanItsChords) {
+  const core::Zones map =
+      find_zones(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/prrr_r_sliver_at_a_tangent.yaml"), {});
+  EXPECT_TRUE(certified(map));
+  EXPECT_EQ(map.zones.size(), 24u);
+  for (const core::ZonedMode& mode : map.modes) EXPECT_EQ(mode.in_doubt, 0);
+}
+
 /// Designs of the corpus, certified with so many zones and the tolerance asked for.
 void expect_no_finer_loci(const std::vector<std::pair<std::string, std::size_t>>& designs, std::mt19937 random) {
   for (const auto& [name, zones] : designs) {
