@@ -468,7 +468,7 @@ std::vector<std::pair<int, int>> CurveArrangement::passed_outside() const {
   std::set<std::pair<int, int>> passed;
   for (const Implementation::Meeting& meeting : self.meetings)
     for (const std::size_t i : {0u, 1u}) {
-      const int root = self.root_of(self.node_of(meeting.curves[i], meeting.x, meeting.points[i]));
+      const int root = self.joined.of(self.node_of(meeting.curves[i], meeting.x, meeting.points[i]));
       if (const int vertex = self.vertex_of_root[static_cast<std::size_t>(root)]; vertex >= 0)
         passed.emplace(vertex, static_cast<int>(meeting.curves[i]));
     }
