@@ -44,7 +44,7 @@ Mechanism moved(const Mechanism& m, const Frame& frame) {
   return result;
 }
 
-double size_of(const Mechanism& m) { return mechanism::frame_of(m).scale_value(); }
+double extent_of(const Mechanism& m) { return mechanism::frame_of(m).scale_value(); }
 
 void expect_near(const core::Polyline& a, const core::Polyline& b, double within) {
   ASSERT_EQ(a.size(), b.size());
@@ -82,10 +82,10 @@ void expect_same(const core::LocusMap& a, const core::LocusMap& b, double within
 double within(const Mechanism& m, const Frame& frame) {
   double far = 0;
   for (const Rational& way : frame.origin) far = std::max(far, std::abs(core::to_double(way)));
-  return 1e-9 * size_of(m) + 4 * far * 0x1p-52;
+  return 1e-9 * extent_of(m) + 4 * far * 0x1p-52;
 }
 
-LociRequest as_closely(const Mechanism& m) { return {.tolerance = 1e-5 * size_of(m)}; }
+LociRequest as_closely(const Mechanism& m) { return {.tolerance = 1e-5 * extent_of(m)}; }
 
 /// Of the mechanism where it stands.
 void expect_same_loci(const core::LocusMap& loci, const Mechanism& m, const Frame& frame) {
