@@ -19,8 +19,8 @@ namespace clearloci::mechanism {
 /// The usual one where some coordinate is no polynomial in the free ones and their cosines and sines.
 Frame frame_of(const Mechanism& mechanism);
 
-/// The power of two below the largest of its lengths and of the distances of its fixed points from the frame's origin, m;
-/// without lengths below half the width of the box. 1 where frame_of() is the usual one.
+/// The power of two below the largest of its lengths and of the distances of its fixed points from the frame's origin,
+/// m; without lengths below half the width of the box. 1 where frame_of() is the usual one.
 Rational size_of(const Mechanism& mechanism);
 
 /// Whether doubles lose digits in the coordinates of the file: the origin is more than some four sizes away, or the
