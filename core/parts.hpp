@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace clearloci::core {
+namespace clearloci::inline core {
 
 template <std::integral Number = int>
 class Parts {
@@ -33,4 +33,4 @@ class Parts {
   std::vector<Number> parents_;
 };
 
-}  // namespace clearloci::core
+}  // namespace clearloci::inline core
