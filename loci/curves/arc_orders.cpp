@@ -80,7 +80,7 @@ std::optional<EnclosedPoint> curve_point(const Polynomial& curve, const std::arr
   std::map<int, Rational, std::greater<>> powers;
   for (const core::Term& term : curve.terms) {
     const auto power = static_cast<std::size_t>(term.exponents[fixed]);
-    while (of_level.size() <= power) of_level.push_back(of_level.back() * level);
+    while (of_level.size() <= power) of_level.emplace_back(of_level.back() * level);
     powers[term.exponents[across]] += term.coefficient * of_level[power];
   }
   Polynomial line;

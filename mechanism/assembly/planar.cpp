@@ -131,7 +131,7 @@ class PlanarConstruction : public PlanarGroups {
           "write it from one point to another, such as axis: [A, B], or draw a second point of a link");
     const WrittenVector vector = image(link, *axis);
     if (vector.is_constant()) return;
-    found_.axes[index] = {text_of(vector, 2)};
+    found_.axes[index] = {direction_from(handle(joint.at), vector, turned_in_posture(link, *axis), d_.name_of(link))};
   }
 };
 

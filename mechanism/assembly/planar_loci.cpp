@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/rational.hpp"
 #include "mechanism/joint_traits.hpp"
 
 namespace clearloci::mechanism {
@@ -81,7 +82,7 @@ void PlanarLoci::add_lines(LinkIndex link, PointIndex point, std::vector<Locus>&
     line.way = turned_in_posture(guide, *axis);
     line.link = link;
     line.source = "guide " + joint.name;
-    line.along = axis_text(static_cast<JointIndex>(j), guide, *axis);
+    set_direction(line, static_cast<JointIndex>(j), guide, *axis);
     line.base = [this, link, guide, point, on_guide, axis = *axis, name = joint.name] {
       const Handle base = base_of_line(guide, on_guide, axis, name);
       return on_guide == point ? base : carried_along(link, base, on_guide, point);
@@ -122,7 +123,7 @@ std::optional<Locus> PlanarLoci::line_of_slot(JointIndex index, PointIndex point
     };
   }
   line.way = turned_in_posture(carrier, *axis);
-  line.along = axis_text(index, carrier, *axis);
+  set_direction(line, index, carrier, *axis);
   return line;
 }
 
@@ -148,9 +149,14 @@ std::array<double, 2> PlanarLoci::turned_in_posture(LinkIndex guide, const Amoun
   return {c * drawn[0] - s * drawn[1], s * drawn[0] + c * drawn[1]};
 }
 
-std::string PlanarLoci::axis_text(JointIndex joint, LinkIndex guide, const Amounts& axis) {
-  if (guide == ground && !d_.axes[static_cast<std::size_t>(joint)].empty()) return written_axis(joint);
-  return text_of(image(guide, axis), 2);
+void PlanarLoci::set_direction(Locus& line, JointIndex joint, LinkIndex guide, const Amounts& axis) {
+  if (guide == ground && !d_.axes[static_cast<std::size_t>(joint)].empty()) {
+    line.along = written_axis(joint);
+    return;
+  }
+  const WrittenVector direction = image(guide, axis);
+  line.along = text_of(direction, 2);
+  if (direction.ways.empty() && !direction.is_constant()) line.turned = direction;
 }
 
 /// What keeps a point of a link that does not turn on its own, for another one.
@@ -180,8 +186,27 @@ std::string PlanarLoci::radius_of(const Locus& circle) {
   return circle.radius_text.empty() ? circle.radius.text() : circle.radius_text;
 }
 
-Node PlanarLoci::line(Handle base, const Locus& locus) const {
-  return Node::sequence({text(known(base).name), vector_node(locus.along)}, {});
+/// A direction has no coordinate in it, but may go to a point that has.
+std::string PlanarLoci::direction_from(Handle base, const WrittenVector& direction, const std::array<double, 2>& way,
+                                       const std::string& source) {
+  if (!direction.ways.empty() || direction.is_constant()) return text_of(direction, 2);
+  const std::string from = known(base).name;
+  std::string& written = directions_[from + " " + text_of(direction, 2)];
+  if (!written.empty()) return written;
+  // As long as the mechanism is large, or nearly.
+  const double size = std::hypot(way[0], way[1]) * core::to_double(d_.unit);
+  const Rational part = core::simplest_rational_near(Rational(d_.size / size), Rational(d_.size / size / 4));
+  std::optional<WrittenVector> place;
+  const Node form = form_at(base, Amount(part) * direction, place);
+  std::array<double, 3> posture = known(base).posture;
+  for (std::size_t i = 0; i < 2; ++i) posture[i] += core::to_double(part * d_.unit) * way[i];
+  const Handle end = put_extra(from + "_along", form, posture, "a direction of " + source, std::move(place));
+  return written = text_of(way_between(from, known(end).name), 2);
+}
+
+Node PlanarLoci::line(Handle base, const Locus& locus) {
+  const std::string along = locus.turned ? direction_from(base, *locus.turned, locus.way, locus.source) : locus.along;
+  return Node::sequence({text(known(base).name), vector_node(along)}, {});
 }
 
 }  // namespace clearloci::mechanism

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,9 @@ struct Locus {
   bool is_circle = false;
   std::function<int()> base;  ///< the centre, or a point of the line
   Amount radius;
-  std::string radius_text;  ///< of a motor's stroke; else empty
-  std::string along;        ///< direction of a line
+  std::string radius_text;                   ///< of a motor's stroke; else empty
+  std::string along;                         ///< direction of a line
+  std::optional<WrittenVector> turned = {};  ///< the same where it turns with a coordinate
   std::array<double, 2> way{};
   LinkIndex link = ground;  ///< that it is of, if any
   std::string source;       ///< the link, guide or coordinate that it is of, for words and to tell two of them apart
@@ -43,13 +46,19 @@ class PlanarLoci : public PlanarTurning {
   /// A point of a carrier that is at this way from a pin.
   Handle beside_pin(LinkIndex carrier, PointIndex pin, const Amounts& beside, PointIndex point);
   std::array<double, 2> turned_in_posture(LinkIndex guide, const Amounts& axis) const;
-  std::string axis_text(JointIndex joint, LinkIndex guide, const Amounts& axis);
+  void set_direction(Locus& line, JointIndex joint, LinkIndex guide, const Amounts& axis);
   /// What keeps a point of a link that does not turn on its own, for another one.
   Handle carried_along(LinkIndex link, Handle from, PointIndex other, PointIndex point);
   /// A link that does not turn on its own carries what keeps its other points over to this one.
   void add_translated(LinkIndex link, PointIndex point, std::vector<Locus>& all);
   static std::string radius_of(const Locus& circle);
-  Node line(Handle base, const Locus& locus) const;
+  /// As a file writes it, from a point: where it turns with a coordinate to another point that does.
+  std::string direction_from(Handle base, const WrittenVector& direction, const std::array<double, 2>& way,
+                             const std::string& source);
+  Node line(Handle base, const Locus& locus);
+
+ private:
+  std::map<std::string, std::string> directions_;  ///< that go to points, by where they begin and how they turn
 };
 
 }  // namespace clearloci::mechanism

@@ -181,6 +181,35 @@ TEST(DrawnForm, TurnsALeverByTheWayAlongItsGuide) {
 }
 
 /// PRR and RPR: strokes are coordinates, of a slider and of the legs of a platform.
+/// The lever on which a block slides, or a pin in its slot, is turned by the coordinate: the crank follows.
+TEST(DrawnForm, TakesTheAngleOfALeverThatIsAGuide) {
+  const std::string head =
+      "format: 1\nworkspace: {theta: {angle: [1, 2], of: lever}}\n"
+      "drawn: {O: [0, 0], B: [0.03, 0.04], D: [0, -0.1], H: [0.035, 0.12]}\n"
+      "links: {crank: {points: [O, B]}, lever: {points: [D, H]}";
+  const std::string joints =
+      "joints:\n  O: {revolute: [ground, crank], at: O, actuated: true}\n"
+      "  D: {revolute: [ground, lever], at: D}\n";
+  const std::string tail = "end_effector: {link: lever, at: H}\n";
+  const std::string block = ", block: {points: [B]}}\n" + joints +
+                            "  B: {revolute: [crank, block], at: B}\n"
+                            "  S: {prismatic: [lever, block], at: B, axis: [35, 220]}\n",
+                    slot = "}\n" + joints + "  S: {slot: [lever, crank], at: B, axis: [D, H]}\n";
+  for (const std::string& kind : {block, slot}) {
+    const Mechanism m = drawn(head + kind + tail);
+    const double drawn_angle = std::atan2(0.22, 0.035), beside = (0.03 * 0.22 - 0.14 * 0.035) / std::hypot(0.035, 0.22);
+    for (const double theta : {drawn_angle, 1.3, 1.6, 1.9}) {
+      const auto places = places_at(m, {theta});
+      ASSERT_TRUE(places) << theta;
+      const auto &b = places->at("B"), &h = places->at("H");
+      EXPECT_NEAR(std::hypot(b[0], b[1]), 0.05, 1e-12);
+      EXPECT_NEAR(std::atan2(h[1] + 0.1, h[0]), theta, 1e-12);
+      EXPECT_NEAR(b[0] * std::sin(theta) - (b[1] + 0.1) * std::cos(theta), beside, 1e-12);
+    }
+    EXPECT_LT(apart(places_at(m, {drawn_angle})->at("B"), {0.03, 0.04, 0}), 1e-12);
+  }
+}
+
 TEST(DrawnForm, TakesStrokes) {
   const Mechanism legs = drawn(
       "format: 1\nunits: {length: mm}\n"
