@@ -469,7 +469,8 @@ std::vector<std::pair<int, int>> CurveArrangement::passed_outside() const {
   for (const Implementation::Meeting& meeting : self.meetings)
     for (const std::size_t i : {0u, 1u}) {
       const int root = self.joined.of(self.node_of(meeting.curves[i], meeting.x, meeting.points[i]));
-      if (const int vertex = self.vertex_of_root[static_cast<std::size_t>(root)]; vertex >= 0)
+      const int vertex = self.vertex_of_root[static_cast<std::size_t>(root)];
+      if (vertex >= 0 && self.on_side(self.vertices[static_cast<std::size_t>(vertex)], self.slack))
         passed.emplace(vertex, static_cast<int>(meeting.curves[i]));
     }
   for (const ArrangementEdge& edge : self.edges)

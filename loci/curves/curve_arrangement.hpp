@@ -48,7 +48,8 @@ class CurveArrangement {
   std::size_t vertices() const;
   const std::vector<ArrangementEdge>& edges() const;
   const std::vector<ArrangementPoint>& isolated_points() const;
-  /// Vertices through which a curve passes of which no edge there is inside the box, each with that curve.
+  /// Vertices on a side of the box that a curve touches from outside, so that no edge of it ends there, each with that
+  /// curve.
   std::vector<std::pair<int, int>> passed_outside() const;
 
   /// Where a vertex is, within 1e-15, absolutely. It is worked out when it is asked for: a millisecond where curves of
