@@ -353,10 +353,6 @@ Polynomial around_algebraic(const AlgebraicPoint& point, const Polynomial& p) {
   return as_polynomial(p.variables + 1, collected);
 }
 
-}  // namespace
-
-namespace {
-
 Polynomial around_rational(const Star& star, const Polynomial& p) {
   Polynomial moved = shifted(shifted(p, 0, star.x), 1, star.y);
   if (!star.is_sheared() || star.slope == 0) return moved;

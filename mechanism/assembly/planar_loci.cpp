@@ -154,9 +154,7 @@ void PlanarLoci::set_direction(Locus& line, JointIndex joint, LinkIndex guide, c
     line.along = written_axis(joint);
     return;
   }
-  const WrittenVector direction = image(guide, axis);
-  line.along = text_of(direction, 2);
-  if (direction.ways.empty() && !direction.is_constant()) line.turned = direction;
+  line.turned = image(guide, axis);
 }
 
 /// What keeps a point of a link that does not turn on its own, for another one.

@@ -20,7 +20,7 @@ struct Locus {
   Amount radius;
   std::string radius_text;                   ///< of a motor's stroke; else empty
   std::string along;                         ///< direction of a line
-  std::optional<WrittenVector> turned = {};  ///< the same where it turns with a coordinate
+  std::optional<WrittenVector> turned = {};  ///< in place of `along`: that of a guide, with which it may turn
   std::array<double, 2> way{};
   LinkIndex link = ground;  ///< that it is of, if any
   std::string source;       ///< the link, guide or coordinate that it is of, for words and to tell two of them apart

@@ -14,6 +14,24 @@ class RingTest : public testing::Test {
   Ring ring{{"x", "y", "s"}};
   Poly x = Poly::variable(ring, 0), y = Poly::variable(ring, 1), s = Poly::variable(ring, 2);
   Poly number(const Rational& value) const { return Poly(ring, value); }
+
+  struct Factored {
+    Poly product;
+    std::vector<int> multiplicities;
+  };
+  void expect_factors(const Factored& c) const {
+    Rational constant;
+    const std::vector<PolyFactor> factors = c.product.factors(constant);
+    std::vector<int> multiplicities;
+    Poly product = number(constant);
+    for (const PolyFactor& factor : factors) {
+      multiplicities.push_back(factor.multiplicity);
+      product *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity));
+      EXPECT_TRUE(factor.poly == factor.poly.primitive());
+    }
+    EXPECT_EQ(multiplicities, c.multiplicities);
+    EXPECT_TRUE(product == c.product);
+  }
 };
 
 TEST_F(RingTest, FactorsAreIrreduciblePrimitiveAndMultiplyBack) {
@@ -31,67 +49,35 @@ TEST_F(RingTest, QuadraticsSplitWhereTheirDiscriminantIsASquare) {
   // Circles and their like are told by the discriminant. What is a product in spite of a degree of two must not pass
   // for irreducible: with a square for a discriminant, with none at all, with factors free of the variable, also twice.
   const Poly circle = x * x + y * y - number(1), other = x * x + (y - number(2)).pow(2) - number(3);
-  struct Case {
-    Poly product;
-    std::vector<int> multiplicities;
-  };
-  const std::vector<Case> cases = {{circle, {1}},
-                                   {circle * other, {1, 1}},
-                                   {x * x * y * y - number(Rational(4, 9)), {1, 1}},
-                                   {x * x - y * y * s * s, {1, 1}},
-                                   {(x * x - (y * y * s * s).scaled(2)), {1}},
-                                   {(x * y - s).pow(2), {2}},
-                                   {circle * (y * y + number(1)), {1, 1}},
-                                   {circle * (s * s - number(2)).pow(2), {1, 2}},
-                                   {circle * circle * (s * s + number(1)), {2, 1}},
-                                   {(x * x + y * y) * s * s, {2, 1}}};
-  for (const Case& c : cases) {
-    Rational constant;
-    const std::vector<PolyFactor> factors = c.product.factors(constant);
-    std::vector<int> multiplicities;
-    Poly product = number(constant);
-    for (const PolyFactor& factor : factors) {
-      multiplicities.push_back(factor.multiplicity);
-      product *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity));
-      EXPECT_TRUE(factor.poly == factor.poly.primitive());
-    }
-    EXPECT_EQ(multiplicities, c.multiplicities);
-    EXPECT_TRUE(product == c.product);
-  }
+  const std::vector<Factored> cases = {{circle, {1}},
+                                       {circle * other, {1, 1}},
+                                       {x * x * y * y - number(Rational(4, 9)), {1, 1}},
+                                       {x * x - y * y * s * s, {1, 1}},
+                                       {(x * x - (y * y * s * s).scaled(2)), {1}},
+                                       {(x * y - s).pow(2), {2}},
+                                       {circle * (y * y + number(1)), {1, 1}},
+                                       {circle * (s * s - number(2)).pow(2), {1, 2}},
+                                       {circle * circle * (s * s + number(1)), {2, 1}},
+                                       {(x * x + y * y) * s * s, {2, 1}}};
+  for (const Factored& c : cases) expect_factors(c);
 }
 
 TEST_F(RingTest, MirroredFactorsAreTakenApart) {
   // f(y) f(-y) is told by the roots of its coefficients. What has such coefficients and other factors must not pass.
   const auto mirrored = [&](const Poly& even, const Poly& odd) { return (even + odd * y) * (even - odd * y); };
   const Poly circle = x * x + y * y + number(5);
-  struct Case {
-    Poly product;
-    std::vector<int> multiplicities;
-  };
-  const std::vector<Case> cases = {{mirrored(circle, number(Rational(3, 7))), {1, 1}},
-                                   {-mirrored(circle, x - s.pow(2)).scaled(Rational(2, 3)), {1, 1}},
-                                   {mirrored(y * y * s - x, s + number(1)), {1, 1}},
-                                   {circle * circle, {2}},
-                                   {mirrored(y * y + x * x * number(2), x.scaled(3)), {1, 1, 1, 1}},
-                                   {mirrored(y * y * s + s * x, s), {2, 1, 1}},
-                                   {mirrored(circle, x).pow(2), {2, 2}},
-                                   {circle * (x * x + y * y - number(7)), {1, 1}},
-                                   {(x * y * y + number(1)) * (y * y + s), {1, 1}},
-                                   {y.pow(4) + (y * y).scaled(3) + number(1), {1}},
-                                   {y.pow(4) + x.pow(4) + number(1), {1}}};
-  for (const Case& c : cases) {
-    Rational constant;
-    const std::vector<PolyFactor> factors = c.product.factors(constant);
-    std::vector<int> multiplicities;
-    Poly product = number(constant);
-    for (const PolyFactor& factor : factors) {
-      multiplicities.push_back(factor.multiplicity);
-      product *= factor.poly.pow(static_cast<unsigned>(factor.multiplicity));
-      EXPECT_TRUE(factor.poly == factor.poly.primitive());
-    }
-    EXPECT_EQ(multiplicities, c.multiplicities);
-    EXPECT_TRUE(product == c.product);
-  }
+  const std::vector<Factored> cases = {{mirrored(circle, number(Rational(3, 7))), {1, 1}},
+                                       {-mirrored(circle, x - s.pow(2)).scaled(Rational(2, 3)), {1, 1}},
+                                       {mirrored(y * y * s - x, s + number(1)), {1, 1}},
+                                       {circle * circle, {2}},
+                                       {mirrored(y * y + x * x * number(2), x.scaled(3)), {1, 1, 1, 1}},
+                                       {mirrored(y * y * s + s * x, s), {2, 1, 1}},
+                                       {mirrored(circle, x).pow(2), {2, 2}},
+                                       {circle * (x * x + y * y - number(7)), {1, 1}},
+                                       {(x * y * y + number(1)) * (y * y + s), {1, 1}},
+                                       {y.pow(4) + (y * y).scaled(3) + number(1), {1}},
+                                       {y.pow(4) + x.pow(4) + number(1), {1}}};
+  for (const Factored& c : cases) expect_factors(c);
 }
 
 TEST_F(RingTest, ConstantsAndZeroHaveNoFactors) {
