@@ -311,7 +311,13 @@ class Geometry {
   std::vector<Fold> folds_;
   /// Of every dependent root the roots, itself among them, whose signs together it was placed with.
   std::vector<std::vector<std::size_t>> sign_choices_;
-  std::vector<std::vector<double>> samples_;  ///< poses over the box with the roots so far, by ring variable
+  /// A pose over the box with the roots so far. Where one of them has no value, that of the opposite of its square: of
+  /// that size it is elsewhere.
+  struct Sample {
+    std::vector<double> at;  ///< by ring variable
+    bool is_reached = true;
+  };
+  std::vector<Sample> samples_;
 };
 
 }  // namespace clearloci::symbolic

@@ -158,8 +158,9 @@ void Geometry::place_torsion_angle(TorsionAngle& angle) {
   const auto value = [](const Poly& p, const std::vector<double>& at) {
     return core::evaluate(p.plain(), std::span<const double>(at));
   };
-  for (std::vector<double>& at : samples_)
-    at[static_cast<std::size_t>(root.variable)] = core::angle_shift + std::atan2(value(y, at), value(x, at));
+  for (Sample& sample : samples_)
+    sample.at[static_cast<std::size_t>(root.variable)] =
+        core::angle_shift + std::atan2(value(y, sample.at), value(x, sample.at));
   const Poly s = Poly::variable(*ring_, root.variable);
   angle.place = TowerPoint{s - Poly(*ring_, core::angle_shift), Poly(*ring_), Poly(*ring_, 1)};
 }

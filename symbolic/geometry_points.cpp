@@ -267,9 +267,10 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
 
 bool Geometry::close_parallelogram(PointIndex point, const DyadPoint& form) {
   const TowerPoint& own = tower(point);
-  const auto differs = [&](const TowerPoint& place, const std::vector<double>& at) {
+  const auto differs = [&](const TowerPoint& place, const Sample& sample) {
     constexpr double rounding = 1e-6;
-    const auto value = [&](const Poly& p) { return core::evaluate(p.plain(), std::span<const double>(at)); };
+    if (!sample.is_reached) return false;
+    const auto value = [&](const Poly& p) { return core::evaluate(p.plain(), std::span<const double>(sample.at)); };
     const double by_x = value(place.x) / value(place.w) - value(own.x) / value(own.w);
     const double by_y = value(place.y) / value(place.w) - value(own.y) / value(own.w);
     return std::hypot(by_x, by_y) > rounding * std::hypot(value(own.x), value(own.y)) / std::abs(value(own.w));
@@ -277,7 +278,7 @@ bool Geometry::close_parallelogram(PointIndex point, const DyadPoint& form) {
   for (PointIndex fourth = 0; fourth < point; ++fourth) {
     if (fourth == form.from || fourth == form.to) continue;
     const TowerPoint place = sum(tower(form.to), difference(tower(form.from), tower(fourth)));
-    if (std::any_of(samples_.begin(), samples_.end(), [&](const auto& at) { return differs(place, at); })) continue;
+    if (std::any_of(samples_.begin(), samples_.end(), [&](const Sample& at) { return differs(place, at); })) continue;
     if (!reduce(place.x * own.w - own.x * place.w).is_zero() || !reduce(place.y * own.w - own.y * place.w).is_zero())
       continue;
     tower_[index(point)] = place;

@@ -21,9 +21,6 @@ int Geometry::side_of(std::size_t root, const std::vector<int>& sides) const {
 }
 
 Poly Geometry::add_root(TowerRoot root) {
-  const auto value = [](const Poly& p, const std::vector<double>& at) {
-    return core::evaluate(p.plain(), std::span<const double>(at));
-  };
   const Poly s = Poly::variable(*ring_, root.variable);
   Poly over_tower = s;
   if (std::optional<Poly> dependent = keep_parameters_ || sheet_.all_sheets ? std::nullopt : depend(root)) {
@@ -36,23 +33,30 @@ Poly Geometry::add_root(TowerRoot root) {
   roots_.push_back(std::move(root));
   const TowerRoot& tower_root = roots_.back();
   const int side = side_of(roots_.size() - 1, sheet_.sides);
-  for (std::vector<double>& at : samples_)
-    at[static_cast<std::size_t>(tower_root.variable)] = side * std::sqrt(value(tower_root.square, at));
-  std::erase_if(samples_,
-                [&](const auto& at) { return std::isnan(at[static_cast<std::size_t>(tower_root.variable)]); });
+  if (samples_.empty()) return times_divisor;
+  const core::Polynomial own_square = tower_root.square.plain();
+  for (Sample& sample : samples_) {
+    const double value = core::evaluate(own_square, std::span<const double>(sample.at));
+    sample.is_reached = sample.is_reached && value >= 0;
+    sample.at[static_cast<std::size_t>(tower_root.variable)] = side * std::sqrt(std::abs(value));
+  }
   return times_divisor;
 }
 
 void Geometry::give_unit(TowerRoot& root) const {
-  const auto value = [](const Poly& p, const std::vector<double>& at) {
-    return core::evaluate(p.plain(), std::span<const double>(at));
-  };
   constexpr int far = 8;  // powers of two
+  if (keep_parameters_) return;
+  const core::Polynomial scale = root.scale.plain(), divisor = root.scale_divisor.plain();
   std::vector<double> sizes;
-  for (const std::vector<double>& at : samples_)
-    if (const double size = value(root.scale, at) / value(root.scale_divisor, at); std::isfinite(size) && size > 0)
-      sizes.push_back(size);
-  if (keep_parameters_ || sizes.empty()) return;
+  // Where the box has few poses no sample is one of them.
+  for (const bool is_reached : {true, false})
+    for (const Sample& sample : samples_) {
+      if (sample.is_reached != is_reached || (!is_reached && !sizes.empty())) continue;
+      const std::span<const double> at(sample.at);
+      if (const double size = core::evaluate(scale, at) / core::evaluate(divisor, at); std::isfinite(size) && size > 0)
+        sizes.push_back(size);
+    }
+  if (sizes.empty()) return;
   std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
   const int exponent = std::ilogb(sizes[sizes.size() / 2]);
   if (std::abs(exponent) <= far) return;

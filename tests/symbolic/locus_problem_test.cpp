@@ -136,6 +136,59 @@ TEST(LocusProblem, AnUnknownJointIsAnInputErrorThatListsTheKnown) {
   }
 }
 
+// Turned by 45 deg, points have coordinates of thirty digits, and so has what their roots are multiplied with. Of the
+// box only a strip along its side is in reach, so that hardly a pose that is tried is.
+TEST(LocusProblem, RootsAreOfTheSizeOfTheCoordinatesWhereTheBoxHasFewPoses) {
+  const auto derived = locus_problem(mechanism::parse_mechanism(R"(
+format: 1
+name: turned
+space: planar
+workspace: {x: [-3/2, -1], y: [-3/2, 1/2]}
+frames: {base: {at: O, turned: 45 deg}}
+points:
+  O: [0, 0]
+  A1: {in: base, place: [0, 0]}
+  A2: {in: base, place: [1/2, 0]}
+  A3: {in: base, place: [501/1000, 0]}
+  P: [x, y]
+  B1: {dyad: [A1, P], lengths: [1/2, 1], side: right}
+  B2: {dyad: [A2, P], lengths: [1/2, 1], side: left}
+  Q: {on: [A2, B2], offset: [3/4, 1/4]}
+  C: {dyad: [A3, Q], lengths: [1/2, 1/2], side: left}
+links:
+  A1B1: {points: [A1, B1]}
+  B1P: {points: [B1, P]}
+  PB2: {points: [P, B2]}
+  crank: {points: [A2, B2, Q]}
+  QC: {points: [Q, C]}
+  A3C: {points: [A3, C]}
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true}
+  B1: {revolute: [A1B1, B1P], at: B1}
+  P: {revolute: [B1P, PB2], at: P}
+  B2: {revolute: [crank, PB2], at: B2}
+  A2: {revolute: [ground, crank], at: A2}
+  Q: {revolute: [crank, QC], at: Q}
+  C: {revolute: [A3C, QC], at: C}
+  A3: {revolute: [ground, A3C], at: A3, actuated: true}
+end_effector: {link: PB2, at: P}
+loads:
+  - {link: PB2, at: P, force: [0, -100]}
+)",
+                                                                "turned.yaml"),
+                                     {});
+  const core::RootTower& tower = derived.problem.tower;
+  ASSERT_EQ(tower.roots.size(), 3U);
+  std::vector<double> at = {-1.035, -0.2138, 0, 0, 0};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto root = core::root_value(tower.roots[j], derived.problem.modes.front()[j], at);
+    ASSERT_TRUE(root);
+    at[2 + j] = *root;
+  }
+  EXPECT_GT(std::abs(at.back()), 1e-4);
+  EXPECT_LT(std::abs(at.back()), 1e4);
+}
+
 TEST(LocusProblem, DoublingTheLoadsChangesNoCurve) {
   mechanism::Mechanism doubled = example("five_bar_generic");
   for (auto& load : doubled.loads) {
