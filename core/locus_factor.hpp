@@ -75,6 +75,14 @@ struct ForcePlane {
   std::array<Polynomial, 3> normal;  ///< over the tower, up to positive factors
 };
 
+/// Of a force in the plane, (Nx, Ny)/|A|: its numerators under the loads and under others, Mx and My. By Cramer's rule
+/// Nx My - Ny Mx is a multiple of |A|, so that where Nx and |A| vanish and Mx does not, Ny vanishes, too.
+struct ForceProbe {
+  std::string joint;
+  std::array<StraightLine, 2> numerators;
+  std::array<StraightLine, 2> probes;
+};
+
 /// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the
 /// polynomials, of the box and of `tower.coordinates` is the t of its chart, and the problem covers that chart alone.
 struct LocusProblem {
@@ -91,6 +99,7 @@ struct LocusProblem {
   /// Of every joint in that order: the components that vanish together where f does. Empty: fx and fy of each.
   std::vector<std::vector<Quantity>> force_components;
   std::vector<ForcePlane> force_planes;  ///< of joints whose force has three components
+  std::vector<ForceProbe> force_probes;  ///< of joints whose force is (fx, fy), over two coordinates
   std::vector<Vanishing> always_zero;    ///< components that vanish in every pose
   std::vector<Vanishing> reactions;      ///< every other scalar reaction of the mechanism
   double tolerance = 1e-5;               ///< chord deviation, m

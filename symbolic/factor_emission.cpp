@@ -280,6 +280,30 @@ void FactorEmission::force_planes() {
   }
 }
 
+void FactorEmission::force_probes() {
+  core::LocusProblem& problem = d_.result.problem;
+  const bool singular = std::any_of(problem.factors.begin(), problem.factors.end(), [](const LocusFactor& factor) {
+    return factor.role == FactorRole::direct_singularity;
+  });
+  if (!singular || !d_.wanted(Quantity::f) || problem.tower.coordinates.size() != 2 || !d_.preload.joints.empty())
+    return;
+  for (const mechanism::Joint& joint : d_.mechanism.joints) {
+    const std::vector<Quantity> components = core::force_components(problem, joint.name);
+    if (!d_.selected(joint.name) || components != std::vector{Quantity::fx, Quantity::fy}) continue;
+    core::ForceProbe probe{joint.name, {}, {}};
+    bool known = true;
+    for (std::size_t c = 0; c < components.size() && known; ++c) {
+      const FactoredPoly* const own = numerator(d_.reactions, joint.name, components[c]);
+      const FactoredPoly* const other = numerator(margin_nodes_.probed(), joint.name, components[c]);
+      known = own != nullptr && !own->is_zero() && other != nullptr && !other->is_zero();
+      if (!known) break;
+      probe.numerators[c] = d_.lines.of(own->constant, own->factors);
+      probe.probes[c] = d_.lines.of(other->constant, other->factors);
+    }
+    if (known) problem.force_probes.push_back(std::move(probe));
+  }
+}
+
 void FactorEmission::append_roots() {
   if (more_roots_.empty()) return;
   core::LocusProblem& problem = d_.result.problem;

@@ -33,6 +33,8 @@ class FactorEmission {
   void undirected();
   /// The planes that forces of three components keep to.
   void force_planes();
+  /// What tells whether forces and |A| vanish together.
+  void force_probes();
   /// The roots that margins brought, into the tower and everything that is written over it.
   void append_roots();
 

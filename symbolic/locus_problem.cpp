@@ -76,6 +76,7 @@ void emit_factors(Derivation& d) {
   emission.boundaries();
   emission.undirected();
   emission.force_planes();
+  emission.force_probes();
   emission.append_roots();
 }
 

@@ -26,13 +26,14 @@ class MarginNodes {
   /// None where a part is zero or a number in every pose.
   std::optional<Form> of(const Margin& margin);
 
- private:
+  /// Every reaction under b'.
   const std::vector<Reaction>& probed();
 
+ private:
   const Geometry& geometry_;
   const Elimination& elimination_;
   StraightLines& lines_;
-  std::optional<std::vector<Reaction>> probed_;  ///< under b'; made where it is asked for
+  std::optional<std::vector<Reaction>> probed_;  ///< made where it is asked for
 };
 
 }  // namespace clearloci::symbolic

@@ -9,6 +9,7 @@
 
 #include "loci/curves/edge_labels.hpp"
 #include "loci/curves/force_zeros.hpp"
+#include "loci/curves/no_limit.hpp"
 #include "loci/curves/open_regions.hpp"
 #include "loci/curves/place_words.hpp"
 #include "loci/curves/trace_sheet.hpp"
@@ -289,17 +290,22 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                 same_point * size);
       return true;
     };
-    // Where |A| is zero too there is no limit; that it is, and not only to the last bit, is not proven.
-    const auto add_without_limit = [&](const core::Point2& at) {
-      if (!ends_on_singularity(map, mode, at, 1e-7 * size))
-        add_point(map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at[0], at[1]}, mode, false},
+    // Where |A| is zero too, and not only to the last bit, there is no limit.
+    const auto add_without_limit = [&](const sheet::SheetZero& at, bool is_simple) {
+      if (!ends_on_singularity(map, mode, {at.x, at.y}, 1e-7 * size))
+        add_point(map, first,
+                  {LocusKind::no_limit,
+                   {{joint, Quantity::f, 1}},
+                   {at.x, at.y},
+                   mode,
+                   is_simple && has_no_limit(problem, mode, joint, factors, at)},
                   same_point * size);
     };
     for (const sheet::SheetZero& zero : found.zeros) {
       const std::optional<bool> vanishes = vanishes_at(problem, mode, factors, zero);
       if (!vanishes) continue;
       if (on_direct_singularity(problem, mode, zero)) {
-        add_without_limit({zero.x, zero.y});
+        add_without_limit(zero, true);
         continue;
       }
       const bool added = add({zero.x, zero.y}, *vanishes);
@@ -316,7 +322,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     for (const sheet::SheetZero& touch : found.touches) {
       if (!vanishes_at(problem, mode, factors, touch)) continue;
       if (on_direct_singularity(problem, mode, touch))
-        add_without_limit({touch.x, touch.y});
+        add_without_limit(touch, false);
       else
         undecided.push_back(
             {{touch.x - touch.radius, touch.x + touch.radius}, {touch.y - touch.radius, touch.y + touch.radius}});

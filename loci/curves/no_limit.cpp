@@ -1,0 +1,131 @@
+#include "loci/curves/no_limit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "loci/sheet/sheet.hpp"
+
+namespace clearloci::loci {
+namespace {
+
+using core::LocusFactor;
+using core::Rational;
+using sheet::SheetFunction;
+
+/// The place of a component of the force, 0 for fx and 1 for fy, that a factor is of; none: of neither or both.
+std::optional<std::size_t> component_of(const LocusFactor& factor, const std::string& joint) {
+  std::array<bool, 2> is_of{};
+  for (const core::Vanishing& v : factor.vanishing)
+    for (const std::size_t c : {0, 1})
+      is_of[c] = is_of[c] || (v.joint == joint && v.quantity == (c == 0 ? core::Quantity::fx : core::Quantity::fy));
+  if (is_of[0] == is_of[1]) return std::nullopt;
+  return is_of[0] ? 0 : 1;
+}
+
+/// A box around a zero in local coordinates: roots that may vanish there are coordinates of their own.
+class Neighbourhood {
+ public:
+  Neighbourhood(const core::LocusProblem& problem, const core::WorkingMode& mode, const sheet::SheetZero& zero,
+                double reach)
+      : problem_(problem), mode_(mode) {
+    const sheet::SheetProgram roots = program_of({});
+    sheet::SheetCell cell(roots, mode);
+    const core::Interval around(-reach, reach);
+    if (!cell.enter(core::Interval(zero.x) + around, core::Interval(zero.y) + around)) return;
+    lifted_ = cell.lifted();
+    // The square of such a root varies as much as the coordinates do: these need more room.
+    constexpr double more_room = 8, margin = 0.6;
+    const core::Interval wide = lifted_.empty() ? around : core::Interval(more_room) * around;
+    box_ = {core::Interval(zero.x) + wide, core::Interval(zero.y) + wide};
+    for (const int j : lifted_) {
+      const core::Interval& root = cell.root(j);
+      box_.push_back(root + core::Interval(-margin * root.width(), margin * root.width()));
+    }
+  }
+
+  /// Whether two functions are proven to have exactly one zero in it; then it is what is left of it around that one.
+  bool narrow(const SheetFunction& first, const SheetFunction& second) {
+    const sheet::SheetProgram program = program_of({first, second});
+    sheet::SheetCell cell(program, mode_);
+    const std::optional<Proof> proof = prove(cell);
+    if (proof) box_ = proof->box;
+    return proof.has_value();
+  }
+
+  /// Whether they have one in it at which a third one does not vanish.
+  bool has_zero_without(const SheetFunction& first, const SheetFunction& second, const SheetFunction& third) const {
+    const sheet::SheetProgram program = program_of({first, second, third});
+    sheet::SheetCell cell(program, mode_);
+    const std::optional<Proof> proof = prove(cell);
+    return proof && cell.enter_local(proof->zero, lifted_) && cell.value(2).sign() != 0;
+  }
+
+ private:
+  sheet::SheetProgram program_of(const std::vector<SheetFunction>& functions) const {
+    return {problem_.tower, functions};
+  }
+
+  using Box = std::vector<core::Interval>;
+  struct Proof {
+    Box box;   ///< in which there is exactly one zero, and without which there is none in the neighbourhood
+    Box zero;  ///< which encloses it
+  };
+
+  /// Zeros are in the image of what they are in, which may be too wide in one coordinate alone.
+  std::optional<Proof> prove(sheet::SheetCell& cell) const {
+    constexpr int most_steps = 6;
+    Proof proof{box_, {}};
+    for (int step = 0; step < most_steps && !proof.box.empty(); ++step) {
+      if (!cell.enter_local(proof.box, lifted_)) return std::nullopt;
+      cell.differentiate();
+      if (cell.rounding_dominates(0) || cell.rounding_dominates(1)) cell.sharpen_middle();
+      const sheet::ZeroCount count = sheet::krawczyk(cell, {}, proof.zero);
+      if (count == sheet::ZeroCount::unique) return proof;
+      if (count == sheet::ZeroCount::none || proof.zero.empty()) return std::nullopt;
+      for (std::size_t c = 0; c < proof.box.size(); ++c) proof.box[c] = meet(proof.box[c], proof.zero[c]);
+    }
+    return std::nullopt;
+  }
+
+  const core::LocusProblem& problem_;
+  const core::WorkingMode& mode_;
+  std::vector<int> lifted_;
+  Box box_;  ///< empty: out of reach
+};
+
+double size_of(const core::LocusProblem& problem) {
+  double size = 0;
+  for (std::size_t c = 0; c < 2; ++c)
+    size = std::max(size, core::to_double(Rational(problem.upper[c] - problem.lower[c])));
+  return size;
+}
+
+}  // namespace
+
+bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mode, const std::string& joint,
+                  const ForceZeros& zeros, const sheet::SheetZero& zero) {
+  const auto probe = std::find_if(problem.force_probes.begin(), problem.force_probes.end(),
+                                  [&](const core::ForceProbe& known) { return known.joint == joint; });
+  if (probe == problem.force_probes.end() || zeros.third != nullptr) return false;
+  const core::Polynomial none{problem.tower.variables(), {}};
+  constexpr std::array shares = {1e-9, 1e-7};  // of the box
+  for (const double share : shares) {
+    const Neighbourhood whole(problem, mode, zero, std::max(share * size_of(problem), 16 * zero.radius));
+    for (const LocusFactor* const factor : zeros.system) {
+      const std::optional<std::size_t> own = component_of(*factor, joint);
+      if (!own) continue;
+      const SheetFunction component = {factor->sheet, factor->line};
+      Neighbourhood around = whole;
+      if (!around.narrow(component, {none, probe->numerators[1 - *own]})) continue;
+      for (const LocusFactor& singular : problem.factors)
+        if (singular.role == core::FactorRole::direct_singularity &&
+            around.has_zero_without(component, {singular.sheet, singular.line}, {none, probe->probes[*own]}))
+          return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace clearloci::loci

@@ -1,0 +1,72 @@
+// Where a force and |A| are proven to vanish together.
+#include "loci/curves/no_limit.hpp"
+
+#include <gtest/gtest.h>
+
+namespace clearloci::loci {
+namespace {
+
+using core::Polynomial;
+using core::Quantity;
+
+const Polynomial x = core::variable_polynomial(2, 0), y = core::variable_polynomial(2, 1);
+
+Polynomial number(const core::Rational& value) { return core::constant_polynomial(2, value); }
+
+core::StraightLine line(const Polynomial& p) {
+  core::StraightLineBuilder builder;
+  const std::vector<int> variables = {builder.variable(0), builder.variable(1)};
+  return builder.line(builder.polynomial(p, variables));
+}
+
+/// |A| = x, and the force of B is (nx, ny)/x, under another load (mx, my)/x.
+struct Mechanism {
+  core::LocusProblem problem;
+
+  Mechanism(const Polynomial& nx, const Polynomial& ny, const Polynomial& mx, const Polynomial& my) {
+    problem.tower.coordinates = {"x", "y"};
+    problem.lower = {-1, -1};
+    problem.upper = {1, 1};
+    const auto add = [&](core::FactorRole role, const Polynomial& sheet, const std::vector<core::Vanishing>& what) {
+      core::LocusFactor factor;
+      factor.role = role;
+      factor.sheet = sheet;
+      factor.vanishing = what;
+      problem.factors.push_back(factor);
+    };
+    add(core::FactorRole::reaction, nx, {{"B", Quantity::fx, 1}});
+    add(core::FactorRole::reaction, ny, {{"B", Quantity::fy, 1}});
+    add(core::FactorRole::direct_singularity, x, {});
+    problem.force_probes = {{"B", {line(nx), line(ny)}, {line(mx), line(my)}}};
+  }
+
+  bool has_no_limit_at(double at_x, double at_y, double radius = 1e-13) const {
+    const ForceZeros zeros = {{&problem.factors[0], &problem.factors[1]}};
+    return has_no_limit(problem, {}, "B", zeros, {at_x, at_y, {}, radius});
+  }
+};
+
+// On x = 0 the forces are (y + x, 2 y - x) under the one load and (1, 2 + x) under the other: multiples of (1, 2).
+TEST(NoLimit, IsProvenByTheForceUnderAnotherLoad) {
+  const Mechanism singular(y + x, number(2) * y - x, number(1), number(2) + x);
+  EXPECT_TRUE(singular.has_no_limit_at(0, 0));
+  EXPECT_TRUE(singular.has_no_limit_at(3e-14, -5e-14));
+}
+
+TEST(NoLimit, IsNotProvenWhereTheOtherLoadTellsNothing) {
+  const Mechanism singular(y + x, number(2) * y - x, y, number(2) * y);
+  EXPECT_FALSE(singular.has_no_limit_at(0, 0));
+}
+
+// The force (y, x^2 - e x)/x vanishes at (e, 0), where |A| is not zero, and has no limit at (0, 0).
+TEST(NoLimit, IsNotProvenNextToAContactLoss) {
+  const core::Rational e(1, 1000000000000);
+  const Mechanism near(y, x * x - number(e) * x, number(1), number(0) * x);
+  EXPECT_FALSE(near.has_no_limit_at(1e-12, 0));
+  const Mechanism far(y, x * x - number(core::Rational(1, 4)) * x, number(1), number(0) * x);
+  EXPECT_TRUE(far.has_no_limit_at(0, 0));
+  EXPECT_FALSE(far.has_no_limit_at(0.25, 0));
+}
+
+}  // namespace
+}  // namespace clearloci::loci
