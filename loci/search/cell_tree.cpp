@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "loci/search/cut_angle.hpp"
 #include "loci/search/second_look.hpp"
 #include "loci/sheet/sheet.hpp"
 
@@ -123,6 +124,9 @@ class Judge {
     rims_.emplace(program);
   }
 
+  /// From now on with regard to where angles are cut.
+  void look_beside_cuts() { cuts_ = cut_angles(program_, mode_); }
+
   /// From now on by second-order enclosures too.
   void look_closer() {
     if (!smooth_ && is_second_look_worthwhile(program_)) smooth_.emplace(program_, mode_);
@@ -145,6 +149,9 @@ class Judge {
     });
     if (smooth_) rest = left_by_smooth_judgement(rest);
     for_each_batch(rest, [&](const std::vector<std::size_t>& batch) { judge_by_slopes(batch); });
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (judgements_[i].kind == LeafKind::undecided && !cuts_.empty() && is_excluded_beside_cut(cells[i]))
+        judgements_[i].kind = LeafKind::empty;
     return std::move(judgements_);
   }
 
@@ -164,6 +171,10 @@ class Judge {
       use({cells.begin() + static_cast<std::ptrdiff_t>(first),
            cells.begin() + static_cast<std::ptrdiff_t>(first + count)});
     }
+  }
+
+  bool is_excluded_beside_cut(const PlaneCell& cell) {
+    return std::any_of(cuts_.begin(), cuts_.end(), [&](CutAngle& cut) { return cut.excludes(cell); });
   }
 
   bool is_tiny(const PlaneCell& cell) const {
@@ -265,6 +276,7 @@ class Judge {
   SheetCells side_by_side_;
   std::optional<SmoothCells> smooth_;
   std::optional<RimCells> rims_;
+  std::deque<CutAngle> cuts_;
   double patch_size_;
   const std::vector<PlaneCell>* cells_ = nullptr;
   std::vector<Judgement> judgements_;
@@ -290,6 +302,7 @@ void CellTree::build(const SheetProgram& program, const core::WorkingMode& mode,
   const double size = std::max(domain().x.width(), domain().y.width());
   int tiny_cells = 0;
   Judge judge(program, mode, size);
+  if (options.second_look) judge.look_beside_cuts();
   std::vector<Judgement> ahead;  // of the next cells that are to be judged, in reverse
   const auto judgement_of = [&](std::size_t index) {
     if (ahead.empty()) {

@@ -37,7 +37,9 @@ struct TreeOptions {
   double smallest = 2e-11;                   ///< relative to the patch
   int most_cells = 60000;                    ///< examined; beyond it cells stay undecided, unless their end is in sight
   bool extended = true;                      ///< the budget may be extended where the end is in sight
-  bool second_look = true;                   ///< second-order enclosures where cells are many (second_look.hpp)
+  /// Second-order enclosures where cells are many (second_look.hpp), two enclosures where an angle is cut
+  /// (cut_angle.hpp).
+  bool second_look = true;
   unsigned attempt = 0;                      ///< moves the cuts, so that an unlucky one is not met twice
   std::vector<std::array<double, 4>> holes;  ///< x0, x1, y0, y1
   std::function<bool()> stop;                ///< asked now and then; true: leave the rest undecided

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -47,6 +48,32 @@ TEST(CellTree, LeavesTileTheDomainAndAreWhatTheyAreSaidToBe) {
   EXPECT_NEAR(sum, 16, 1e-12);
   EXPECT_GE(graphs, 4);
   EXPECT_FALSE(tree.cut_short());
+}
+
+// The angle of (x, y) is 1/2 nowhere where x is negative. It is cut along y = 0, where enclosures of it hold all
+// angles.
+TEST(CellTree, TellsCellsThroughWhichAnAngleIsCut) {
+  const Ring r{3};
+  core::RootTower tower = testing::plane();
+  core::StraightLineBuilder lines;
+  const core::StraightLine x = lines.line(lines.variable(0)), y = lines.line(lines.variable(1));
+  core::Root angle{"s1", "S1", core::RootRole::length, r.x() * r.x() + r.y() * r.y()};
+  angle.cosine_and_sine = {r.x(), r.y()};
+  angle.line = core::line_of_angle(y, x);
+  tower.roots.push_back(angle);
+  const PlaneCell left = {{-2, -1}, {-1, 1}};
+  const SheetProgram program(tower, {r.s(1) - r(core::angle_shift) - r(core::Rational(1, 2))});
+  EXPECT_LT(CellTree(program, {1}, left, {}).leaves().size(), 32U);
+  // That it is 3 it is beside the cut alone, along a ray.
+  const SheetProgram near(tower, {r.s(1) - r(core::angle_shift) - r(3)});
+  const CellTree tree(near, {1}, left, {});
+  const bool told_everywhere = std::none_of(tree.leaves().begin(), tree.leaves().end(),
+                                            [](const Leaf& leaf) { return leaf.kind == LeafKind::undecided; });
+  EXPECT_TRUE(told_everywhere);
+  for (const Leaf& leaf : tree.leaves())
+    for (const double at : {-1.0, -1.5, -2.0})
+      EXPECT_FALSE(leaf.kind == LeafKind::empty && leaf.cell.x.contains(at) &&
+                   leaf.cell.y.contains(at * std::tan(3.0)));
 }
 
 // Of two leaves of the tiling that share a segment there is one seam, on both of their sides.
