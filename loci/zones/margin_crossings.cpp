@@ -178,6 +178,18 @@ Polynomial without_singular(Polynomial apart, const Polynomial& singular, const 
 
 }  // namespace
 
+bool is_margin_of(const core::LocusProblem& problem, const core::LocusFactor& margin, const core::LocusFactor& factor) {
+  const auto vanishes = [&](const std::string& joint, core::Quantity quantity) {
+    return std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
+                       [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+  };
+  return std::any_of(margin.vanishing.begin(), margin.vanishing.end(), [&](const core::Vanishing& held) {
+    if (held.quantity != core::Quantity::f) return vanishes(held.joint, held.quantity);
+    const std::vector<core::Quantity> parts = core::force_components(problem, held.joint);
+    return std::all_of(parts.begin(), parts.end(), [&](core::Quantity part) { return vanishes(held.joint, part); });
+  });
+}
+
 core::StraightLine difference_of_margins(const core::LocusFactor& first, const core::LocusFactor& second) {
   if (!first.nodes || !second.nodes) return {};
   core::StraightLineBuilder builder;

@@ -8,6 +8,10 @@
 
 namespace clearloci::loci {
 
+/// Whether a margin is one of a reaction that vanishes wherever a factor does: a couple, or a force with all of its
+/// components.
+bool is_margin_of(const core::LocusProblem& problem, const core::LocusFactor& margin, const core::LocusFactor& factor);
+
 /// What stands for the second of two functions where zeros of both are looked for: |v|^2 - |w|^2, far from zero but
 /// where the curves cross. Empty: they are not such functions, or not with one f |A|.
 core::StraightLine difference_of_margins(const core::LocusFactor& first, const core::LocusFactor& second);

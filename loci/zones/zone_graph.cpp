@@ -354,7 +354,7 @@ class Builder {
       if (other.line.empty()) other.line = second->line;
       return add_zeros(sheet::isolated_zeros(problem_.tower, mode_, {first->sheet, first->line}, other, lower, upper,
                                              effort)) ||
-             add_margin_crossings(a, b, lower, upper, effort);
+             add_margin_crossings(a, b, lower, upper, effort) || add_singular_crossings(a, b, lower, upper, effort);
     }
     // Curves of one factor, and of two that vanish on one curve besides, are told apart in the plane; the tower knows
     // where it is undefined.
@@ -402,6 +402,24 @@ class Builder {
           core::with_variables(curve_through_crossings(problem_, first, second).value_or(core::Polynomial{2, {}}),
                                problem_.tower.variables());
     return crosses_all(first, *apart.in_plane) || crosses_all(second, *apart.in_plane);
+  }
+
+  /// Of a locus and a margin of the same reaction: w = 0 and |w| = f > 0 hold together nowhere but where |A| = 0. So
+  /// the one crosses |A| wherever it meets the other, beside which it may run for long. False: there may be more.
+  bool add_singular_crossings(int a, int b, const std::vector<core::Rational>& lower,
+                              const std::vector<core::Rational>& upper, const sheet::ZeroOptions& effort) {
+    const bool first_is_margin = curve(a).kind == LocusKind::margin;
+    const core::LocusFactor &margin = *factor_of(problem_, curve(first_is_margin ? a : b)),
+                            &locus = *factor_of(problem_, curve(first_is_margin ? b : a));
+    if (margin.role != core::FactorRole::margin || locus.role != core::FactorRole::reaction ||
+        !is_margin_of(problem_, margin, locus))
+      return false;
+    return std::all_of(margin.cleared.begin(), margin.cleared.end(), [&](const auto& part) {
+      sheet::ZeroSet found = sheet::isolated_zeros(problem_.tower, mode_, {locus.sheet, locus.line},
+                                                   sheet::SheetFunction{part.first}, lower, upper, effort);
+      keep_passed(found, a, b);
+      return add_zeros(found);
+    });
   }
 
   /// Then their common zeros are not isolated, wherever other curves of theirs meet.
