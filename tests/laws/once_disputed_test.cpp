@@ -335,6 +335,7 @@ void all_is_certified(const std::string& name) {
   EXPECT_TRUE(map.open.empty());
   EXPECT_FALSE(map.curves.empty());
   for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id << " " << curve.factor;
+  for (const core::IsolatedPoint& point : map.isolated_points) EXPECT_TRUE(point.certified);
 }
 
 void all_zones_are_certified(const std::string& name, const ZoneRequest& request = {}) {
@@ -360,6 +361,20 @@ TEST(OnceDisputed, GuidesThatPassTheirPinsClosely) { all_is_certified("loci/rprp
 
 // Over motor angles the elbows meet at irrational half tangents: no chart was made around these places.
 TEST(OnceDisputed, ElbowsThatMeetOverMotorAngles) { all_is_certified("loci/five_bar_angles_elbows_meet"); }
+
+// Where a leg is stretched on |A| = 0 forces vanish together with it: that there is no limit was not proven.
+TEST(OnceDisputed, ForcesWithoutLimit) { all_is_certified("loci/five_bar_no_limit_on_the_boundary"); }
+
+// All along the slit of a torsion spring, which narrows to nothing at the boundary of its dyad, cells of the motor's
+// couple had to be narrower than the slit.
+TEST(OnceDisputed, ATorsionSpringsSlitAtTheBoundary) { all_is_certified("loci/five_bar_torsion_slit_at_the_boundary"); }
+
+// Along |A| = 0 the motor's couple is steep, so that the locus and both margin curves run side by side.
+TEST(OnceDisputed, ZonesBetweenALocusAndItsMargins) {
+  ZoneRequest request;
+  request.loci.min_couple = 1;
+  all_zones_are_certified("loci/stacked_margins_beside_a_locus", request);
+}
 
 // The contact losses of both legs are parts of one curve, two circles that touch at the common base: parts of either
 // pass there and touch.
