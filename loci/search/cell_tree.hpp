@@ -34,9 +34,9 @@ struct Seam {
 };
 
 struct TreeOptions {
-  double smallest = 2e-11;                   ///< relative to the patch
-  int most_cells = 60000;                    ///< examined; beyond it cells stay undecided, unless their end is in sight
-  bool extended = true;                      ///< the budget may be extended where the end is in sight
+  double smallest = 2e-11;  ///< relative to the patch
+  int most_cells = 60000;   ///< examined; beyond it cells stay undecided, unless their end is in sight
+  bool extended = true;     ///< the budget may be extended where the end is in sight
   /// Second-order enclosures where cells are many (second_look.hpp), two enclosures where an angle is cut
   /// (cut_angle.hpp).
   bool second_look = true;
