@@ -295,14 +295,18 @@ class ArcCheck {
           return other.arc != &arc && other.curve->mode == curve_.claim.mode &&
                  passes_near(other.arc->points, at, 2.5 * c_.tolerance);
         };
-        // What ends on something graver is named after that. At a cone |A| vanishes whatever its curve does.
-        const auto is_singular = [&](const KnownArc& other) {
-          return curve_.claim.role != FactorRole::direct_singularity &&
-                 other.curve->kind == core::LocusKind::direct_singularity && passes(other);
+        // What ends on something graver is named after that. At a cone |A| and a root vanish whatever their curves do.
+        const bool cone = at_cone(x, y);
+        const auto ends_some = [&](core::LocusKind kind) {
+          return std::any_of(arcs_.begin(), arcs_.end(),
+                             [&](const KnownArc& other) { return other.curve->kind == kind && passes(other); });
         };
-        there = std::any_of(arcs_.begin(), arcs_.end(), passes) &&
-                (at_cone(x, y) ? std::none_of(arcs_.begin(), arcs_.end(), is_singular) : !on_singularity()) &&
-                (curve_.claim.role != FactorRole::reaction || !on_boundary());
+        const bool is_singular = cone ? curve_.claim.role != FactorRole::direct_singularity &&
+                                            ends_some(core::LocusKind::direct_singularity)
+                                      : on_singularity();
+        const bool is_last = cone ? ends_some(core::LocusKind::workspace_boundary) : on_boundary();
+        there = std::any_of(arcs_.begin(), arcs_.end(), passes) && !is_singular &&
+                (curve_.claim.role != FactorRole::reaction || !is_last);
         break;
       }
       case ArcEnd::none:

@@ -35,6 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Once{"force_of_one_component", {core::Quantity::fx}},
                     Once{"crank_next_to_its_end_of_reach", {core::Quantity::M}},
                     Once{"legs_that_never_align", {core::Quantity::f}, {.joints = {"B2"}}},
+                    Once{"components_at_a_cone", {core::Quantity::fy}},
                     Once{"margins_at_a_cone", {core::Quantity::f}, {.joints = {"A1"}, .min_force = 10}}),
     [](const auto& candidate) { return std::string(candidate.param.name); });
 
