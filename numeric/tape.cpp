@@ -1,5 +1,6 @@
 #include "numeric/tape.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
@@ -30,9 +31,14 @@ std::optional<int> doubled_exponent(const Bounded& exponent) {
 
 Register TapeBuilder::constant(const Bounded& value) {
   const double plain = value.value == 0 ? 0.0 : value.value;  // -0 and 0 are one constant
+  const auto add = [&] {
+    tape_.code.push_back({Op::constant, -1, -1, {plain, value.error}});
+    return size() - 1;
+  };
+  // What is undefined in every pose has no place in an order: it would be found equal to another constant.
+  if (std::isnan(plain) || std::isnan(value.error)) return add();
   const auto [place, fresh] = constants_.try_emplace({plain, value.error}, size());
-  if (fresh) tape_.code.push_back({Op::constant, -1, -1, {plain, value.error}});
-  return place->second;
+  return fresh ? add() : place->second;
 }
 
 Register TapeBuilder::append(Op op, Register a, Register b) {

@@ -168,6 +168,11 @@ TEST(Limits, PutPosesOutOfReachAndSayWhich) {
   EXPECT_LT(near->slack, 0);
 }
 
+TEST(Limits, ThatNoPoseKeepsLeaveNoneInReach) {
+  const NumericModel model = compile(parsed(text + "limits:\n  - {distance: [A1, A2], within: [0, 0.1]}\n"));
+  EXPECT_FALSE(reachable(model, std::array{0.25, -0.7}, std::array{-1, 1}));
+}
+
 TEST(Springs, InSpaceAsInThePlane) {
   // A pendulum on a hinge about y: gravity, a spring to the ground, a torsion spring, against energies by hand.
   const mechanism::Mechanism m = parsed(R"(format: 1
