@@ -274,6 +274,10 @@ class LocusLaws {
       if (c) grows = grows || c->values.cwiseAbs().maxCoeff() > 5 * scale;
       if (curve.kind == LocusKind::direct_singularity && !(std::abs(b->determinant) <= 0.2 * std::abs(a->determinant)))
         fault << "|A| is " << a->determinant << " and " << b->determinant;
+      // What vanishes next to |A| = 0, nearer to it than these places are, has there the value that it tends to.
+      if (!curve.certified && curve.kind != LocusKind::direct_singularity && c &&
+          std::abs(c->determinant) <= 0.2 * std::abs(b->determinant))
+        continue;
       for (const core::Vanishing& what : curve.vanishing) {
         const double wa = std::abs(s_.witness.value_of(*a, what)), wb = std::abs(s_.witness.value_of(*b, what));
         if (curve.kind == LocusKind::margin) {
