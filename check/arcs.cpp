@@ -238,7 +238,9 @@ class ArcCheck {
       (to_last ? part.to : part.from) = to_last ? n : 0.0;
       (to_last ? part.b : part.a) = curve_.junction(junction).place.at();
     };
-    const bool forward = run.first < run.last || (run.first == run.last && 2 * run.first > n);
+    // With one vertex outside of open cells it came from, or goes to, the end of the path that is open, or the nearer.
+    const bool at_last = is_open(path.first) != is_open(path.last) ? is_open(path.last) : run.first + run.last > n;
+    const bool forward = run.first < run.last || (run.first == run.last && at_last == goes_to_open);
     if (comes_from_open) extend(!forward);
     if (goes_to_open) extend(forward);
     covered.push_back(part);
@@ -301,9 +303,9 @@ class ArcCheck {
           return std::any_of(arcs_.begin(), arcs_.end(),
                              [&](const KnownArc& other) { return other.curve->kind == kind && passes(other); });
         };
-        const bool is_singular = cone ? curve_.claim.role != FactorRole::direct_singularity &&
-                                            ends_some(core::LocusKind::direct_singularity)
-                                      : on_singularity();
+        const bool is_singular =
+            cone ? curve_.claim.role != FactorRole::direct_singularity && ends_some(core::LocusKind::direct_singularity)
+                 : on_singularity();
         const bool is_last = cone ? ends_some(core::LocusKind::workspace_boundary) : on_boundary();
         there = std::any_of(arcs_.begin(), arcs_.end(), passes) && !is_singular &&
                 (curve_.claim.role != FactorRole::reaction || !is_last);

@@ -28,7 +28,7 @@ TEST_P(OnceRejected, IsAccepted) {
 
 INSTANTIATE_TEST_SUITE_P(
     Corpus, OnceRejected,
-    testing::Values(Once{"end_of_a_guide"}, Once{"guide_beside_the_boundary"},
+    testing::Values(Once{"arc_of_one_vertex"}, Once{"end_of_a_guide"}, Once{"guide_beside_the_boundary"},
                     Once{"point_where_a_spring_has_no_length"}, Once{"chord_beside_another"},
                     Once{"line_crossed_at_its_middle"}, Once{"torsion_slit", {core::Quantity::M}},
                     Once{"spring_named_as_a_point", {core::Quantity::M}},
