@@ -198,29 +198,31 @@ class Conditions {
         multiply(end.numerator, guide.common);
         end.numerator.constant /= 2 * guide.half_length;
       }
-      lengths_.try_emplace(guide.joint, guide.square);
+      lengths_.try_emplace(guide.joint, GuideLength{guide.square});
     }
     for (Reaction& end : ends) reactions_.back().push_back(std::move(end));
   }
 
-  /// The auxiliary variable is the length of this guide's axis, over one more root of the tower.
+  /// From now on the auxiliary variable is the length of this guide's axis, over a root of the tower of its own.
   void know_length(const std::string& joint) {
     const auto found = lengths_.find(joint);
-    if (found == lengths_.end()) return;
+    if (found == lengths_.end() || joint == known_length_) return;
     known_.clear();  // what was written with the length of another guide
+    known_length_ = joint;
     // Coefficients of t^0 and t^1 over the tower have one denominator; |u| = root / divisor.
     const Poly t = Poly::variable(geometry_.ring(), geometry_.auxiliary());
-    const std::vector<Poly> length = elimination_.over_tower(found->second + t).coefficients(geometry_.auxiliary());
+    const std::vector<Poly> length =
+        elimination_.over_tower(found->second.square + t).coefficients(geometry_.auxiliary());
     core::ensure(length.size() == 2, "a squared length over its denominator");
-    const std::vector<int> variables = geometry_.tower_variables();
-    const int before = result_.tower.variables();
-    core::Root root;
-    root.name = "s" + std::to_string(result_.tower.roots.size() + 1);
-    root.role = core::RootRole::length;
-    root.square = (length[0] * length[1]).plain(variables);
-    core::append_roots(result_.tower, {std::move(root)});
-    lines_.let(geometry_.auxiliary(), before, length[1]);
-    lengths_.erase(found);
+    if (found->second.variable < 0) {
+      found->second.variable = result_.tower.variables();
+      core::Root root;
+      root.name = "s" + std::to_string(result_.tower.roots.size() + 1);
+      root.role = core::RootRole::length;
+      root.square = (length[0] * length[1]).plain(geometry_.tower_variables());
+      core::append_roots(result_.tower, {std::move(root)});
+    }
+    lines_.let(geometry_.auxiliary(), found->second.variable, length[1]);
   }
 
   FactoredDeterminants under(const mechanism::Mechanism& load) const {
@@ -304,6 +306,11 @@ class Conditions {
     if (size && demanded.squared_axis) condition.squared_axis = function_of(factored(*demanded.squared_axis, {}), 1);
   }
 
+  struct GuideLength {
+    Poly square;
+    int variable = -1;  ///< of the tower; -1: nothing has been asked for
+  };
+
   struct Known {
     FactoredPoly product;
     int function = 0;
@@ -316,7 +323,8 @@ class Conditions {
   FactoredPoly determinant_;
   std::vector<std::vector<Reaction>> reactions_;  ///< load by load, then direction by direction
   std::list<Known> known_;
-  std::map<std::string, Poly> lengths_;  ///< squared, of guides whose ends have not been asked for
+  std::map<std::string, GuideLength> lengths_;
+  std::string known_length_;  ///< of which guide the auxiliary variable is the length
   core::TaskConditions result_;
 };
 
