@@ -100,6 +100,24 @@ Design telescopes(Draw& draw) {
   return {text + extras(draw, "r1", "P"), {draw.uniform(-0.2, 1), draw.uniform(0.3, 0.9)}};
 }
 
+/// Driven arms in whose sleeves rods slide: two guides along axes of changing length.
+Design arms(Draw& draw) {
+  std::string text = head;
+  text += fmt::format("parameters: {{d: {:.3f}, rho: {}}}\n", draw.uniform(0.5, 0.9), draw.radial());
+  text += "workspace: {x: [-2, 2], y: [-2, 2]}\npoints:\n  A1: [0, 0]\n  A2: [d, 0.1]\n  S: [0.3, 1.7]\n  P: [x, y]\n";
+  text += "links: {c1: {points: [A1]}, r1: {points: [P]}, r2: {points: [P]}, c2: {points: [A2]}}\njoints:\n";
+  for (int k = 1; k <= 2; ++k) {
+    text +=
+        fmt::format("  A{0}: {{revolute: [ground, c{0}], at: A{0}, actuated: true, clearance: {{radial: rho}}}}\n", k);
+    text += fmt::format(
+        "  S{0}: {{prismatic: [c{0}, r{0}], at: P, axis: [A{0}, P], clearance: {{gap: {1}, half_length: {2:.3f}}}}}\n",
+        k, draw.radial(), draw.uniform(0.03, 0.08));
+  }
+  text += "  P: {revolute: [r1, r2], at: P, clearance: {radial: " + draw.radial() + "}}\n";
+  text += "end_effector: {link: r2, at: P}\n" + loads(draw, "r2");
+  return {text + extras(draw, "r2", "P"), {draw.uniform(-0.2, 1), draw.uniform(0.3, 0.9)}};
+}
+
 /// A plate on three telescopic legs, which keeps its orientation.
 Design plate(Draw& draw) {
   std::string text = head;
@@ -239,7 +257,8 @@ TEST_P(ProvenBounds, AreMetByNoSample) {
 
 INSTANTIATE_TEST_SUITE_P(Families, ProvenBounds,
                          testing::Values(std::pair("five_bar", &five_bar), std::pair("telescopes", &telescopes),
-                                         std::pair("plate", &plate), std::pair("rails", &rails)),
+                                         std::pair("arms", &arms), std::pair("plate", &plate),
+                                         std::pair("rails", &rails)),
                          [](const auto& candidate) { return std::string(candidate.param.first); });
 
 /// The same answers however long the axes are written.
