@@ -67,6 +67,8 @@ class FormWriter {
         return drop_clearance();
       case Form::relative_to:
         return relative();
+      case Form::driven_pins:
+        return drive_pins();
       default:
         return write_option(form);
     }
@@ -328,6 +330,21 @@ class FormWriter {
               found;
     return found;
   }
+  /// The motors of telescopic legs in their bases' pins: rods slide freely, and press with the ends of their guides.
+  bool drive_pins() {
+    bool found = false;
+    for (JointText& slide : parts_.joints) {
+      if (slide.type != "prismatic" || !slide.from.starts_with("cylinder") || !slide.actuated) continue;
+      for (JointText& pin : parts_.joints) {
+        if (pin.from != "ground" || pin.to != slide.from) continue;
+        slide.actuated = false, pin.actuated = true, found = true;
+        std::erase_if(slide.clearance, [](const std::string& candidate) { return candidate.starts_with("axial"); });
+        if (!pin.clearance.empty()) pin.clearance.emplace_back("angular: 0.5e-3 rad");
+      }
+    }
+    return found;
+  }
+
   bool drop_clearance() {
     std::vector<JointText*> list;
     for (JointText& joint : parts_.joints)
@@ -409,9 +426,14 @@ LawDesign drawn_design(int seed, Family family, int index, const FormSet& allowe
   std::seed_seq more{seed, static_cast<int>(family), index, 1};
   std::mt19937 form_random(more);
   const auto in = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(form_random); };
+  // A form that was thought of later is drawn apart: designs without it stay as they were.
+  std::seed_seq later{seed, static_cast<int>(family), index, 2};
+  std::mt19937 later_random(later);
   FormSet drawn;
   for (const FormRow& row : form_table) {
-    const bool wanted = in(1, row.one_in) == 1;
+    const bool wanted = row.form == Form::driven_pins
+                            ? std::uniform_int_distribution<int>(1, row.one_in)(later_random) == 1
+                            : in(1, row.one_in) == 1;
     drawn.set(static_cast<std::size_t>(row.form), wanted && allowed.test(static_cast<std::size_t>(row.form)));
   }
   const bool weights = has(drawn, Form::weights);

@@ -50,6 +50,7 @@ enum class Form {
   task_tolerances,
   task_balls,
   task_error,
+  driven_pins,
 };
 
 struct FormRow {
@@ -94,6 +95,7 @@ inline constexpr std::array form_table = {
     FormRow{Form::task_tolerances, "task: tolerances", 6},
     FormRow{Form::task_balls, "task: balls of loads", 8},
     FormRow{Form::task_error, "task: pose error", 8},
+    FormRow{Form::driven_pins, "telescopic legs driven in their pins", 5},
 };
 
 using FormSet = std::bitset<form_table.size()>;
