@@ -125,6 +125,12 @@ void FactorEmission::add_guide_margins() {
           "end of guide " + guide.joint + " at " + core::told(core::to_double(*d_.selection.min_force), "N", {});
       return factor;
     };
+    if (!guide.length && turns.is_zero()) {  // both ends bear alike
+      LocusFactor both = of_end(Quantity::end_ahead);
+      both.vanishing.push_back({guide.joint, Quantity::end_behind, 1});
+      add_ends({bears, guide.square, limit}, {both, both}, guide.joint);
+      continue;
+    }
     if (!guide.length && !bears.is_zero()) {
       for (const Poly& bound : {turns - limit, turns + limit})
         add_ends({bears, guide.square, bound}, {of_end(Quantity::end_behind), of_end(Quantity::end_ahead)},

@@ -28,10 +28,11 @@ TEST_P(OnceRejected, IsAccepted) {
 
 INSTANTIATE_TEST_SUITE_P(
     Corpus, OnceRejected,
-    testing::Values(Once{"arc_of_one_vertex"}, Once{"end_of_a_guide"}, Once{"guide_beside_the_boundary"},
-                    Once{"point_where_a_spring_has_no_length"}, Once{"chord_beside_another"},
-                    Once{"line_crossed_at_its_middle"}, Once{"torsion_slit", {core::Quantity::M}},
-                    Once{"spring_named_as_a_point", {core::Quantity::M}},
+    testing::Values(Once{"arc_of_one_vertex"}, Once{"end_of_a_guide"},
+                    Once{"ends_alike", {core::Quantity::f}, {.joints = {"S1"}, .min_force = 50}},
+                    Once{"guide_beside_the_boundary"}, Once{"point_where_a_spring_has_no_length"},
+                    Once{"chord_beside_another"}, Once{"line_crossed_at_its_middle"},
+                    Once{"torsion_slit", {core::Quantity::M}}, Once{"spring_named_as_a_point", {core::Quantity::M}},
                     Once{"force_of_one_component", {core::Quantity::fx}},
                     Once{"crank_next_to_its_end_of_reach", {core::Quantity::M}},
                     Once{"legs_that_never_align", {core::Quantity::f}, {.joints = {"B2"}}},
