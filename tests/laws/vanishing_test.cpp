@@ -50,6 +50,17 @@ bool contains(const std::vector<numeric::TracedReaction>& list, const std::strin
   return std::find(list.begin(), list.end(), numeric::TracedReaction{joint, quantity}) != list.end();
 }
 
+TEST(Vanishing, ForcesHaveNoLimitOnTheRimWhereTheLoadIsAlongTheLegs) {
+  const core::LocusMap map = trace_loci(corpus("coaxial_equal_legs.yaml"), {});
+  ASSERT_EQ(map.isolated_points.size(), 2U);
+  for (const core::IsolatedPoint& point : map.isolated_points) {
+    EXPECT_EQ(point.kind, LocusKind::no_limit);
+    EXPECT_EQ(point.vanishing.size(), 5U);
+    EXPECT_TRUE(point.certified);
+    EXPECT_NEAR(std::hypot(point.at[0] - 1.7, point.at[1] - 1.7), 0.25, 1e-12);
+  }
+}
+
 TEST(Vanishing, CoaxialLegsBearTheirMotorsCouplesOnTheRim) {
   const mechanism::Mechanism leg = corpus("minitaur.yaml");
   for (const loci::Engine engine : {loci::Engine::adaptive_then_exact, loci::Engine::exact}) {
