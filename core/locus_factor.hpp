@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -83,6 +84,13 @@ struct ForceProbe {
   std::array<StraightLine, 2> probes;
 };
 
+/// Pairs of functions that stand for the components of a joint's force: where these are zero together both functions of
+/// a pair are, and the other way round, but for contact-loss curves.
+struct ForcePairs {
+  std::string joint;
+  std::vector<std::array<std::size_t, 2>> pairs;  ///< by their places among the problem's `pair_functions`
+};
+
 /// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the
 /// polynomials, of the box and of `tower.coordinates` is the t of its chart, and the problem covers that chart alone.
 struct LocusProblem {
@@ -100,9 +108,12 @@ struct LocusProblem {
   std::vector<std::vector<Quantity>> force_components;
   std::vector<ForcePlane> force_planes;  ///< of joints whose force has three components
   std::vector<ForceProbe> force_probes;  ///< of joints whose force is (fx, fy), over two coordinates
-  std::vector<Vanishing> always_zero;    ///< components that vanish in every pose
-  std::vector<Vanishing> reactions;      ///< every other scalar reaction of the mechanism
-  double tolerance = 1e-5;               ///< chord deviation, m
+  /// Of the joints for which lower functions are known than the factors of their forces' components.
+  std::vector<ForcePairs> force_pairs;
+  std::vector<LocusFactor> pair_functions;  ///< by their sheets and lines alone
+  std::vector<Vanishing> always_zero;       ///< components that vanish in every pose
+  std::vector<Vanishing> reactions;         ///< every other scalar reaction of the mechanism
+  double tolerance = 1e-5;                  ///< chord deviation, m
 };
 
 /// The components of a joint's f.

@@ -121,6 +121,8 @@ std::vector<Vanishing> FactorEmission::without_determinant(const Poly& sheet, st
 
 void FactorEmission::reactions() {
   for (const SharedFactor& shared : d_.factors) {
+    const std::size_t first = d_.result.problem.factors.size();
+    ranges_.push_back({first, first});
     LocusFactor factor;
     if (!shared.wanted_curve && !shared.wanted_point && !shared.wanted_order) {
       const bool asked_for = std::any_of(shared.vanishing.begin(), shared.vanishing.end(), [&](const Vanishing& v) {
@@ -137,6 +139,7 @@ void FactorEmission::reactions() {
     factor.vanishing = shared.vanishing;
     add(FactorRole::reaction, &shared.natural, d_.sheet_of(static_cast<std::size_t>(&shared - d_.factors.data())),
         shared.wanted_curve, factor);
+    ranges_.back()[1] = d_.result.problem.factors.size();
   }
 }
 
@@ -315,6 +318,7 @@ void FactorEmission::append_roots() {
     if (factor.nodes)
       for (core::NodeForm::Part& part : factor.nodes->parts) widen(part.sheet);
   }
+  for (LocusFactor& function : problem.pair_functions) widen(function.sheet);
   for (core::ForcePlane& plane : problem.force_planes)
     for (core::Polynomial& part : plane.normal) widen(part);
   for (core::WorkingMode& mode : problem.modes) mode.resize(problem.tower.roots.size(), 1);

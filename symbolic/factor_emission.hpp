@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <list>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,6 +37,8 @@ class FactorEmission {
   void force_planes();
   /// What tells whether forces and |A| vanish together.
   void force_probes();
+  /// Where both components of a force in the plane vanish, by functions that are lower than their factors.
+  void force_pairs();
   /// The roots that margins brought, into the tower and everything that is written over it.
   void append_roots();
 
@@ -45,6 +49,12 @@ class FactorEmission {
   /// How the `part` of a natural polynomial is computed whose other parts are elements of folds; empty where it is not
   /// known.
   core::StraightLine line_of(const Poly& natural, const std::vector<SheetFactor>& parts, std::size_t part);
+  /// Places among the problem's pair functions: of one of its factors; of the parts of a natural polynomial over the
+  /// tower, null where it vanishes in every pose.
+  std::size_t pair_function(std::size_t factor);
+  const std::vector<std::size_t>* pair_functions(const Poly& natural);
+  /// False, and nothing is added, where both are zero along a curve.
+  bool add_pairs(const Poly& first, const Poly& second, core::ForcePairs& of_joint);
   /// Takes what divides |A| too out of what vanishes on a factor over the tower: reactions are quotients.
   std::vector<core::Vanishing> without_determinant(const Poly& sheet, std::vector<core::Vanishing> vanishing);
   /// Of the factors from `first` on those with the curves of |A| or of a reaction before.
@@ -96,6 +106,9 @@ class FactorEmission {
   Derivation& d_;
   FoldQuotients fold_quotients_{d_.geometry, d_.elimination, d_.lines};
   MarginNodes margin_nodes_{d_.geometry, d_.elimination, d_.lines};
+  std::vector<std::array<std::size_t, 2>> ranges_;  ///< of the reactions' factors: their parts among the problem's
+  std::map<std::size_t, std::size_t> pair_functions_of_factors_;
+  std::list<std::pair<Poly, std::vector<std::size_t>>> pair_functions_of_natural_;
   std::vector<core::Root> more_roots_;  ///< written in the coordinates and the roots of the geometry
 };
 

@@ -77,6 +77,7 @@ void emit_factors(Derivation& d) {
   emission.undirected();
   emission.force_planes();
   emission.force_probes();
+  emission.force_pairs();
   emission.append_roots();
 }
 

@@ -69,6 +69,13 @@ std::vector<const LocusFactor*> ForceZeros::factors() const {
 }
 
 std::vector<ForceZeros> zeros_of_force(const LocusProblem& problem, const std::string& joint) {
+  for (const core::ForcePairs& known : problem.force_pairs) {
+    if (known.joint != joint) continue;
+    std::vector<ForceZeros> pairs;
+    for (const auto& [first, second] : known.pairs)
+      pairs.push_back({{&problem.pair_functions[first], &problem.pair_functions[second]}});
+    return pairs;
+  }
   const std::set<FactorSet> sets = sets_of(problem, joint);
   const auto holds_another = [&sets](const FactorSet& set) {
     return std::any_of(sets.begin(), sets.end(), [&](const FactorSet& other) {

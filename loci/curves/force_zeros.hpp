@@ -23,7 +23,8 @@ struct ForceZeros {
   std::vector<const core::LocusFactor*> factors() const;
 };
 
-/// The least such sets: none holds another, or a factor that is of all components.
+/// The least such sets: none holds another, or a factor that is of all components. Or the pairs that are known to stand
+/// for them.
 std::vector<ForceZeros> zeros_of_force(const core::LocusProblem& problem, const std::string& joint);
 
 }  // namespace clearloci::loci

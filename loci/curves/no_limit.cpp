@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "loci/sheet/sheet.hpp"
@@ -110,18 +111,22 @@ bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mo
                                   [&](const core::ForceProbe& known) { return known.joint == joint; });
   if (probe == problem.force_probes.end() || zeros.third != nullptr) return false;
   const core::Polynomial none{problem.tower.variables(), {}};
+  // Of functions that stand for the components (core::ForcePairs) the whole numerators tell.
+  std::vector<std::pair<std::size_t, SheetFunction>> components;
+  for (const LocusFactor* const factor : zeros.system)
+    if (const std::optional<std::size_t> own = component_of(*factor, joint))
+      components.emplace_back(*own, SheetFunction{factor->sheet, factor->line});
+  if (components.empty())
+    for (const std::size_t c : {0, 1}) components.emplace_back(c, SheetFunction{none, probe->numerators[c]});
   constexpr std::array shares = {1e-9, 1e-7};  // of the box
   for (const double share : shares) {
     const Neighbourhood whole(problem, mode, zero, std::max(share * size_of(problem), 16 * zero.radius));
-    for (const LocusFactor* const factor : zeros.system) {
-      const std::optional<std::size_t> own = component_of(*factor, joint);
-      if (!own) continue;
-      const SheetFunction component = {factor->sheet, factor->line};
+    for (const auto& [own, component] : components) {
       Neighbourhood around = whole;
-      if (!around.narrow(component, {none, probe->numerators[1 - *own]})) continue;
+      if (!around.narrow(component, {none, probe->numerators[1 - own]})) continue;
       for (const LocusFactor& singular : problem.factors)
         if (singular.role == core::FactorRole::direct_singularity &&
-            around.has_zero_without(component, {singular.sheet, singular.line}, {none, probe->probes[*own]}))
+            around.has_zero_without(component, {singular.sheet, singular.line}, {none, probe->probes[own]}))
           return true;
     }
   }

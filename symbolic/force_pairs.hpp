@@ -1,0 +1,61 @@
+// Lower pairs of polynomials in the place of two that are to vanish together, such as the components of a force.
+// Private to symbolic/.
+//
+// Every step keeps the common zeros, as it keeps the ideal of the pair but for factors:
+//     p linear in v:  (p, q) -> (p, q with v from p = 0), whose second part often falls into factors. Under vertical
+//                     loads x_A - x_B is such a p, of the link AB along the load: then fy of its joint, of degree 24,
+//                     is (y_A - y_B) times what else divides fx.
+//     f p divides fx, q is fy, (f, g) is the way along a link:  f q - g p (fx / f p) = (moment of the force about its
+//                     other end) / f, which holds factors of |A|. If nothing of any degree is left beside these,
+//                     (p, q) -> (p, each of them).
+//     two ways a, b with a x b = c D, D a factor of |A|:  a x (p, q) = D g, b x (p, q) = D h with moments g, h, so that
+//                     c (p, q) = g b - h a. Away from D = 0 this is zero where g = h = 0; on D = 0, where b is
+//                     a (a . b) / |a|^2, where k = (a . b) g - |a|^2 h is: (p, q) -> (g, h), (D, k).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "symbolic/elimination.hpp"
+#include "symbolic/factored_poly.hpp"
+
+namespace clearloci::symbolic {
+
+using PolyPair = std::array<Poly, 2>;
+
+class PairReduction {
+ public:
+  PairReduction(const Geometry& geometry, const Elimination& elimination, const FactoredPoly& determinant)
+      : geometry_(&geometry), elimination_(&elimination), determinant_(&determinant) {}
+
+  /// Irreducible pairs in the place of two factors, one of each component of a force in the plane; none where no lower
+  /// ones are known. `components`: the numerators.
+  std::optional<std::vector<PolyPair>> lowered(const Poly& x, const Poly& y,
+                                               const std::array<FactoredPoly, 2>& components);
+
+ private:
+  using Way = std::array<Poly, 2>;
+
+  /// Required: p is linear.
+  std::optional<std::vector<PolyPair>> lowered_by(const Poly& p, const Poly& q) const;
+  /// Of p times `beside_p` and q times a number: the components without what they share.
+  std::optional<std::vector<PolyPair>> lowered_by_moment(const Poly& p, const Poly& q, const FactoredPoly& beside_p,
+                                                         const core::Rational& beside_q, bool p_is_x);
+  /// Required: x and y are numerators without what they share.
+  std::optional<std::vector<PolyPair>> lowered_by_two_moments(const Poly& x, const Poly& y);
+
+  /// The first polynomial asked for that is the same where the divisor vanishes. What all forces are made of there, the
+  /// work of the loads in the motion that is free, is searched once.
+  Poly known_on(const Poly& divisor, Poly p);
+  /// Along the links, in natural coordinates.
+  const std::vector<Way>& ways();
+
+  const Geometry* geometry_;
+  const Elimination* elimination_;
+  const FactoredPoly* determinant_;
+  std::optional<std::vector<Way>> ways_;  ///< once they are asked for
+  std::vector<PolyPair> known_;           ///< divisors, polynomials
+};
+
+}  // namespace clearloci::symbolic
