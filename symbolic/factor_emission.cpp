@@ -75,7 +75,9 @@ void FactorEmission::add(FactorRole role, const Poly* natural, const Poly& sheet
     if (natural != nullptr) factor.line = line_of(*natural, parts, p);
     for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
     if (role == FactorRole::reaction) {
+      const std::vector<Vanishing> natural_vanishing = factor.vanishing;
       factor.vanishing = without_determinant(part.sheet, std::move(factor.vanishing));
+      is_cut_ = is_cut_ || factor.vanishing != natural_vanishing;
       if (factor.vanishing.empty()) continue;
     }
     factor.sheet = core::scaled_for_doubles(part.sheet.plain(variables));
@@ -123,6 +125,7 @@ void FactorEmission::reactions() {
   for (const SharedFactor& shared : d_.factors) {
     const std::size_t first = d_.result.problem.factors.size();
     ranges_.push_back({first, first});
+    is_cut_ = false;
     LocusFactor factor;
     if (!shared.wanted_curve && !shared.wanted_point && !shared.wanted_order) {
       const bool asked_for = std::any_of(shared.vanishing.begin(), shared.vanishing.end(), [&](const Vanishing& v) {
@@ -140,6 +143,7 @@ void FactorEmission::reactions() {
     add(FactorRole::reaction, &shared.natural, d_.sheet_of(static_cast<std::size_t>(&shared - d_.factors.data())),
         shared.wanted_curve, factor);
     ranges_.back()[1] = d_.result.problem.factors.size();
+    if (is_cut_) cut_.insert(ranges_.size() - 1);
   }
 }
 

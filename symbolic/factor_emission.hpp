@@ -5,6 +5,7 @@
 #include <list>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,6 +108,8 @@ class FactorEmission {
   FoldQuotients fold_quotients_{d_.geometry, d_.elimination, d_.lines};
   MarginNodes margin_nodes_{d_.geometry, d_.elimination, d_.lines};
   std::vector<std::array<std::size_t, 2>> ranges_;  ///< of the reactions' factors: their parts among the problem's
+  bool is_cut_ = false;        ///< of the reactions' factor that was added last, parts that divide |A| were taken out
+  std::set<std::size_t> cut_;  ///< the reactions' factors of which they were
   std::map<std::size_t, std::size_t> pair_functions_of_factors_;
   std::list<std::pair<Poly, std::vector<std::size_t>>> pair_functions_of_natural_;
   std::vector<core::Root> more_roots_;  ///< written in the coordinates and the roots of the geometry

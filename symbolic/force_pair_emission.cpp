@@ -97,7 +97,8 @@ void FactorEmission::force_pairs() {
     };
     for (const std::size_t i : factors_of(Quantity::fx, Quantity::fy))
       for (const std::size_t k : factors_of(Quantity::fy, Quantity::fx)) {
-        if (!d_.factors[i].wanted_point || !d_.factors[k].wanted_point) {
+        // Lower functions of what |A| holds too over the tower alone hold that again.
+        if (!d_.factors[i].wanted_point || !d_.factors[k].wanted_point || cut_.contains(i) || cut_.contains(k)) {
           add_as_it_is(i, k);
           continue;
         }
