@@ -55,11 +55,15 @@ bool FactorEmission::add_pairs(const Poly& first, const Poly& second, core::Forc
   for (const std::size_t i : *a)
     for (const std::size_t k : *b) {
       if (functions[i].sheet == functions[k].sheet) return false;
-      pairs.push_back({std::min(i, k), std::max(i, k)});
+      pairs.push_back({i, k});
     }
-  for (const auto& pair : pairs)
-    if (std::find(of_joint.pairs.begin(), of_joint.pairs.end(), pair) == of_joint.pairs.end())
-      of_joint.pairs.push_back(pair);
+  // The first one is that of which touches are told: a linear one seldom has a double zero.
+  for (const auto& [i, k] : pairs) {
+    const bool known = std::any_of(of_joint.pairs.begin(), of_joint.pairs.end(), [i = i, k = k](const auto& other) {
+      return other == std::array{i, k} || other == std::array{k, i};
+    });
+    if (!known) of_joint.pairs.push_back({i, k});
+  }
   return true;
 }
 
@@ -91,8 +95,7 @@ void FactorEmission::force_pairs() {
           const auto& factors = d_.result.problem.factors;
           if (!is_of(factors[a].vanishing, joint, Quantity::fx) || !is_of(factors[b].vanishing, joint, Quantity::fy))
             continue;
-          const std::size_t first = pair_function(a), second = pair_function(b);
-          of_joint.pairs.push_back({std::min(first, second), std::max(first, second)});
+          of_joint.pairs.push_back({pair_function(a), pair_function(b)});
         }
     };
     for (const std::size_t i : factors_of(Quantity::fx, Quantity::fy))

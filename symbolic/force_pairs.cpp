@@ -82,7 +82,7 @@ std::optional<std::vector<PolyPair>> PairReduction::lowered_by(const Poly& p, co
     const Poly lower = other ? modulo(p, factor.poly, *other).primitive() : p;
     if (lower.is_zero()) return std::nullopt;
     if (!lower.is_constant() && !elimination_->are_components_of_link(lower, factor.poly))
-      pairs.push_back({lower, factor.poly});
+      pairs.push_back({p, factor.poly});
   }
   return pairs;
 }
