@@ -113,7 +113,10 @@ class WrittenGear {
     for (const Value& element : elements(written, 2)) {
       teeth_.at(i) = read_number(m_, part_of(element, "the teeth of " + what_, ""), Sign::any).value;
       if (teeth_.at(i).get_den() != 1 || teeth_.at(i) == 0)
-        throw InputError(element.where, "the teeth of " + what_ + " are no whole number", "write such as [20, 40]");
+        throw InputError(element.where,
+                         teeth_.at(i) == 0 ? "a wheel of " + what_ + " has no teeth"
+                                           : "the teeth of " + what_ + " are no whole number",
+                         "write such as [20, 40]");
       ++i;
     }
     if (teeth_[0] < 0 || (teeth_[1] < 0 && -teeth_[1] <= teeth_[0]))

@@ -294,9 +294,21 @@ void FactorEmission::force_probes() {
   });
   if (!singular || !d_.wanted(Quantity::f) || problem.tower.coordinates.size() != 2 || !d_.preload.joints.empty())
     return;
+  // Where one component has no factor of its own the whole force vanishes along curves alone.
+  const auto has_own = [&](const std::string& joint, Quantity component) {
+    return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
+      const auto names = [&](Quantity quantity) {
+        return std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
+                           [&](const Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
+      };
+      return factor.role == FactorRole::reaction && names(component) &&
+             !names(component == Quantity::fx ? Quantity::fy : Quantity::fx);
+    });
+  };
   for (const mechanism::Joint& joint : d_.mechanism.joints) {
     const std::vector<Quantity> components = core::force_components(problem, joint.name);
     if (!d_.selected(joint.name) || components != std::vector{Quantity::fx, Quantity::fy}) continue;
+    if (!has_own(joint.name, Quantity::fx) || !has_own(joint.name, Quantity::fy)) continue;
     core::ForceProbe probe{joint.name, {}, {}};
     bool known = true;
     for (std::size_t c = 0; c < components.size() && known; ++c) {

@@ -199,6 +199,7 @@ TEST(Advice, SaysWhatIsWrongWithAGearBeforeItsFrameIsMissed) {
   for (const auto& [from, to, words] : std::vector<std::array<std::string, 3>>{
            {"teeth: [40, 20]", "radii: [40, 20]", "unknown key 'radii' in gear W"},
            {"teeth: [40, 20]", "teeth: [40.5, 20]", "the teeth of gear W are no whole number"},
+           {"teeth: [40, 20]", "teeth: [40, 0]", "a wheel of gear W has no teeth"},
            {"centres: [O1, O2]", "centres: [O1, O1]", "gear W has both centres at O1"},
            {"centres: [O1, O2]", "centres: [O1, T2]", "point T2: gear W gives no frame for wheel2 here"},
            {"teeth: [40, 20]", "distance: 50, teeth: [40, 20]",
