@@ -288,8 +288,8 @@ void Geometry::take_samples() {
   constexpr std::size_t poses = 16;
   if (keep_parameters_) return;
   for (const std::vector<double>& pose : mechanism::spread_poses(*mechanism_, poses)) {
-    std::vector<double>& at =
-        samples_.emplace_back(std::vector<double>(static_cast<std::size_t>(ring_->size()), 0.0)).at;
+    samples_.push_back({std::vector<double>(static_cast<std::size_t>(ring_->size()), 0.0)});
+    std::vector<double>& at = samples_.back().at;
     for (std::size_t i = 0; i < pose.size(); ++i) {
       const double lower = core::to_double(mechanism_->coordinates[i].lower);
       const double upper = core::to_double(mechanism_->coordinates[i].upper);
