@@ -142,15 +142,17 @@ bool is_proven_at(const LocusMap& map, const WorkingMode& mode, const std::strin
   });
 }
 
-/// Joins a joint to a point already found, or adds the point.
+/// Joins a joint to a point already found, or adds the point. Where |A| is proven to vanish with the numerators of one
+/// force they all do: without limit, one proof is of all joints.
 void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
   for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
     IsolatedPoint& isolated_point = map.isolated_points[i];
     if (isolated_point.mode != point.mode || isolated_point.kind != point.kind ||
-        isolated_point.certified != point.certified ||
+        (isolated_point.certified != point.certified && point.kind != LocusKind::no_limit) ||
         std::hypot(isolated_point.at[0] - point.at[0], isolated_point.at[1] - point.at[1]) > same) {
       continue;
     }
+    isolated_point.certified = isolated_point.certified || point.certified;
     for (const core::Vanishing& v : point.vanishing) {
       if (std::find(isolated_point.vanishing.begin(), isolated_point.vanishing.end(), v) ==
           isolated_point.vanishing.end()) {
