@@ -57,7 +57,9 @@ void require_answerable(const Mechanism& mechanism, const Task& task, const Veri
 std::string limit_at(const Mechanism& mechanism, const numeric::NumericModel& model, std::span<const double> at,
                      const DyadSides& sides, double passes) {
   const std::optional<numeric::LimitEnd> end = numeric::tightest_limit(model, at, sides);
-  return end && end->slack <= passes ? mechanism::words_of_end(mechanism, end->limit, end->upper) : std::string();
+  if (end && end->slack <= passes) return mechanism::words_of_end(mechanism, end->limit, end->upper);
+  const auto unmet = numeric::bounded_numerators(model, at, sides).unmet;
+  return unmet ? mechanism::words_of_mesh(mechanism.joints[static_cast<std::size_t>(*unmet)]) : std::string();
 }
 
 core::WitnessLoad load_at(const numeric::Posture& posture, std::size_t load, const Mechanism& mechanism) {

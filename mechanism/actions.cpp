@@ -91,6 +91,10 @@ std::string words_of_reach(const Spring& spring) {
   return "torsion spring " + spring.name + " half a turn off its rest";
 }
 
+std::string words_of_mesh(const Joint& joint) {
+  return (joint.meshing->flank ? "flank of gear " : "span of belt ") + joint.name;
+}
+
 std::string words_of_end(const Mechanism& mechanism, std::size_t limit, bool upper) {
   if (limit < mechanism.limits.size()) return words_of(mechanism, mechanism.limits[limit], upper);
   std::size_t left = limit - mechanism.limits.size();

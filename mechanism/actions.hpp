@@ -54,6 +54,9 @@ std::string words_of_law(const Mechanism& mechanism, const Joint& joint, const R
 /// "tension of K1 at 60 N", "B2 at 30 N m": of an effort that is determined, in N and N m.
 std::string words_of_bound(const Joint& joint, const Rational& bound);
 
+/// "flank of gear G" or "span of belt T": of a mesh that bears one way only.
+std::string words_of_mesh(const Joint& joint);
+
 /// Efforts that follow a law with bounds.
 std::vector<JointIndex> bounded_laws(const Mechanism& mechanism);
 

@@ -75,13 +75,14 @@ double least(double value) { return value; }
 /// What it may be: a value that cannot be told from zero is no reason to refuse a pose.
 double least(const Bounded& bounded) { return bounded.value + bounded.error; }
 
-/// Whether the flanks of the working mode bear, and no span is slack. `numerator`: of a column.
+/// The first flank of the working mode that does not bear, or belt with a slack span; the end: none.
+/// `numerator`: of a column.
 template <class Numerator>
-bool meets(const std::vector<Teeth>& all, const Numerator& numerator) {
-  return std::all_of(all.begin(), all.end(), [&](const Teeth& teeth) {
+std::vector<Teeth>::const_iterator unmet(const std::vector<Teeth>& all, const Numerator& numerator) {
+  return std::find_if(all.begin(), all.end(), [&](const Teeth& teeth) {
     const auto n = numerator(teeth.column), d = numerator(teeth.determinant);
-    if (teeth.most == 0) return !(least(n * d) < 0);
-    return !(least(d * d * decltype(d)(teeth.most * teeth.most) - n * n) < 0);
+    if (teeth.most == 0) return least(n * d) < 0;
+    return least(d * d * decltype(d)(teeth.most * teeth.most) - n * n) < 0;
   });
 }
 
@@ -234,7 +235,8 @@ void reaction_field(const NumericModel& model, std::span<const double> poses, st
     evaluator.solve(model.elimination, numerators.data());
     for (int l = 0; l < count; ++l) {
       const std::size_t pose = first + static_cast<std::size_t>(l);
-      const bool here = evaluator.reachable(l) && meets(teeth, [&](std::size_t k) { return numerator(k, l); });
+      const bool here =
+          evaluator.reachable(l) && unmet(teeth, [&](std::size_t k) { return numerator(k, l); }) == teeth.end();
       field.determinants[pose] = here ? numerator(model.unknowns.size(), l) : nan;
       for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
         field.numerators[k * field.poses + pose] = here ? numerator(k, l) : nan;
@@ -268,7 +270,12 @@ BoundedNumerators bounded_numerators(const NumericModel& model, std::span<const 
   result.values.resize(model.unknowns.size() + 1);
   evaluator.solve(model.elimination, result.values.data());
   result.determinant = result.values.back();
-  result.reachable = result.reachable && meets(teeth_of(model), [&](std::size_t k) { return result.values[k]; });
+  const std::vector<Teeth> teeth = teeth_of(model);
+  if (const auto broken = unmet(teeth, [&](std::size_t k) { return result.values[k]; });
+      result.reachable && broken != teeth.end()) {
+    result.reachable = false;
+    result.unmet = model.unknowns[broken->column].joint;
+  }
   result.values.pop_back();
   if (model.mechanism.space == mechanism::Space::planar || !result.reachable) return result;
   for (const std::optional<Triple>& axis : model.axes) {

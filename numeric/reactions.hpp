@@ -90,6 +90,8 @@ struct BoundedNumerators {
   Bounded determinant;          ///< |A|
   /// Of every joint in space the unit vector of its axis; empty in the plane.
   std::vector<std::array<Bounded, 3>> axes = {};
+  /// Of a pose out of reach: a gear whose flank would have to pull, or a belt with a slack span.
+  std::optional<mechanism::JointIndex> unmet = {};
 };
 
 /// u × f: as large as the part of a force f across the unit vector u.

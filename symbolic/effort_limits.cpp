@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 
 namespace clearloci::symbolic {
@@ -39,11 +40,7 @@ std::vector<LimitCondition> effort_limits(const Geometry& geometry, const std::v
              : tight(*force, determinant, mechanism::value_of(joint.meshing->most, m),
                      joint.axes.empty() ? Poly(geometry.ring(), 1) : squared_axis(geometry, joint), geometry.ring());
     if (natural.is_constant() && natural.plain().terms.front().coefficient > 0) continue;
-    all.push_back({natural,
-                   gear ? "flank of gear " + joint.name : "span of belt " + joint.name,
-                   joint.where,
-                   {},
-                   m.limits.size()});
+    all.push_back({natural, mechanism::words_of_mesh(joint), joint.where, {}, m.limits.size()});
   }
   return all;
 }

@@ -437,11 +437,14 @@ TEST(BeltOverACycle, IsVerifiedWithinTheSlackOfItsSpans) {
   ASSERT_TRUE(slack(60 * degree));
   ASSERT_FALSE(slack(100 * degree));
   const std::string task = "format: 1\npath: [[FROM deg], [TO deg]]\nloads_within: [{load: 1, radius: 5}]\n";
-  const auto verdict = [&](const std::string& from, const std::string& to) {
-    return verify(model, parse_task(replaced(replaced(task, "FROM", from), "TO", to), model)).verdict;
+  const auto answer = [&](const std::string& from, const std::string& to) {
+    return verify(model, parse_task(replaced(replaced(task, "FROM", from), "TO", to), model));
   };
-  EXPECT_EQ(verdict("100", "110"), Verdict::verified);
-  EXPECT_EQ(verdict("50", "60"), Verdict::refuted);
+  EXPECT_EQ(answer("100", "110").verdict, Verdict::verified);
+  const Verification refuted = answer("50", "60");
+  EXPECT_EQ(refuted.verdict, Verdict::refuted);
+  ASSERT_TRUE(refuted.witness);
+  EXPECT_EQ(refuted.witness->limit, "span of belt W");
 }
 
 TEST(ScaraBelt, BeltHoldsTheForearm) {
