@@ -296,13 +296,10 @@ void FactorEmission::force_probes() {
     return;
   // Where one component has no factor of its own the whole force vanishes along curves alone.
   const auto has_own = [&](const std::string& joint, Quantity component) {
+    const Quantity other = component == Quantity::fx ? Quantity::fy : Quantity::fx;
     return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
-      const auto names = [&](Quantity quantity) {
-        return std::any_of(factor.vanishing.begin(), factor.vanishing.end(),
-                           [&](const Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
-      };
-      return factor.role == FactorRole::reaction && names(component) &&
-             !names(component == Quantity::fx ? Quantity::fy : Quantity::fx);
+      return factor.role == FactorRole::reaction && is_of(factor.vanishing, joint, component) &&
+             !is_of(factor.vanishing, joint, other);
     });
   };
   for (const mechanism::Joint& joint : d_.mechanism.joints) {

@@ -18,6 +18,9 @@
 
 namespace clearloci::symbolic {
 
+/// Whether a list names a quantity of a joint, however often it vanishes.
+bool is_of(const std::vector<core::Vanishing>& list, const std::string& joint, core::Quantity quantity);
+
 /// Required: the factors are collected and selected. The problem has its factors in the order of the calls.
 class FactorEmission {
  public:

@@ -8,14 +8,10 @@ namespace clearloci::symbolic {
 using core::LocusFactor;
 using core::Quantity;
 
-namespace {
-
 bool is_of(const std::vector<core::Vanishing>& list, const std::string& joint, Quantity quantity) {
   return std::any_of(list.begin(), list.end(),
                      [&](const core::Vanishing& v) { return v.joint == joint && v.quantity == quantity; });
 }
-
-}  // namespace
 
 std::size_t FactorEmission::pair_function(std::size_t factor) {
   const auto [found, fresh] = pair_functions_of_factors_.try_emplace(factor, d_.result.problem.pair_functions.size());
