@@ -113,17 +113,21 @@ std::vector<std::string> differences(const LocusMap& a, const LocusMap& b, EndsO
       found.push_back("only second: " + name(b, b.curves[k]));
       for (const Arc& arc : b.curves[k].arcs) found.push_back("    " + describe(arc));
     }
+  // Maps over an angle alone have one value a point.
+  const auto place = [](const core::IsolatedPoint& point) {
+    return Point2{point.at[0], point.at.size() > 1 ? point.at[1] : 0};
+  };
   const auto has = [&](const LocusMap& map, const core::IsolatedPoint& point) {
     return std::any_of(map.isolated_points.begin(), map.isolated_points.end(), [&](const core::IsolatedPoint& other) {
       return other.kind == point.kind && other.mode == point.mode && other.vanishing == point.vanishing &&
-             same_place({other.at[0], other.at[1]}, {point.at[0], point.at[1]}, size_of(a));
+             same_place(place(other), place(point), size_of(a));
     });
   };
   for (const auto& [from, to, who] : {std::tuple{&a, &b, "first"}, std::tuple{&b, &a, "second"}})
     for (const core::IsolatedPoint& point : from->isolated_points)
       if (!has(*to, point))
         found.push_back(std::string("only ") + who + ": isolated " + to_string(point.kind) + " (" +
-                        std::to_string(point.at[0]) + ", " + std::to_string(point.at[1]) + ")");
+                        std::to_string(place(point)[0]) + ", " + std::to_string(place(point)[1]) + ")");
   return found;
 }
 
