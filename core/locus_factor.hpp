@@ -84,11 +84,22 @@ struct ForceProbe {
   std::array<StraightLine, 2> probes;
 };
 
-/// Pairs of functions that stand for the components of a joint's force: where these are zero together both functions of
-/// a pair are, and the other way round, but for contact-loss curves.
+/// Functions that stand for the components of a joint's force in the plane, by their places among the problem's
+/// `pair_functions`.
+struct ForcePair {
+  std::array<std::size_t, 2> system = {};
+  /// Has to vanish, too, as it does where the system does and `normal` does not.
+  std::optional<std::size_t> third;
+  Polynomial normal;  ///< over the tower
+
+  bool operator==(const ForcePair&) const = default;
+};
+
+/// Where the components are zero together the functions of one of the pairs are, and the other way round, but for
+/// contact-loss curves.
 struct ForcePairs {
   std::string joint;
-  std::vector<std::array<std::size_t, 2>> pairs;  ///< by their places among the problem's `pair_functions`
+  std::vector<ForcePair> pairs;
 };
 
 /// Everything needed to trace: no mechanism any more, only curves. Where a coordinate is an angle, the variable of the

@@ -332,6 +332,9 @@ void FactorEmission::append_roots() {
       for (core::NodeForm::Part& part : factor.nodes->parts) widen(part.sheet);
   }
   for (LocusFactor& function : problem.pair_functions) widen(function.sheet);
+  for (core::ForcePairs& of_joint : problem.force_pairs)
+    for (core::ForcePair& pair : of_joint.pairs)
+      if (pair.third) widen(pair.normal);
   for (core::ForcePlane& plane : problem.force_planes)
     for (core::Polynomial& part : plane.normal) widen(part);
   for (core::WorkingMode& mode : problem.modes) mode.resize(problem.tower.roots.size(), 1);

@@ -12,6 +12,7 @@
 
 #include "symbolic/derivation.hpp"
 #include "symbolic/fold_quotient.hpp"
+#include "symbolic/force_pairs.hpp"
 #include "symbolic/limits.hpp"
 #include "symbolic/margin_nodes.hpp"
 #include "symbolic/margins.hpp"
@@ -57,8 +58,10 @@ class FactorEmission {
   /// tower, null where it vanishes in every pose.
   std::size_t pair_function(std::size_t factor);
   const std::vector<std::size_t>* pair_functions(const Poly& natural);
-  /// False, and nothing is added, where both are zero along a curve.
-  bool add_pairs(const Poly& first, const Poly& second, core::ForcePairs& of_joint);
+  /// In the place of two factors, of fx and fy. False, and nothing is added, where both functions are zero along a curve.
+  bool add_pairs(const LowerPair& pair, const std::array<std::size_t, 2>& factors, core::ForcePairs& of_joint);
+  /// Which of the problem's factors a reaction's factor is, of a component of a joint's force.
+  std::vector<std::size_t> parts_of(std::size_t factor, const std::string& joint, core::Quantity component) const;
   /// Takes what divides |A| too out of what vanishes on a factor over the tower: reactions are quotients.
   std::vector<core::Vanishing> without_determinant(const Poly& sheet, std::vector<core::Vanishing> vanishing);
   /// Of the factors from `first` on those with the curves of |A| or of a reaction before.

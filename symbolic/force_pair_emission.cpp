@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "symbolic/factor_emission.hpp"
-#include "symbolic/force_pairs.hpp"
 
 namespace clearloci::symbolic {
 
@@ -42,23 +41,43 @@ const std::vector<std::size_t>* FactorEmission::pair_functions(const Poly& natur
   return &pair_functions_of_natural_.emplace_back(natural, std::move(places)).second;
 }
 
-bool FactorEmission::add_pairs(const Poly& first, const Poly& second, core::ForcePairs& of_joint) {
-  const std::vector<std::size_t>* const a = pair_functions(first);
-  const std::vector<std::size_t>* const b = pair_functions(second);
-  if (a == nullptr || b == nullptr) return false;
+std::vector<std::size_t> FactorEmission::parts_of(std::size_t factor, const std::string& joint,
+                                                  Quantity component) const {
+  std::vector<std::size_t> parts;
+  for (std::size_t f = ranges_[factor][0]; f < ranges_[factor][1]; ++f)
+    if (is_of(d_.result.problem.factors[f].vanishing, joint, component)) parts.push_back(f);
+  return parts;
+}
+
+bool FactorEmission::add_pairs(const LowerPair& pair, const std::array<std::size_t, 2>& factors,
+                               core::ForcePairs& of_joint) {
+  const std::vector<std::size_t>* const a = pair_functions(pair.first);
+  if (a == nullptr) return false;
   const auto& functions = d_.result.problem.pair_functions;
-  std::vector<std::array<std::size_t, 2>> pairs;
-  for (const std::size_t i : *a)
-    for (const std::size_t k : *b) {
-      if (functions[i].sheet == functions[k].sheet) return false;
-      pairs.push_back({i, k});
-    }
+  std::vector<core::ForcePair> pairs;
+  if (pair.normal) {
+    const bool by_x = pair.second == d_.factors[factors[0]].natural;
+    const core::Polynomial normal =
+        core::scaled_for_doubles(d_.elimination.over_tower(*pair.normal).plain(d_.geometry.tower_variables()));
+    for (const std::size_t i : *a)
+      for (const std::size_t k : parts_of(factors[by_x ? 0 : 1], of_joint.joint, by_x ? Quantity::fx : Quantity::fy))
+        for (const std::size_t third :
+             parts_of(factors[by_x ? 1 : 0], of_joint.joint, by_x ? Quantity::fy : Quantity::fx))
+          pairs.push_back({{i, pair_function(k)}, pair_function(third), normal});
+  } else {
+    const std::vector<std::size_t>* const b = pair_functions(pair.second);
+    if (b == nullptr) return false;
+    for (const std::size_t i : *a)
+      for (const std::size_t k : *b) pairs.push_back({{i, k}, {}, {}});
+  }
   // The first one is that of which touches are told: a linear one seldom has a double zero.
-  for (const auto& [i, k] : pairs) {
-    const bool known = std::any_of(of_joint.pairs.begin(), of_joint.pairs.end(), [i = i, k = k](const auto& other) {
-      return other == std::array{i, k} || other == std::array{k, i};
-    });
-    if (!known) of_joint.pairs.push_back({i, k});
+  for (core::ForcePair& one : pairs) {
+    const auto& [i, k] = one.system;
+    if (functions[i].sheet == functions[k].sheet) return false;
+    const core::ForcePair turned = {{k, i}, one.third, one.normal};
+    const bool known = std::any_of(of_joint.pairs.begin(), of_joint.pairs.end(),
+                                   [&](const auto& other) { return other == one || other == turned; });
+    if (!known) of_joint.pairs.push_back(std::move(one));
   }
   return true;
 }
@@ -68,7 +87,7 @@ void FactorEmission::force_pairs() {
       d_.mechanism.space != mechanism::Space::planar)
     return;
   PairReduction reduction(d_.geometry, d_.elimination, d_.determinants.determinant);
-  std::vector<std::pair<PolyPair, std::optional<std::vector<PolyPair>>>> known;
+  std::vector<std::pair<PolyPair, std::optional<std::vector<LowerPair>>>> known;
   for (const std::string& joint : d_.result.problem.joints) {
     if (core::force_components(d_.result.problem, joint) != std::vector{Quantity::fx, Quantity::fy}) continue;
     const FactoredPoly* const x = numerator(d_.reactions, joint, Quantity::fx);
@@ -86,13 +105,9 @@ void FactorEmission::force_pairs() {
     core::ForcePairs of_joint{joint, {}};
     bool is_lower = false;
     const auto add_as_it_is = [&](std::size_t i, std::size_t k) {
-      for (std::size_t a = ranges_[i][0]; a < ranges_[i][1]; ++a)
-        for (std::size_t b = ranges_[k][0]; b < ranges_[k][1]; ++b) {
-          const auto& factors = d_.result.problem.factors;
-          if (!is_of(factors[a].vanishing, joint, Quantity::fx) || !is_of(factors[b].vanishing, joint, Quantity::fy))
-            continue;
-          of_joint.pairs.push_back({pair_function(a), pair_function(b)});
-        }
+      for (const std::size_t a : parts_of(i, joint, Quantity::fx))
+        for (const std::size_t b : parts_of(k, joint, Quantity::fy))
+          of_joint.pairs.push_back({{pair_function(a), pair_function(b)}, {}, {}});
     };
     for (const std::size_t i : factors_of(Quantity::fx, Quantity::fy))
       for (const std::size_t k : factors_of(Quantity::fy, Quantity::fx)) {
@@ -107,7 +122,7 @@ void FactorEmission::force_pairs() {
         core::ForcePairs lower{joint, of_joint.pairs};
         const bool all_added =
             found->second && std::all_of(found->second->begin(), found->second->end(),
-                                         [&](const PolyPair& pair) { return add_pairs(pair[0], pair[1], lower); });
+                                         [&](const LowerPair& pair) { return add_pairs(pair, {i, k}, lower); });
         if (all_added)
           of_joint = std::move(lower);
         else

@@ -52,7 +52,7 @@ const std::vector<PairReduction::Way>& PairReduction::ways() {
   return *ways_;
 }
 
-std::optional<std::vector<PolyPair>> PairReduction::lowered(const Poly& x, const Poly& y,
+std::optional<std::vector<LowerPair>> PairReduction::lowered(const Poly& x, const Poly& y,
                                                             const std::array<FactoredPoly, 2>& components) {
   if (x.total_degree() == 1 && y.total_degree() == 1) return std::nullopt;
   if (auto pairs = lowered_by(x, y)) return pairs;
@@ -69,12 +69,12 @@ std::optional<std::vector<PolyPair>> PairReduction::lowered(const Poly& x, const
   return std::nullopt;
 }
 
-std::optional<std::vector<PolyPair>> PairReduction::lowered_by(const Poly& p, const Poly& q) const {
+std::optional<std::vector<LowerPair>> PairReduction::lowered_by(const Poly& p, const Poly& q) const {
   const std::optional<int> variable = last_variable(p);
   if (!variable) return std::nullopt;
   const Poly rest = modulo(q, p, *variable);
   if (rest.is_zero()) return std::nullopt;
-  std::vector<PolyPair> pairs;
+  std::vector<LowerPair> pairs;
   for (const PolyFactor& factor : factored(rest, determinant_->factors).factors) {
     if (factor.poly.total_degree() >= q.total_degree() || factor.poly.length() > most_terms_over_tower)
       return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<std::vector<PolyPair>> PairReduction::lowered_by(const Poly& p, co
   return pairs;
 }
 
-std::optional<std::vector<PolyPair>> PairReduction::lowered_by_moment(const Poly& p, const Poly& q,
+std::optional<std::vector<LowerPair>> PairReduction::lowered_by_moment(const Poly& p, const Poly& q,
                                                                       const FactoredPoly& beside_p,
                                                                       const core::Rational& beside_q, bool p_is_x) {
   for (const PolyFactor& factor : beside_p.factors) {
@@ -106,7 +106,7 @@ std::optional<std::vector<PolyPair>> PairReduction::lowered_by_moment(const Poly
       const std::optional<core::Rational> scale = ratio(way[p_is_x ? 0 : 1], factor.poly);
       if (!scale) continue;
       Poly rest = q.scaled(*scale * beside_q) - way[p_is_x ? 1 : 0] * other_part;
-      std::vector<PolyPair> pairs;
+      std::vector<LowerPair> pairs;
       for (const PolyFactor& part : determinant_->factors) {
         bool divides = false;
         for (Poly quotient(p.ring()); !rest.is_zero() && rest.divides(part.poly, quotient); divides = true)
@@ -127,45 +127,62 @@ Poly PairReduction::known_on(const Poly& divisor, Poly p) {
   return p;
 }
 
-std::optional<std::vector<PolyPair>> PairReduction::lowered_by_two_moments(const Poly& x, const Poly& y) {
-  // Each of the two is c (x, y) = g b - h a, with ways of up to four terms.
-  if (std::max(x.length(), y.length()) > 8 * most_terms_over_tower) return std::nullopt;
-  struct Moment {
-    const Way* way;
-    const Poly* divisor;
-    Poly value;  // over the divisor
-  };
-  std::vector<Moment> moments;
+std::vector<PairReduction::Moment> PairReduction::moments(const Poly& x, const Poly& y) {
+  std::vector<Moment> found;
   for (const Way& way : ways()) {
     const Poly moment = way[0] * y - way[1] * x;
     Poly quotient(x.ring());
     for (const PolyFactor& part : determinant_->factors)
-      if (!moment.is_zero() && moment.divides(part.poly, quotient)) moments.push_back({&way, &part.poly, quotient});
+      if (!moment.is_zero() && moment.divides(part.poly, quotient)) found.push_back({&way, &part.poly, quotient});
   }
-  for (std::size_t i = 0; i < moments.size(); ++i)
-    for (std::size_t k = 0; k < moments.size(); ++k) {
-      if (i == k || moments[i].divisor != moments[k].divisor) continue;
-      const Way &a = *moments[i].way, &b = *moments[k].way;
-      if (!ratio(a[0] * b[1] - a[1] * b[0], *moments[i].divisor)) continue;
-      const std::optional<core::Rational> squared = elimination_->constant_over_tower(a[0] * a[0] + a[1] * a[1]);
-      if (!squared || *squared == 0) continue;
-      const Poly &g = moments[i].value, &h = moments[k].value;
-      const Poly singular = known_on(*moments[i].divisor, (a[0] * b[0] + a[1] * b[1]) * g - h.scaled(*squared));
-      if (singular.is_zero() || std::max({singular.length(), g.length(), h.length()}) > most_terms_over_tower) continue;
-      std::vector<PolyPair> pairs;
-      for (const PolyFactor& first : factored(g, determinant_->factors).factors)
-        for (const PolyFactor& second : factored(h, determinant_->factors).factors) {
-          if (first.poly == second.poly) return std::nullopt;
-          if (!elimination_->are_components_of_link(first.poly, second.poly))
-            pairs.push_back({first.poly, second.poly});
-        }
-      for (const PolyFactor& factor : factored(singular, determinant_->factors).factors) {
-        if (factor.poly == *moments[i].divisor) return std::nullopt;
-        pairs.push_back({*moments[i].divisor, factor.poly});
-      }
-      return pairs;
+  return found;
+}
+
+std::optional<std::vector<LowerPair>> PairReduction::regular_pairs(const Poly& g, const Poly& h) const {
+  std::vector<LowerPair> pairs;
+  for (const PolyFactor& first : factored(g, determinant_->factors).factors)
+    for (const PolyFactor& second : factored(h, determinant_->factors).factors) {
+      if (first.poly == second.poly) return std::nullopt;
+      if (!elimination_->are_components_of_link(first.poly, second.poly)) pairs.push_back({first.poly, second.poly});
     }
-  return std::nullopt;
+  return pairs;
+}
+
+std::optional<Poly> PairReduction::short_work(const Moment& a, const Moment& b) {
+  const auto dot = [](const Way& one, const Way& other) { return one[0] * other[0] + one[1] * other[1]; };
+  const std::optional<core::Rational> squared = elimination_->constant_over_tower(dot(*a.way, *a.way));
+  if (!squared || *squared == 0) return std::nullopt;
+  Poly work = known_on(*a.divisor, dot(*a.way, *b.way) * a.value - b.value.scaled(*squared));
+  if (work.is_zero() || work.length() > most_terms_over_tower) return std::nullopt;
+  return work;
+}
+
+std::optional<std::vector<LowerPair>> PairReduction::lowered_by_two_moments(const Poly& x, const Poly& y) {
+  // Each of the two is c (x, y) = g b - h a, with ways of up to four terms.
+  const std::size_t terms = std::max(x.length(), y.length());
+  if (terms > 8 * most_terms_over_tower) return std::nullopt;
+  std::optional<std::vector<LowerPair>> by_component;
+  const std::vector<Moment> known = moments(x, y);
+  for (const Moment& a : known)
+    for (const Moment& b : known) {
+      if (&a == &b || a.divisor != b.divisor ||
+          std::max(a.value.length(), b.value.length()) > std::max(most_terms_over_tower, terms) ||
+          !ratio((*a.way)[0] * (*b.way)[1] - (*a.way)[1] * (*b.way)[0], *a.divisor))
+        continue;
+      if (const std::optional<Poly> work = short_work(a, b)) {
+        std::optional<std::vector<LowerPair>> pairs = regular_pairs(a.value, b.value);
+        for (const PolyFactor& factor : factored(*work, determinant_->factors).factors) {
+          if (!pairs || factor.poly == *a.divisor) return std::nullopt;
+          pairs->push_back({*a.divisor, factor.poly});
+        }
+        return pairs;
+      }
+      const bool by_x = !(*a.way)[0].is_zero();
+      if (by_component || x == *a.divisor || y == *a.divisor) continue;
+      by_component = regular_pairs(a.value, b.value);
+      if (by_component) by_component->push_back({*a.divisor, by_x ? x : y, (*a.way)[by_x ? 0 : 1]});
+    }
+  return by_component;
 }
 
 }  // namespace clearloci::symbolic

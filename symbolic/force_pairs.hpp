@@ -10,7 +10,9 @@
 //                     (p, q) -> (p, each of them).
 //     two ways a, b with a x b = c D, D a factor of |A|:  a x (p, q) = D g, b x (p, q) = D h with moments g, h, so that
 //                     c (p, q) = g b - h a. Away from D = 0 this is zero where g = h = 0; on D = 0, where b is
-//                     a (a . b) / |a|^2, where k = (a . b) g - |a|^2 h is: (p, q) -> (g, h), (D, k).
+//                     a (a . b) / |a|^2, where k = (a . b) g - |a|^2 h is: (p, q) -> (g, h), (D, k). There the force
+//                     is along a besides: where p is zero and a_x is not, q is zero. (D, p) stands in the place of
+//                     (D, k) where k is long.
 #pragma once
 
 #include <array>
@@ -24,6 +26,13 @@ namespace clearloci::symbolic {
 
 using PolyPair = std::array<Poly, 2>;
 
+/// Two polynomials that vanish together. With a normal the second one is a component itself, and the other component
+/// has to vanish, too: it does where the normal does not.
+struct LowerPair {
+  Poly first, second;
+  std::optional<Poly> normal = {};
+};
+
 class PairReduction {
  public:
   PairReduction(const Geometry& geometry, const Elimination& elimination, const FactoredPoly& determinant)
@@ -31,19 +40,31 @@ class PairReduction {
 
   /// Irreducible pairs in the place of two factors, one of each component of a force in the plane; none where no lower
   /// ones are known. `components`: the numerators.
-  std::optional<std::vector<PolyPair>> lowered(const Poly& x, const Poly& y,
-                                               const std::array<FactoredPoly, 2>& components);
+  std::optional<std::vector<LowerPair>> lowered(const Poly& x, const Poly& y,
+                                                const std::array<FactoredPoly, 2>& components);
 
  private:
   using Way = std::array<Poly, 2>;
 
   /// Required: p is linear.
-  std::optional<std::vector<PolyPair>> lowered_by(const Poly& p, const Poly& q) const;
+  std::optional<std::vector<LowerPair>> lowered_by(const Poly& p, const Poly& q) const;
   /// Of p times `beside_p` and q times a number: the components without what they share.
-  std::optional<std::vector<PolyPair>> lowered_by_moment(const Poly& p, const Poly& q, const FactoredPoly& beside_p,
-                                                         const core::Rational& beside_q, bool p_is_x);
+  std::optional<std::vector<LowerPair>> lowered_by_moment(const Poly& p, const Poly& q, const FactoredPoly& beside_p,
+                                                          const core::Rational& beside_q, bool p_is_x);
   /// Required: x and y are numerators without what they share.
-  std::optional<std::vector<PolyPair>> lowered_by_two_moments(const Poly& x, const Poly& y);
+  std::optional<std::vector<LowerPair>> lowered_by_two_moments(const Poly& x, const Poly& y);
+
+  /// The moments of a force about the ends of a link, the other one of which is the joint's: both over a factor of |A|.
+  struct Moment {
+    const Way* way;
+    const Poly* divisor;
+    Poly value;  ///< over the divisor
+  };
+  std::vector<Moment> moments(const Poly& x, const Poly& y);
+  /// The pairs (g, h); none where these share a factor.
+  std::optional<std::vector<LowerPair>> regular_pairs(const Poly& g, const Poly& h) const;
+  /// k where it is short, up to multiples of D; else none.
+  std::optional<Poly> short_work(const Moment& a, const Moment& b);
 
   /// The first polynomial asked for that is the same where the divisor vanishes. What all forces are made of there, the
   /// work of the loads in the motion that is free, is searched once.

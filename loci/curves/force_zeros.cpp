@@ -72,8 +72,10 @@ std::vector<ForceZeros> zeros_of_force(const LocusProblem& problem, const std::s
   for (const core::ForcePairs& known : problem.force_pairs) {
     if (known.joint != joint) continue;
     std::vector<ForceZeros> pairs;
-    for (const auto& [first, second] : known.pairs)
-      pairs.push_back({{&problem.pair_functions[first], &problem.pair_functions[second]}});
+    for (const core::ForcePair& pair : known.pairs)
+      pairs.push_back({{&problem.pair_functions[pair.system[0]], &problem.pair_functions[pair.system[1]]},
+                       pair.third ? &problem.pair_functions[*pair.third] : nullptr,
+                       pair.third ? &pair.normal : nullptr});
     return pairs;
   }
   const std::set<FactorSet> sets = sets_of(problem, joint);

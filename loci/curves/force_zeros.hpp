@@ -16,8 +16,8 @@ struct ForceZeros {
   /// Null: the two are of all components. Else it has to vanish, too, and three equations have no common zero in
   /// general (over three coordinates: isolated ones).
   const core::LocusFactor* third = nullptr;
-  /// Of a force that keeps to a plane: where the system vanishes and this does not, the force vanishes. Null: no such
-  /// plane is known.
+  /// Where the system vanishes and this does not, the force vanishes, such as one that keeps to a plane. Null: nothing
+  /// of the kind is known.
   const core::Polynomial* normal = nullptr;
 
   std::vector<const core::LocusFactor*> factors() const;

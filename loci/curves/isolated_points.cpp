@@ -293,21 +293,21 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
       return true;
     };
     // Where |A| is zero too, and not only to the last bit, there is no limit.
-    const auto add_without_limit = [&](const sheet::SheetZero& at, bool is_simple) {
+    const auto add_without_limit = [&](const sheet::SheetZero& at, bool is_proven) {
       if (!ends_on_singularity(map, mode, {at.x, at.y}, 1e-7 * size))
         add_point(map, first,
                   {LocusKind::no_limit,
                    {{joint, Quantity::f, 1}},
                    {at.x, at.y},
                    mode,
-                   is_simple && has_no_limit(problem, mode, joint, factors, at)},
+                   is_proven && has_no_limit(problem, mode, joint, factors, at)},
                   same_point * size);
     };
     for (const sheet::SheetZero& zero : found.zeros) {
       const std::optional<bool> vanishes = vanishes_at(problem, mode, factors, zero);
       if (!vanishes) continue;
       if (on_direct_singularity(problem, mode, zero)) {
-        add_without_limit(zero, true);
+        add_without_limit(zero, *vanishes);
         continue;
       }
       const bool added = add({zero.x, zero.y}, *vanishes);

@@ -103,13 +103,31 @@ double size_of(const core::LocusProblem& problem) {
   return size;
 }
 
+/// Whether |A| is proven to be zero at a zero of the system, as it holds a factor of |A| itself; then a numerator that
+/// crosses this factor there, as its zero is a simple one of both, has quotients of any size around.
+bool crosses_singularity(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                         const core::ForceProbe& probe, const ForceZeros& zeros, const sheet::SheetZero& zero,
+                         double reach) {
+  const auto singular = std::find_if(zeros.system.begin(), zeros.system.end(), [&](const LocusFactor* function) {
+    return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
+      return factor.role == core::FactorRole::direct_singularity && factor.sheet == function->sheet;
+    });
+  });
+  if (singular == zeros.system.end()) return false;
+  const core::Polynomial none{problem.tower.variables(), {}};
+  return std::any_of(probe.numerators.begin(), probe.numerators.end(), [&](const core::StraightLine& numerator) {
+    Neighbourhood around(problem, mode, zero, reach);
+    return around.narrow({(*singular)->sheet, (*singular)->line}, {none, numerator});
+  });
+}
+
 }  // namespace
 
 bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mode, const std::string& joint,
                   const ForceZeros& zeros, const sheet::SheetZero& zero) {
   const auto probe = std::find_if(problem.force_probes.begin(), problem.force_probes.end(),
                                   [&](const core::ForceProbe& known) { return known.joint == joint; });
-  if (probe == problem.force_probes.end() || zeros.third != nullptr) return false;
+  if (probe == problem.force_probes.end()) return false;
   const core::Polynomial none{problem.tower.variables(), {}};
   // Of functions that stand for the components (core::ForcePairs) the whole numerators tell.
   std::vector<std::pair<std::size_t, SheetFunction>> components;
@@ -120,7 +138,10 @@ bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mo
     for (const std::size_t c : {0, 1}) components.emplace_back(c, SheetFunction{none, probe->numerators[c]});
   constexpr std::array shares = {1e-9, 1e-7};  // of the box
   for (const double share : shares) {
-    const Neighbourhood whole(problem, mode, zero, std::max(share * size_of(problem), 16 * zero.radius));
+    const double reach = std::max(share * size_of(problem), 16 * zero.radius);
+    if (crosses_singularity(problem, mode, *probe, zeros, zero, reach)) return true;
+    if (zeros.third != nullptr) continue;
+    const Neighbourhood whole(problem, mode, zero, reach);
     for (const auto& [own, component] : components) {
       Neighbourhood around = whole;
       if (!around.narrow(component, {none, probe->numerators[1 - own]})) continue;
