@@ -2,6 +2,7 @@
 // Krawczyk's proof of existence and uniqueness.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -73,7 +74,7 @@ class ZeroSearch {
     std::size_t touch_trials = 0;
     std::vector<PlaneCell> undecided;
     std::size_t seeds = 0, live = 0;  ///< how many there were, and cells there are now
-    std::size_t before = 0;           ///< cells there were when these were twice as large
+    std::array<std::size_t, 4> before = {};  ///< cells there were when these were twice as large, 4 times, ...
     bool gave_up = false;
   };
 
