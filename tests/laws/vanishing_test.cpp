@@ -61,6 +61,22 @@ TEST(Vanishing, ForcesHaveNoLimitOnTheRimWhereTheLoadIsAlongTheLegs) {
   }
 }
 
+TEST(Vanishing, ADyadInLineWithItsCrankLeavesNoPlaceOpen) {
+  const core::LocusMap map = trace_loci(corpus("stacked_dyad_in_line_with_its_crank.yaml"), {});
+  EXPECT_TRUE(map.complete);
+  EXPECT_TRUE(map.open.empty());
+}
+
+TEST(Vanishing, AForceHasNoLimitWhereTheDyadOnACrankIsStretched) {
+  LociRequest request;
+  request.joints = {"C"};
+  const core::LocusMap map = trace_loci(corpus("stacked_dyad_without_limit.yaml"), request);
+  EXPECT_EQ(std::count_if(map.isolated_points.begin(), map.isolated_points.end(),
+                          [](const core::IsolatedPoint& point) { return point.kind == LocusKind::no_limit; }),
+            3);
+  for (const core::IsolatedPoint& point : map.isolated_points) EXPECT_TRUE(point.certified);
+}
+
 TEST(Vanishing, CoaxialLegsBearTheirMotorsCouplesOnTheRim) {
   const mechanism::Mechanism leg = corpus("minitaur.yaml");
   for (const loci::Engine engine : {loci::Engine::adaptive_then_exact, loci::Engine::exact}) {
