@@ -122,9 +122,8 @@ class GraphBuilder {
   /// Other cuts move neither the border nor a star's corners. `segment`: of the border.
   void blame(int patch, int axis, const Interval& segment, const Trouble& trouble, bool runs_along);
 
-  /// Position of `side` among the charts of its star.
-  static int chart_of(const Side side) {
-    return side == Side::right ? 0 : side == Side::top ? 1 : side == Side::left ? 2 : 3;
+  const ChartBorder& border_of(int patch, int axis, int end) const {
+    return parts_.borders[static_cast<std::size_t>(patch)][static_cast<std::size_t>(2 * axis + (end > 0 ? 1 : 0))];
   }
 
   void hand_over(int patch, int index, int axis, int end, std::vector<Interval> zero);

@@ -57,7 +57,10 @@ std::optional<bool> GraphBuilder::enters_mode(int patch, const std::vector<Inter
   std::vector<int> vanishing;
   for (std::size_t j = 0; j < mode_.size(); ++j)
     if (zero[2 + j].sign() == 0) vanishing.push_back(static_cast<int>(j));
-  const Star& star = parts_.stars[static_cast<std::size_t>(graph_.patches[patch].chart.star)];
+  const Chart& chart = graph_.patches[patch].chart;
+  const Star& at = parts_.stars[static_cast<std::size_t>(chart.star)];
+  const Star& star = chart.is_tangential() ? at.tangential.front() : at;
+  if (chart.is_wing() && zero[0].lower() > 0) return std::nullopt;
   if (vanishing.size() != 1 || (star.apex && !star.apex->exact)) return std::nullopt;
   const auto j = static_cast<std::size_t>(vanishing.front());
   if (!vanishes_with(star, tower_, around(star, curve_.polynomial), vanishing.front())) return std::nullopt;
@@ -208,14 +211,14 @@ void GraphBuilder::meet_seams(int patch) {
 
 void GraphBuilder::meet_border(int patch) {
   const PlaneCell& domain = graph_.patches[patch].domain;
-  const Side side = graph_.patches[patch].chart.side;
+  const Chart& chart = graph_.patches[patch].chart;
   for (int axis = 0; axis < 2; ++axis) {
     ZeroSearch search = search_along(patch, axis);
     for (const int end : {-1, 1}) {
       const Interval& range = axis == 0 ? domain.x : domain.y;
       const double at = end < 0 ? range.lower() : range.upper();
-      // Right and left charts find the crossings of their sides with the top and bottom ones.
-      if (axis == 1 && (side == Side::top || side == Side::bottom)) continue;
+      const ChartBorder& border = border_of(patch, axis, end);
+      if (!border.is_searched) continue;
       bool runs_along = false;
       for (std::size_t l = 0; l < at_leaf_[patch].size(); ++l) {
         const int index = static_cast<int>(l);
@@ -226,8 +229,9 @@ void GraphBuilder::meet_border(int patch) {
         const std::size_t most_cells =
             runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();
         Trouble trouble;
-        const bool at_star = side != Side::plane && axis == 0 && end < 0;
-        const bool is_graph = leaf(patch, index).kind == LeafKind::graph && leaf(patch, index).along == 1;
+        const bool at_star = border.to == ChartBorder::To::star;
+        const bool is_graph =
+            leaf(patch, index).kind == LeafKind::graph && leaf(patch, index).along == 1 && !chart.is_wing();
         auto zeros =
             zeros_on(patch, search, axis, at, other.lower(), other.upper(), most_cells, at_star, is_graph, trouble);
         runs_along = runs_along || trouble.runs_along;
@@ -256,23 +260,25 @@ void GraphBuilder::blame(int patch, int axis, const Interval& segment, const Tro
 }
 
 void GraphBuilder::hand_over(int patch, int index, int axis, int end, std::vector<Interval> zero) {
+  using To = ChartBorder::To;
   const Chart& chart = graph_.patches[patch].chart;
-  if (chart.side == Side::plane) {
+  const ChartBorder& border = border_of(patch, axis, end);
+  if (border.to == To::edge) {
     at_leaf_[patch][index].push_back({add_crossing(patch, zero, Crossing::Kind::box), zero});
     return;
   }
-  if (axis == 0 && end < 0) {
+  if (border.to == To::star) {
     // Two branches that arrive side by side do so in one crossing.
     std::vector<LeafCrossing>& seen = at_leaf_[patch][index];
     const bool again = !seen.empty() && graph_.crossings[seen.back().crossing].kind == Crossing::Kind::star &&
-                       seen.back().enclosure[1].middle() == zero[1].middle();
+                       seen.back().enclosure[1 - axis].middle() == zero[1 - axis].middle();
     seen.push_back({again ? seen.back().crossing : add_crossing(patch, zero, Crossing::Kind::star), zero});
     return;
   }
   int other = 0, other_leaf = -1;
   std::vector<Interval> there = zero;
   bool box = false;
-  if (axis == 0) {  // the outer side, towards the plane
+  if (border.to == To::plane) {
     const PlaneCell place = chart.to_plane(PlaneCell{zero[0], zero[1]});
     const auto& hole = parts_.holes[chart.star];
     const bool vertical = chart.side == Side::right || chart.side == Side::left;
@@ -283,12 +289,14 @@ void GraphBuilder::hand_over(int patch, int index, int axis, int end, std::vecto
     there[1] = vertical ? place.y : Interval(at);
     if (!box)
       other_leaf = graph_.patches[0].tree->locate_at(vertical ? 0 : 1, at, direction, vertical ? there[1] : there[0]);
-  } else {  // towards the chart above (t = 1) or below: right and left meet top at t = 1, bottom at t = -1
-    const Side neighbour = end > 0 ? Side::top : Side::bottom;
-    other = patch - chart_of(chart.side) + chart_of(neighbour);
-    const double at = chart.side == Side::right ? 1 : -1;
-    there[1] = at;
-    other_leaf = graph_.patches[other].tree->locate_at(1, at, at < 0 ? 1 : -1, there[0]);
+  } else {
+    other = border.chart;
+    const double at = border.axis == 0 && border.end < 0 ? 0 : border.end;
+    // Along the sector's rim a wing has rho where the others have the distance from the star.
+    const Interval along = axis == 0 ? (Interval(1.0) + zero[1]) * Interval(0.5) : zero[0];
+    there[border.axis] = at;
+    there[1 - border.axis] = along;
+    other_leaf = graph_.patches[other].tree->locate_at(border.axis, at, -border.end, along);
   }
   const int crossing = add_crossing(patch, zero, box ? Crossing::Kind::box : Crossing::Kind::seam);
   at_leaf_[patch][index].push_back({crossing, std::move(zero)});

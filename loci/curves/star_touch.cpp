@@ -1,9 +1,6 @@
 #include "loci/curves/star_touch.hpp"
 
-#include <algorithm>
 #include <utility>
-
-#include "core/rational.hpp"
 
 namespace clearloci::loci::sheet {
 namespace {
@@ -112,26 +109,11 @@ std::optional<Along<T>> value_along(const ChartedSheet& sheet, const core::Worki
   return run(sheet.functions.front().line, variables);
 }
 
-/// The t of a direction. The rise is that of the second coordinate where the first one is at the chart's outer side.
-Rational shortest_direction(const Chart& chart, const Interval& t) {
-  const auto& [x0, x1, y0, y1] = chart.rectangle;
-  const bool along_x = chart.side == Chart::Side::right || chart.side == Chart::Side::left;
-  const bool is_high = chart.side == Chart::Side::right || chart.side == Chart::Side::top;
-  const Rational depth =
-      along_x ? Rational((is_high ? x1 : x0) - chart.origin_x) : Rational((is_high ? y1 : y0) - chart.origin_y);
-  const Rational low = along_x ? Rational(y0 - chart.origin_y) : Rational(x0 - chart.origin_x);
-  const Rational high = along_x ? Rational(y1 - chart.origin_y) : Rational(x1 - chart.origin_x);
-  const Rational half = (high - low) / 2, middle = (high + low) / 2;
-  const Rational reach = std::max(Rational(t.width()), Rational(0x1p-50)) * abs(half / depth);
-  const Rational rise = core::simplest_rational_near((middle + Rational(t.middle()) * half) / depth, reach);
-  return (rise * depth - middle) / half;
-}
-
 }  // namespace
 
 std::optional<StarTouch> star_touch(const Chart& chart, const ChartedSheet& sheet, const core::WorkingMode& mode,
                                     const Interval& t) {
-  const Rational at = shortest_direction(chart, t);
+  const Rational at = chart.shortest_direction(t);
   std::vector<Along<Rational>> exact;
   const auto touch = value_along<Rational>(sheet, mode, 0, at, 1, exact);
   if (!touch || touch->value != 0 || touch->slope != 0) return std::nullopt;

@@ -35,9 +35,12 @@ bool found_at_star(const Subtower& part, const SheetFunction& sheet, const Parti
     if (chart.side == Chart::Side::plane || chart.star != star) continue;
     const ChartedSheet charted = charting.in(chart);
     const SheetProgram program(charted.tower, charted.functions);
-    const FoundZeros found =
-        ZeroSearch(program, part.mode, {{0}, {1}}).run({{0.0, {-1, 1}}}, {smallest_cut, most_star_cells, 1e-13, stop});
-    if (!found.enclosures.empty() || !found.undecided.empty()) return true;
+    const auto is_found = [&](int axis, const PlaneCell& side) {
+      const FoundZeros found =
+          ZeroSearch(program, part.mode, {{0}, {1 - axis}}).run({side}, {smallest_cut, most_star_cells, 1e-13, stop});
+      return !found.enclosures.empty() || !found.undecided.empty();
+    };
+    if (is_found(0, {0.0, {-1, 1}}) || (chart.is_wing() && is_found(1, {{0, 1}, -1.0}))) return true;
   }
   return false;
 }
@@ -213,18 +216,21 @@ void Tracer::cut_on_both(const Subtower& both, const Cut& cut, const Partition& 
 }
 
 std::vector<PlaneCell> Tracer::seeds_in(const Chart& chart, const Partition& parts) const {
+  // What vanishes at a star, and so its charts and its rectangle, depends on the tower.
+  const auto has_rectangle_of = [&](const Chart& own) {
+    return std::any_of(parts.charts.begin(), parts.charts.end(), [&](const Chart& other) {
+      return other.side != Chart::Side::plane && other.rectangle == own.rectangle;
+    });
+  };
+  const bool to_plane = chart.side == Chart::Side::plane;
   std::vector<PlaneCell> seeds;
   for (const Patch& patch : graph_.patches) {
-    const bool plane = patch.chart.side == Chart::Side::plane;
-    const bool same = patch.chart.side == chart.side &&
-                      (plane || (patch.chart.origin_x == chart.origin_x && patch.chart.origin_y == chart.origin_y));
-    if (!same && !plane) continue;
+    const bool same = patch.chart == chart;
+    if (to_plane && !same && has_rectangle_of(patch.chart)) continue;
     for (const Leaf& leaf : patch.tree->leaves()) {
       if (leaf.kind != LeafKind::graph) continue;
-      if (same && !(plane && in_hole(leaf.cell, parts)))
-        seeds.push_back(leaf.cell);
-      else if (!same)
-        if (const std::optional<PlaneCell> share = chart.share_of(leaf.cell)) seeds.push_back(*share);
+      const std::optional<PlaneCell> share = same ? leaf.cell : chart.share_of(patch.chart.to_plane(leaf.cell));
+      if (share && !(to_plane && in_hole(*share, parts))) seeds.push_back(*share);
     }
   }
   return seeds;

@@ -95,9 +95,7 @@ class Tracer {
   bool touch(int patch, const PlaneCell& place, const Cut& cut);
 
   /// The cutter reaches a star in the direction of a branch: cut_at_stars has seen to it.
-  static bool at_star(const Chart& chart, const PlaneCell& cell) {
-    return chart.side != Chart::Side::plane && cell.x.lower() <= 0 && cell.x.upper() <= same_place;
-  }
+  static bool at_star(const Chart& chart, const PlaneCell& cell) { return chart.is_at_star(cell, same_place); }
 
   /// Branches that reach a star end there where the cutter reaches it too, in whatever direction.
   void cut_at_stars(const Subtower& both, const Cut& cut, const Partition& parts);

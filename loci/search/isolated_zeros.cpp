@@ -45,10 +45,9 @@ SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, c
   zero.radius = 0.5 * std::max(place.x.width(), place.y.width());
   for (std::size_t j = 0; j + 2 < enclosure.size(); ++j) {
     double scale = 1;
-    if (chart.side != Chart::Side::plane) {
-      const std::vector<int>& roots = stars[chart.star].roots;
-      scale = std::pow(enclosure[0].middle(), std::count(roots.begin(), roots.end(), static_cast<int>(j)));
-    }
+    if (chart.side != Chart::Side::plane)
+      scale = chart.scale_of_root(static_cast<int>(j), stars[static_cast<std::size_t>(chart.star)],
+                                  enclosure[0].middle(), enclosure[1].middle());
     zero.roots.push_back(scale * enclosure[2 + j].middle());
     if (enclosure[2 + j].sign() == 0) zero.inside_workspace = false;
   }
@@ -98,7 +97,7 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
       const PlaneCell place = chart.to_plane(PlaneCell{enclosure[0], enclosure[1]});
       if (disjoint(place.x, box_x) || disjoint(place.y, box_y)) return;
       const SheetZero zero = describe(enclosure, chart, parts.stars);
-      if (!plane && enclosure[0].contains_zero()) {
+      if (chart.is_at_star({enclosure[0], enclosure[1]}, 1)) {
         const bool at_cone = is_undefined_at(parts.stars[static_cast<std::size_t>(chart.star)]) &&
                              std::max(place.x.width(), place.y.width()) <= at_rounding * size;
         (at_cone ? result.at_cones : result.undecided).push_back(place);

@@ -30,6 +30,12 @@ KnownSearches::Key KnownSearches::key(Key::Kind kind, const core::RootTower& tow
         {static_cast<int>(star.shape), star.along_y ? 1 : 0, star.singular ? 1 : 0, star.no_length ? 1 : 0,
          std::isfinite(star.room) ? 1 : 0, star.apex ? 1 : 0, static_cast<int>(star.roots.size())});
     result.numbers.insert(result.numbers.end(), star.roots.begin(), star.roots.end());
+    result.numbers.push_back(static_cast<int>(star.tangential.size()));
+    for (const Star& along : star.tangential) {
+      result.box.push_back(along.slope);
+      result.numbers.insert(result.numbers.end(), {along.along_y ? 1 : 0, static_cast<int>(along.roots.size())});
+      result.numbers.insert(result.numbers.end(), along.roots.begin(), along.roots.end());
+    }
     if (!star.apex) continue;
     result.box.push_back(star.apex->radius);
     for (const Apex::Value& root : star.apex->roots) {

@@ -4,6 +4,12 @@
 // (u, t) in which t runs along one of the rectangle's sides and u leads from the star to there along a curve on which
 // coordinates shrink with their weights: for a cone
 //     P = A + u (E(t) - A),  E(t) on the piece's outer side,  u in [0, 1], t in [-1, 1]
+// Where a workspace boundary runs through a cone, a sector on either side of it, about the boundary's tangent, is cut
+// out of the piece over that side. In the sector Y is the way along the tangent and X the way off it, 1 at its rim:
+//     middle  Y = u, X = u^2 t                      a parabola either side of the tangent bounds it, at t = -1 and 1
+//     wings   Y = u rho^2, X = +-u^2 rho^2          between that parabola, rho = 1, and the sector's rim, u = 1;
+//                                                   rho = (1 + t) / 2
+// The star is the side u = 0 of all pieces, and of a wing the side t = -1 too.
 #pragma once
 
 #include <array>
@@ -16,16 +22,32 @@
 
 namespace clearloci::loci::sheet {
 
-/// The coordinates (p, q) of a patch: the plane itself, or the triangle over one side of a star's rectangle.
+/// The coordinates (p, q) of a patch: the plane itself, or the triangle over one side of a star's rectangle or a part
+/// of that side.
 struct Chart {
   enum class Side { plane, right, top, left, bottom };
+  /// Before, in and beyond the sector about a tangent, in the sense in which t grows.
+  enum class Part { whole, before, wing_before, middle, wing_beyond, beyond };
   Side side = Side::plane;
+  Part part = Part::whole;
   int star = -1;
   core::Rational origin_x, origin_y;        ///< A
   std::array<core::Rational, 4> rectangle;  ///< x0, x1, y0, y1 around A
 
   Chart() = default;  ///< the plane
   Chart(Side side, int star, const Star& at, const std::array<core::Rational, 4>& rectangle);
+
+  /// Its parts where the tangent of a boundary at the star meets the side well inside; else itself alone.
+  std::vector<Chart> parts(const Star& at) const;
+  bool is_wing() const { return part == Part::wing_before || part == Part::wing_beyond; }
+  bool is_tangential() const { return is_wing() || part == Part::middle; }
+  /// Whether a cell touches the star and reaches no farther from it than that, in the chart's coordinates.
+  bool is_at_star(const PlaneCell& cell, double reach) const;
+  /// By how much a root of the tower at a place of the chart is more than the chart's own.
+  double scale_of_root(int root, const Star& at, double p, double q) const;
+  /// Of directions at the star the one in a range of t whose rise is the shortest rational number.
+  core::Rational shortest_direction(const Interval& t) const;
+  bool operator==(const Chart& other) const;
 
   core::Point2 to_plane(double p, double q) const;
   PlaneCell to_plane(const PlaneCell& cell) const;
@@ -34,16 +56,18 @@ struct Chart {
   /// A cell that holds the part of the place that lies in the chart; none: there is no such part.
   std::optional<PlaneCell> share_of(const PlaneCell& place) const;
 
-  /// A straight line in (u, X', Y', roots...) (star.hpp) in the chart's coordinates (u, t, roots...).
+  /// A straight line in (u, X', Y', roots...), of a wing in (u, X', Y', rho, roots...) (star.hpp), in the chart's
+  /// coordinates (u, t, roots...).
   core::StraightLine in_chart(const core::StraightLine& polar) const;
 
  private:
   /// `a`, `b`: of the star, across the side and along it; the side's distance from the star, its middle and half
-  /// length; where it is sheared the tangent's slope.
+  /// length, of a wing's how far off the tangent it reaches; where it is sheared the tangent's slope.
   template <class T>
   struct Frame {
     T a, b, depth, middle, half, slope;
   };
+  void take_numbers();
   bool along_x() const { return side == Side::right || side == Side::left; }
   /// From the star, across the side and along it.
   template <class T>
@@ -52,6 +76,8 @@ struct Chart {
   Interval distance(const Interval& deep, const Interval& wide) const;
   /// Where the curve from the star through the place meets the line of the side, counted from the star.
   Interval on_side(const Interval& u, const Interval& deep, const Interval& wide) const;
+  /// Of a wing: the part of a place so far from the star, across the side and along it, that lies in the chart.
+  std::optional<PlaneCell> share_of_wing(const Interval& deep, const Interval& wide) const;
 
   bool sheared_ = false, doubled_ = false;
   bool deep_is_along_ = true;  ///< where it is sheared: the way across the side is the one along the tangent
@@ -72,13 +98,17 @@ class Charting {
   Charting(const core::RootTower& tower, std::vector<SheetFunction> functions, const std::vector<Star>& stars);
   ChartedSheet in(const Chart& chart);
 
+  /// Of the coordinates around a star.
+  enum class Weights { own, tangential, both };
+
  private:
   /// In (u, X', Y', roots...), those of the star divided by their powers of u, common powers of u taken out.
   struct AtStar {
     int star = -1;
+    Weights weights = Weights::own;
     std::vector<core::StraightLine> squares, functions;
   };
-  const AtStar& at_star(int star);
+  const AtStar& at_star(const Chart& chart);
 
   core::RootTower tower_;
   std::vector<SheetFunction> functions_;
@@ -92,12 +122,27 @@ ChartedSheet charted(const core::RootTower& tower, const std::vector<SheetFuncti
 /// The functions without the tower's denominators as factors, which say nothing about the curve.
 core::Polynomial without_denominators(core::Polynomial function, const core::RootTower& tower);
 
+/// What lies beyond a side of a chart.
+struct ChartBorder {
+  enum class To {
+    edge,   ///< nothing: of the plane
+    star,   ///< the side is the star
+    plane,  ///< the rectangle's side
+    chart,  ///< another chart of the star
+  };
+  To to = To::edge;
+  bool is_searched = true;            ///< zeros on a side between two charts of a star are searched from one of them
+  int chart = -1, axis = 0, end = 0;  ///< of another chart: which side
+};
+using ChartBorders = std::array<ChartBorder, 4>;  ///< 2 axis, and one more at the higher end
+
 /// A rectangle of the plane with rectangles around its stars cut out.
 struct Partition {
   std::vector<Star> stars;
   std::vector<std::array<double, 4>> holes;  ///< x0, x1, y0, y1, one a star
   std::array<double, 4> domain{};            ///< at least the wanted box, larger where a star is near its edge
-  std::vector<Chart> charts;                 ///< the plane first, then four a star
+  std::vector<Chart> charts;                 ///< the plane first, then those of each star: four or more
+  std::vector<ChartBorders> borders;         ///< of the charts
 };
 /// `bases`: points that no rectangle may come near unless it is their own; those of a whole tower make the partitions
 /// of its parts agree on the rectangles they have in common. `special`: stars besides the cones of the tower. `skewed`:

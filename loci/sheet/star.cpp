@@ -124,6 +124,44 @@ Roots find_roots(Star& star, const core::RootTower& tower) {
   return is_halved ? Roots::halved : Roots::smooth;
 }
 
+void set_tangent(Star& star, const std::array<Rational, 2>& normal) {
+  const auto& [dx, dy] = normal;
+  star.along_y = abs(dx) > abs(dy);
+  star.slope = star.along_y ? -dy / dx : -dx / dy;
+}
+
+/// The gradient of a square that is of the first order at a star.
+std::optional<std::array<Rational, 2>> gradient_of(const Polynomial& around_star) {
+  std::array<Rational, 2> gradient;
+  for (const core::Term& term : around_star.terms) {
+    const int order = term.exponents[0] + term.exponents[1];
+    if (order > 1) continue;
+    if (order == 0 || has_roots(term)) return std::nullopt;
+    gradient[term.exponents[0] == 1 ? 0 : 1] = term.coefficient;
+  }
+  if (gradient[0] == 0 && gradient[1] == 0) return std::nullopt;
+  return gradient;
+}
+
+/// The star along the tangent that all boundaries through it have in common; none: there is no such tangent, or more
+/// than the squares' first orders is to be known.
+std::vector<Star> tangential_of(const Star& star, const core::RootTower& tower) {
+  if (star.apex) return {};
+  std::optional<std::array<Rational, 2>> normal;
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    if (star.power_of_root(static_cast<int>(j)) != 1) continue;
+    const auto own = gradient_of(around(star, tower.roots[j].square));
+    if (!own || (normal && (*normal)[0] * (*own)[1] != (*normal)[1] * (*own)[0])) return {};
+    normal = own;
+  }
+  if (!normal) return {};
+  Star result = star;
+  result.shape = Star::Shape::touch;
+  set_tangent(result, *normal);
+  if (find_roots(result, tower) != Roots::smooth) return {};
+  return {std::move(result)};
+}
+
 }  // namespace
 
 std::vector<Star> cones(const core::RootTower& tower) {
@@ -145,6 +183,7 @@ bool settle_roots(Star& star, const core::RootTower& tower) {
     if (star.is_sheared()) return false;
     star.shape = Star::Shape::corner;
     found = find_roots(star, tower);
+    star.tangential = tangential_of(star, tower);
   }
   return found != Roots::absent;
 }
@@ -159,11 +198,7 @@ bool is_smooth_at(const Star& star, const Polynomial& function) {
 
 namespace {
 
-void set_tangent(Star& star, const BoundaryCurve& curve) {
-  const auto [dx, dy] = curve.normal_at({star.x, star.y});
-  star.along_y = abs(dx) > abs(dy);
-  star.slope = star.along_y ? -dy / dx : -dx / dy;
-}
+void set_tangent(Star& star, const BoundaryCurve& curve) { set_tangent(star, curve.normal_at({star.x, star.y})); }
 
 /// The derivative by a root at a place where all roots are 0.
 Rational slope_in_root(const Polynomial& function, int root, const std::vector<Rational>& at) {
@@ -299,6 +334,7 @@ std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
       if (place != part.kept.end()) roots.push_back(static_cast<int>(place - part.kept.begin()));
     }
     star.roots = std::move(roots);
+    star.tangential = narrowed(std::move(star.tangential), part);
   }
   return with_what_vanishes(std::move(stars));
 }
@@ -313,6 +349,7 @@ std::vector<Star> on_rim(std::vector<Star> stars, int root) {
     star.roots.erase(std::remove(star.roots.begin(), star.roots.end(), root), star.roots.end());
     for (int& other : star.roots)
       if (other > root) --other;
+    star.tangential = on_rim(std::move(star.tangential), root);
   }
   return with_what_vanishes(std::move(stars));
 }
@@ -443,6 +480,17 @@ core::StraightLine polar_line_algebraic(const Star& star, const Polynomial& arou
 
 }  // namespace
 
+namespace {
+
+core::StraightLine as_line(const Polynomial& polar) {
+  core::StraightLineBuilder builder;
+  std::vector<int> variables;
+  for (int v = 0; v < polar.variables; ++v) variables.push_back(builder.variable(v));
+  return builder.line(builder.polynomial(polar, variables));
+}
+
+}  // namespace
+
 core::StraightLine polar_line(const Star& star, const Polynomial& around_star, int order) {
   if (is_algebraic(star)) return polar_line_algebraic(star, around_star, order);
   Polynomial polar{around_star.variables + 1, {}};
@@ -451,10 +499,18 @@ core::StraightLine polar_line(const Star& star, const Polynomial& around_star, i
     moved.exponents.insert(moved.exponents.begin(), order_of(star, term) - order);
     polar.terms.push_back(std::move(moved));
   }
-  core::StraightLineBuilder builder;
-  std::vector<int> variables;
-  for (int v = 0; v < polar.variables; ++v) variables.push_back(builder.variable(v));
-  return builder.line(builder.polynomial(polar, variables));
+  return as_line(polar);
+}
+
+core::StraightLine wing_line(const Star& star, const Polynomial& around_tangent, const std::array<int, 2>& orders) {
+  Polynomial polar{around_tangent.variables + 2, {}};
+  for (const core::Term& term : around_tangent.terms) {
+    core::Term moved = term;
+    moved.exponents.insert(moved.exponents.begin() + 2, order_of(star, term) - orders[1]);
+    moved.exponents.insert(moved.exponents.begin(), order_of(star.tangential.front(), term) - orders[0]);
+    polar.terms.push_back(std::move(moved));
+  }
+  return as_line(polar);
 }
 
 }  // namespace clearloci::loci::sheet

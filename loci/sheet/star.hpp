@@ -11,6 +11,8 @@
 //     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2 does: X along
 //     it;
 //                     or where the second one is that of a dyad, and the first one that of a dyad on it
+// Where a boundary runs through a cone, both are needed: a corner's weights in all directions but the boundary's, a
+// touch's along that.
 #pragma once
 
 #include <array>
@@ -68,6 +70,10 @@ struct Star {
   bool no_length = false;
   /// A rectangle around it reaches no farther: of a node, so that no workspace boundary passes through.
   double room = std::numeric_limits<double>::infinity();
+  /// Of a corner through which a workspace boundary runs: the same point with the weights of a touch, along the
+  /// boundary's tangent. In that direction a curve may leave with the boundary: what of it is off the tangent then
+  /// shrinks with the square of what is along it, and the boundary's root with the distance. At most one.
+  std::vector<Star> tangential = {};
 
   /// One coordinate is counted off a tangent.
   bool is_sheared() const { return shape == Shape::touch || shape == Shape::bend; }
@@ -121,5 +127,12 @@ bool vanishes_with(const Star& star, const core::RootTower& tower, const core::P
 /// Such a polynomial as a straight line in (u, X', Y', roots...), the star's roots divided by their powers of u,
 /// without `order` powers of u.
 core::StraightLine polar_line(const Star& star, const core::Polynomial& around_star, int order);
+
+/// Between the tangent of the boundary that runs through a corner and other directions: with the weights of both,
+///     X = rho^v u^v' X',  Y = rho^w u^w' Y',  s_j = rho^k u^k' sigma_j
+/// v, w, k being those of the corner and v', w', k' those along the tangent. In (u, X', Y', rho, roots...), without
+/// `orders` powers of u and rho; the polynomial is written around `star.tangential`.
+core::StraightLine wing_line(const Star& star, const core::Polynomial& around_tangent,
+                             const std::array<int, 2>& orders);
 
 }  // namespace clearloci::loci::sheet
