@@ -279,7 +279,7 @@ TEST(Vanishing, AZeroAtTheConeOfCoaxialLegsLeavesNoDoubt) {
     EXPECT_EQ(note.find("neither proven nor excluded"), std::string::npos) << note;
 }
 
-/// The boundary of one leg passes the base of the other. Where it meets a curve there stays open, and the curve, which
+/// The boundary of one leg passes the base of the other. Where it meets a curve there stayed open, and the curve, which
 /// was not cut there, was judged by a point at rounding from the boundary: all of it was left out.
 TEST(Vanishing, NothingIsLostBesideABaseOnABoundary) {
   const mechanism::Mechanism mechanism =
