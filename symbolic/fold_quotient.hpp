@@ -1,9 +1,7 @@
-// Natural polynomials over the element of a fold. Where a dyad X on V, W closes a loop with a point C that is as far
-// from V as X is from W, and the other way round,
-//     X = V + W - C  (a parallelogram)   or   X = C + m (W - V),  m |W - V|^2 = |X - V|^2 - |X - W|^2
-// on the two sides of the fold (V - C) x (W - C) = 0. With X put in, what vanishes on the fold alone is divisible by
-// that element as a polynomial, m taken for a coordinate: the quotient is computed without a division that fails there.
-// Private to symbolic/.
+// Natural polynomials over the element of a fold. Where a dyad X on V, W closes a loop with a point C
+// (Geometry::Closing), the element is (V - C) x (W - C). With X put in, what vanishes on the fold alone is divisible by
+// it as a polynomial, m taken for a coordinate: the quotient is computed without a division that fails there. Private
+// to symbolic/.
 #pragma once
 
 #include <optional>
@@ -20,28 +18,20 @@ class FoldQuotients {
   FoldQuotients(const Geometry& geometry, const Elimination& elimination, StraightLines& lines)
       : geometry_(&geometry), elimination_(&elimination), lines_(&lines) {}
 
-  /// The value of a natural polynomial over a number and `element`, that of a fold, to its multiplicity;
+  /// The value of a natural polynomial over a number and the element of a fold, `sheet`, to its multiplicity;
   /// empty where no such loop is known.
-  core::StraightLine of(const Poly& natural, const PolyFactor& element);
+  core::StraightLine of(const Poly& natural, const PolyFactor& sheet);
 
  private:
-  /// What X is on the sheet; `along`: the m of W - V is this over |W - V|^2.
-  struct Loop {
-    mechanism::PointIndex point;
-    int x, y;  ///< of X
-    std::array<Poly, 2> place;
-    Poly element;  ///< in natural coordinates
-    core::Rational along;
-  };
-  const std::optional<Loop>& loop(std::size_t fold);
-  std::optional<Loop> found_loop(const Fold& fold) const;
-  std::optional<Loop> loop_with(const Fold& fold, mechanism::PointIndex other) const;
+  /// Of a fold, in natural coordinates; none where no such loop is known.
+  const std::optional<Poly>& element(std::size_t fold);
+  std::optional<Poly> found_element(const Fold& fold) const;
   std::array<Poly, 2> way(mechanism::PointIndex from, mechanism::PointIndex to) const;
 
   const Geometry* geometry_;
   const Elimination* elimination_;
   StraightLines* lines_;
-  std::vector<std::optional<std::optional<Loop>>> loops_;  ///< by fold, once they are asked for
+  std::vector<std::optional<std::optional<Poly>>> elements_;  ///< by fold, once they are asked for
 };
 
 }  // namespace clearloci::symbolic

@@ -315,6 +315,11 @@ void Geometry::place_angles() {
 
 std::vector<Substitution> Geometry::substitutions() const {
   std::vector<Substitution> list;
+  // What closes a loop is written by the others first: together they have fewer terms.
+  for (auto c = constructed_.rbegin(); c != constructed_.rend(); ++c)
+    if (const auto closing = closings_.find(c->point); closing != closings_.end())
+      list.push_back({c->x, c->y, closing->second.place});
+  list.insert(list.end(), angles_.begin(), angles_.end());
   for (const TorsionAngle& angle : torsion_angles_)
     if (angle.place) list.push_back({angle.variable, -1, *angle.place});
   for (const InverseLength& length : inverse_lengths_)
@@ -322,13 +327,15 @@ std::vector<Substitution> Geometry::substitutions() const {
   for (const ConstructedPoint& c : constructed_) {
     if (tower(c.point).w.is_zero()) continue;  // not placed yet
     const auto frame = frames_.find(c.point);
-    if (frame == frames_.end()) {
-      list.push_back({c.x, c.y, tower(c.point), c.z});
-    } else {
+    const auto closing = closings_.find(c.point);
+    if (frame != frames_.end()) {
       for (const TowerPoint& place : frame->second) list.push_back({c.x, c.y, place});
+    } else if (closing == closings_.end()) {
+      list.push_back({c.x, c.y, tower(c.point), c.z});
+    } else if (closing->second.part) {
+      list.push_back({c.x, c.y, *closing->second.part});
     }
   }
-  list.insert(list.begin(), angles_.begin(), angles_.end());
   return list;
 }
 

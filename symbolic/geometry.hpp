@@ -152,6 +152,16 @@ class Geometry {
     bool is_squared = true;  ///< w2 = w^2, d = x^2 + y^2; else a shorter fraction
   };
   const std::vector<Way>& dyad_ways() const { return dyad_ways_; }
+  /// Where a dyad X on V, W closes a loop with a `fourth` point C that is as far from V as X is from W, and the other
+  /// way round, X is V + W - C (a parallelogram) or C + m (W - V), m |W - V|^2 = |X - V|^2 - |X - W|^2 (a crossed one).
+  struct Closing {
+    mechanism::PointIndex fourth = 0;
+    TowerPoint place;                     ///< in natural coordinates; m is called as the x of X
+    std::optional<TowerPoint> part = {};  ///< (m, 0) over the tower, of a crossed one
+    core::Rational along = 0;             ///< m |W - V|^2
+  };
+  /// By X.
+  const std::map<mechanism::PointIndex, Closing>& closings() const { return closings_; }
   /// Polynomials that places divide by and that vanish nowhere: 1 + t^2 of every angle.
   const std::vector<Poly>& positive_units() const { return positive_units_; }
 
@@ -261,9 +271,9 @@ class Geometry {
   /// Nor does a point that is placed at a constant way from another one, as in a parallelogram, have coordinates of its
   /// own: factors show what numerators and |A| share.
   void keep_beside_another(mechanism::PointIndex point);
-  /// Where a dyad closes a parallelogram, its point is the sum of the two ends less the fourth point: a place of few
-  /// terms. False where it does not.
-  bool close_parallelogram(mechanism::PointIndex point, const mechanism::DyadPoint& form);
+  /// False where the point closes no loop. Over the tower: `way` is W - V over its squared length, `part` one over
+  /// this.
+  bool close_loop(mechanism::PointIndex point, const mechanism::DyadPoint& form, TowerPoint way, TowerPoint part);
   /// to - from and a + way over the least denominator, as far as its factors are known to be positive.
   TowerPoint difference(const TowerPoint& to, const TowerPoint& from) const;
   TowerPoint sum(const TowerPoint& a, const TowerPoint& way) const;
@@ -301,6 +311,7 @@ class Geometry {
   /// Of dyads on others: the point by its numbers (u, v) along and across the way between its ends, for which its own
   /// symbols stand, and (u, v) over the tower. Multiplied out the two are long.
   std::map<mechanism::PointIndex, std::array<TowerPoint, 2>> frames_;
+  std::map<mechanism::PointIndex, Closing> closings_;
   std::vector<Poly> positive_units_;
   std::vector<Poly> positive_;  ///< known to be nowhere negative on the sheets, in the order of their appearance
   Charts charts_;

@@ -257,7 +257,9 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   tower_[index(point)] = sum(a, step);
   if (form.axis) keep_in_plane(point, form.from, n);
   if (roots_.back().value) keep_beside_another(point);
-  if (form.axis || !has_root(d) || (roots_.back().value && close_parallelogram(point, form))) return;
+  if (form.axis || (roots_.back().value && close_loop(point, form, {w2 * x, w2 * y, d * w}, {w2, Poly(*ring_), d})))
+    return;
+  if (!has_root(d)) return;
   const ConstructedPoint& own = constructed(point);
   const Poly u = Poly::variable(*ring_, own.x), v = Poly::variable(*ring_, own.y);
   TowerPoint in_frame{kn, s, d.scaled(2)};
@@ -265,7 +267,7 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   frames_.emplace(point, std::array{sum(a, {u * x - v * y, u * y + v * x, w}), std::move(in_frame)});
 }
 
-bool Geometry::close_parallelogram(PointIndex point, const DyadPoint& form) {
+bool Geometry::close_loop(PointIndex point, const DyadPoint& form, TowerPoint way, TowerPoint part) {
   const TowerPoint& own = tower(point);
   const auto differs = [&](const TowerPoint& place, const Sample& sample) {
     constexpr double rounding = 1e-6;
@@ -275,13 +277,39 @@ bool Geometry::close_parallelogram(PointIndex point, const DyadPoint& form) {
     const double by_y = value(place.y) / value(place.w) - value(own.y) / value(own.w);
     return std::hypot(by_x, by_y) > rounding * std::hypot(value(own.x), value(own.y)) / std::abs(value(own.w));
   };
+  const auto is_own = [&](const TowerPoint& place) {
+    return std::none_of(samples_.begin(), samples_.end(), [&](const Sample& at) { return differs(place, at); }) &&
+           reduce(place.x * own.w - own.x * place.w).is_zero() && reduce(place.y * own.w - own.y * place.w).is_zero();
+  };
+  const Poly along =
+      squared_length(form.from_length) - (form.right_angle ? Poly(*ring_) : squared_length(form.to_length));
+  const bool may_cross = !form.right_angle && along.is_constant();
+  for (TowerPoint* const place : {&way, &part}) {
+    *place = {reduce(place->x * along), reduce(place->y * along), reduce(place->w)};
+    lighten(*place);
+  }
+  const GiNaC::ex m = symbol(ring_->name(constructed(point).x));
+  const auto &from = natural(form.from), &to = natural(form.to);
   for (PointIndex fourth = 0; fourth < point; ++fourth) {
     if (fourth == form.from || fourth == form.to) continue;
-    const TowerPoint place = sum(tower(form.to), difference(tower(form.from), tower(fourth)));
-    if (std::any_of(samples_.begin(), samples_.end(), [&](const Sample& at) { return differs(place, at); })) continue;
-    if (!reduce(place.x * own.w - own.x * place.w).is_zero() || !reduce(place.y * own.w - own.y * place.w).is_zero())
-      continue;
-    tower_[index(point)] = place;
+    const auto& other = natural(fourth);
+    TowerPoint place = sum(tower(form.to), difference(tower(form.from), tower(fourth)));
+    const bool is_parallelogram = is_own(place);
+    if (!is_parallelogram) {
+      if (!may_cross) continue;
+      place = sum(tower(fourth), way);
+      if (!is_own(place)) continue;
+    }
+    std::array<GiNaC::ex, 2> by_others;
+    for (std::size_t i = 0; i < 2; ++i)
+      by_others[i] = is_parallelogram ? from[i] + to[i] - other[i] : other[i] + m * (to[i] - from[i]);
+    tower_[index(point)] = std::move(place);
+    Closing closing{fourth, {poly(by_others[0].expand()), poly(by_others[1].expand()), Poly(*ring_, 1)}};
+    if (!is_parallelogram) {
+      closing.part = std::move(part);
+      closing.along = along.constant();
+    }
+    closings_.emplace(point, std::move(closing));
     return true;
   }
   return false;

@@ -113,6 +113,12 @@ TEST(Parallelogram, IsCutWhereItIsFlat) {
     const Geometry side(m, false, {}, {{}, {half}});
     EXPECT_EQ(side.roots().front().square, Poly(side.ring(), 1));
     EXPECT_FALSE(side.tower(side.constructed().front().point).x.depends_on(side.roots().front().variable));
+    // By the other three it is written in the cosine and sine of the angle, which are put in after it.
+    ASSERT_EQ(side.closings().size(), 1u);
+    Poly over = Poly::variable(side.ring(), side.constructed().front().x);
+    for (const Substitution& pair : side.substitutions())
+      over = side.substituted(over, pair, Geometry::degree_in(over, pair));
+    for (int variable = 1; variable < side.ring().size(); ++variable) EXPECT_FALSE(over.depends_on(variable));
   }
 }
 
@@ -137,23 +143,52 @@ TEST(Parallelogram, OnALegIsCutWhereThatLegLiesOnTheBase) {
   EXPECT_EQ(beside, 1);
 }
 
-// Over the tower the place of a closing point, put in by the formula of a dyad, has thousands of terms.
-TEST(Parallelogram, IsClosedByTheSumOfThreePoints) {
+// Over the tower the place of a closing point, put in by the formula of a dyad, has thousands of terms. By the other
+// three of its loop it has few, whether that is a parallelogram or crossed, and it is put in before these.
+TEST(Parallelogram, IsClosedByThePlacesOfThreePoints) {
   const mechanism::Mechanism m = corpus("parallelogram_under_coupler");
-  const auto place = [&m](const Geometry& geometry, const char* name) -> const TowerPoint& {
+  const auto index = [&m](const char* name) {
     const auto point = std::find_if(m.points.begin(), m.points.end(), [&](const auto& p) { return p.name == name; });
-    return geometry.tower(static_cast<mechanism::PointIndex>(point - m.points.begin()));
+    return static_cast<mechanism::PointIndex>(point - m.points.begin());
   };
-  int closed = 0;
+  int crossed = 0;
   for (const int half : {1, -1}) {
     const Geometry side(m, false, {}, {{}, {half}});
-    const TowerPoint &x = place(side, "X"), &v = place(side, "V"), &p = place(side, "P"), &b = place(side, "B2");
-    const Poly sum = (v.x * p.w + p.x * v.w) * b.w - b.x * v.w * p.w;
-    if (!side.reduce(x.x * v.w * p.w * b.w - x.w * sum).is_zero()) continue;
-    ++closed;
-    EXPECT_LT(x.x.length(), 20u);
+    const Elimination elimination(side);
+    ASSERT_EQ(side.closings().size(), 1u);
+    const auto& [point, closing] = *side.closings().begin();
+    EXPECT_EQ(point, index("X"));
+    EXPECT_EQ(closing.fourth, index("B2"));
+    EXPECT_EQ(closing.part.has_value(), closing.along != 0);
+    crossed += closing.part ? 1 : 0;
+    const ConstructedPoint& own = side.constructed().back();
+    ASSERT_EQ(own.point, point);
+    EXPECT_EQ(side.substitutions().front().x, own.x);
+    for (const Substitution& pair : side.substitutions()) {
+      if (pair.x == own.x) {
+        EXPECT_LT(pair.place.x.length(), 20u);
+      }
+    }
+    // It is as far from either end as the dyad has it.
+    const auto& dyad = std::get<mechanism::DyadPoint>(m.points[static_cast<std::size_t>(point)].form);
+    for (const auto& [end, length] : {std::pair(dyad.from, dyad.from_length), std::pair(dyad.to, dyad.to_length)}) {
+      Poly squared(side.ring());
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Poly way = side.poly((side.natural(point)[i] - side.natural(end)[i]).expand());
+        squared += way * way;
+      }
+      EXPECT_EQ(elimination.constant_over_tower(squared), side.squared_length(length).constant());
+    }
+    const TowerPoint& place = side.tower(point);
+    Poly over = Poly::variable(side.ring(), own.x), below(side.ring(), 1);
+    for (const Substitution& pair : side.substitutions()) {
+      const int degree = Geometry::degree_in(over, pair);
+      over = side.substituted(over, pair, degree);
+      for (int i = 0; i < degree; ++i) below = side.reduce(below * pair.place.w);
+    }
+    EXPECT_TRUE(side.reduce(over * place.w - below * place.x).is_zero());
   }
-  EXPECT_EQ(closed, 1);
+  EXPECT_EQ(crossed, 1);
 }
 
 // Of a dyad on two others what is put in is shorter than its place, and the two steps make the place.
