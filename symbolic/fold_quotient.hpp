@@ -1,7 +1,7 @@
 // Natural polynomials over the element of a fold. Where a dyad X on V, W closes a loop with a point C
 // (Geometry::Closing), the element is (V - C) x (W - C). With X put in, what vanishes on the fold alone is divisible by
-// it as a polynomial, m taken for a coordinate: the quotient is computed without a division that fails there. Private
-// to symbolic/.
+// it as a polynomial, m taken for a coordinate: the quotient is computed without a division that fails there.
+// Private to symbolic/.
 #pragma once
 
 #include <optional>
