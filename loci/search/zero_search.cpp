@@ -104,23 +104,20 @@ void ZeroSearch::run_some(std::span<const std::vector<PlaneCell>> seeds, std::ve
 
 void ZeroSearch::give_up(std::vector<Box>& live) {
   for (State& state : states_) {
-    std::rotate(state.before.begin(), state.before.end() - 1, state.before.end());
-    state.before[0] = state.live;
+    state.before = {state.before[1], state.live};
     state.live = 0;
   }
   for (const Box& box : live) ++states_[box.search].live;
-  for (State& state : states_)
-    if (state.before[0] == 0) state.before.fill(state.live);
   if (!is_smooth_worthwhile_ && live.size() > many_live_cells && is_second_look_worthwhile(*program_)) {
     is_smooth_worthwhile_ = true;
     return;  // what it leaves of these is not known yet
   }
-  // Along a curve each halving leaves four in three or more, one with another, as cells are cut across one coordinate
-  // and then across the other; where fewer are left the end is near.
+  // Along a curve a halving of both sides leaves twice as many, less ends; where fewer are left the end is near. What
+  // one halving leaves depends on how the curve runs.
   const auto has_too_many = [&](const Box& box) {
     const State& state = states_[box.search];
     const std::size_t most = limits_.most_cells + state.seeds;
-    return state.live > most && (state.live > most_patience * most || 81 * state.live > 256 * state.before.back());
+    return state.live > most && (state.live > most_patience * most || 9 * state.live > 16 * state.before[0]);
   };
   for (const Box& box : live)
     if (has_too_many(box)) {

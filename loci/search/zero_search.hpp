@@ -33,8 +33,8 @@ class ZeroSearch {
 
   struct Limits {
     double smallest;  ///< width below which a cell is left undecided
-    /// More live cells than that of one size, of which the next halving leaves more, mean that the functions share a
-    /// curve.
+    /// More live cells than that of one size, of which the next two halvings leave nearly twice as many, mean that the
+    /// functions share a curve.
     std::size_t most_cells;
     double accuracy;                  ///< width of enclosures that is worth multi-precision to get below
     std::function<bool()> stop = {};  ///< asked now and then; true: leave the rest undecided
@@ -73,8 +73,8 @@ class ZeroSearch {
     std::vector<Touch> touches;
     std::size_t touch_trials = 0;
     std::vector<PlaneCell> undecided;
-    std::size_t seeds = 0, live = 0;  ///< how many there were, and cells there are now
-    std::array<std::size_t, 4> before = {};  ///< cells there were when these were twice as large, 4 times, ...
+    std::size_t seeds = 0, live = 0;         ///< how many there were, and cells there are now
+    std::array<std::size_t, 2> before = {};  ///< cells there were two halvings ago, and one
     bool gave_up = false;
   };
 

@@ -73,6 +73,17 @@ TEST(IsolatedZeros, TangencyIsUndecided) {
   EXPECT_LT(set.undecided[0].x.width(), 1e-6);
 }
 
+// Along one side of its cells a curve is cut, along the other it is not: what one halving leaves does not tell whether
+// two functions share it.
+TEST(IsolatedZeros, TangencyIsNoSharedCurveHoweverFewCellsAreBorne) {
+  const Ring r{2};
+  for (const int most : {7, 8, 9, 10}) {
+    const ZeroSet set =
+        isolated_zeros(testing::plane(), {}, r.y() - r.x() * r.x(), r.y(), lower, upper, {.most_cells = most});
+    EXPECT_FALSE(set.gave_up) << most;
+  }
+}
+
 TEST(IsolatedZeros, TangencyIsToldWhereItIsAskedFor) {
   const Ring r{2};
   // At (1/3, 1/9), of y = x^2 and its tangent; lower by h the line passes, higher it crosses twice.
