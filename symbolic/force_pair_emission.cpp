@@ -121,8 +121,9 @@ void FactorEmission::force_pairs() {
         if (found == known.end()) found = known.insert(found, {asked, reduction.lowered(asked[0], asked[1], {*x, *y})});
         core::ForcePairs lower{joint, of_joint.pairs};
         const bool all_added =
-            found->second && std::all_of(found->second->begin(), found->second->end(),
-                                         [&](const LowerPair& pair) { return add_pairs(pair, {i, k}, lower); });
+            found->second && std::all_of(found->second->begin(), found->second->end(), [&](const LowerPair& pair) {
+              return add_pairs(pair, {i, k}, lower);
+            });
         if (all_added)
           of_joint = std::move(lower);
         else

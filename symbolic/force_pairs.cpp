@@ -53,7 +53,7 @@ const std::vector<PairReduction::Way>& PairReduction::ways() {
 }
 
 std::optional<std::vector<LowerPair>> PairReduction::lowered(const Poly& x, const Poly& y,
-                                                            const std::array<FactoredPoly, 2>& components) {
+                                                             const std::array<FactoredPoly, 2>& components) {
   if (x.total_degree() == 1 && y.total_degree() == 1) return std::nullopt;
   if (auto pairs = lowered_by(x, y)) return pairs;
   if (auto pairs = lowered_by(y, x)) return pairs;
@@ -88,8 +88,8 @@ std::optional<std::vector<LowerPair>> PairReduction::lowered_by(const Poly& p, c
 }
 
 std::optional<std::vector<LowerPair>> PairReduction::lowered_by_moment(const Poly& p, const Poly& q,
-                                                                      const FactoredPoly& beside_p,
-                                                                      const core::Rational& beside_q, bool p_is_x) {
+                                                                       const FactoredPoly& beside_p,
+                                                                       const core::Rational& beside_q, bool p_is_x) {
   for (const PolyFactor& factor : beside_p.factors) {
     if (factor.multiplicity != 1 || factor.poly.total_degree() != 1) continue;
     FactoredPoly cofactor = beside_p;

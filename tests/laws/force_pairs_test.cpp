@@ -26,8 +26,7 @@ int missing(const std::vector<core::IsolatedPoint>& list, const std::vector<core
   for (const core::IsolatedPoint& point : list)
     for (const core::Vanishing& v : point.vanishing)
       count += std::none_of(other.begin(), other.end(), [&](const core::IsolatedPoint& same) {
-        return same.kind == point.kind &&
-               std::hypot(same.at[0] - point.at[0], same.at[1] - point.at[1]) < 1e-9 &&
+        return same.kind == point.kind && std::hypot(same.at[0] - point.at[0], same.at[1] - point.at[1]) < 1e-9 &&
                std::find(same.vanishing.begin(), same.vanishing.end(), v) != same.vanishing.end();
       });
   return count;
