@@ -96,7 +96,7 @@ Motion motion_of(const mechanism::Mechanism& mechanism, Timeline timeline, std::
 Motion compile_motion(const mechanism::Mechanism& mechanism, const mechanism::Trajectory& trajectory,
                       std::vector<int> mode) {
   Motion motion = motion_of(mechanism, compile_timeline(trajectory, mechanism), std::move(mode));
-  motion.idle = idle_unknowns(motion);
+  motion.idle = idle_parts(motion);
   return motion;
 }
 

@@ -361,9 +361,10 @@ class LastLoss {
 bool is_idle(const Motion& motion, std::size_t joint, core::Quantity quantity) {
   const JointColumns& columns = motion.columns[joint];
   const auto zero = [&](int column) {
-    return column < 0 || (!motion.idle.empty() && motion.idle[static_cast<std::size_t>(column)]);
+    return column < 0 || (!motion.idle.unknowns.empty() && motion.idle.unknowns[static_cast<std::size_t>(column)]);
   };
-  if (core::is_guide_end(quantity)) return zero(columns.normal) && zero(columns.tilt);
+  if (core::is_guide_end(quantity))
+    return !motion.idle.ends.empty() && motion.idle.ends[joint][quantity == core::Quantity::end_ahead ? 0 : 1];
   if (quantity != core::Quantity::f) return zero(columns.couple);
   return columns.fx < 0 ? zero(columns.normal) : zero(columns.fx) && zero(columns.fy) && zero(columns.fz);
 }

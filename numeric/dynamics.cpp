@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/shown_units.hpp"
@@ -85,7 +86,7 @@ void require_regular(const Motion& motion, const Instant& at) {
 }
 
 /// Places, and the equations there, of coordinates that are known.
-void solve_at(const Motion& motion, const Interval& stretch, Instant& result, std::vector<bool>* zero = nullptr) {
+void solve_at(const Motion& motion, const Interval& stretch, Instant& result, Roundings* roundings = nullptr) {
   const NumericModel& model = motion.model;
   std::vector<Series> inputs = result.coordinates;
   for (const int sign : motion.mode) inputs.emplace_back(sign);
@@ -121,7 +122,7 @@ void solve_at(const Motion& motion, const Interval& stretch, Instant& result, st
   }
   for (const auto& axis : model.couple_axes)
     result.couple_axes.push_back(axis ? values_of(vector(*axis)) : Vector3d::Zero());
-  if (result.reachable) solve_equations(motion, stretch, registers, result, zero);
+  if (result.reachable) solve_equations(motion, stretch, registers, result, roundings);
 }
 
 }  // namespace
@@ -135,14 +136,14 @@ Instant instant_of(const Motion& motion, const std::vector<Series>& coordinates)
 
 namespace {
 
-Instant instant(const Motion& motion, std::size_t interval, double tau, std::vector<bool>* zero) {
+Instant instant(const Motion& motion, std::size_t interval, double tau, Roundings* roundings) {
   const Interval& stretch = motion.timeline.intervals[interval];
   Instant result;
   result.tau = tau;
   result.interval = interval;
   result.distance = distance_at(motion.timeline, stretch, tau);
   result.coordinates = coordinates_at(motion.timeline, stretch, tau);
-  solve_at(motion, stretch, result, zero);
+  solve_at(motion, stretch, result, roundings);
   return result;
 }
 
@@ -154,20 +155,37 @@ Instant instant(const Motion& motion, std::size_t interval, double tau) {
   return at;
 }
 
-std::vector<bool> idle_unknowns(const Motion& motion) {
+Idle idle_parts(const Motion& motion) {
   constexpr std::array shares = {0.2361, 0.5858, 0.8284};  // off the middle, where symmetric designs have zeros
-  std::vector<bool> idle(motion.model.unknowns.size(), true);
+  Idle idle{std::vector<bool>(motion.model.unknowns.size(), true),
+            std::vector<std::array<bool, 2>>(motion.columns.size(), {true, true})};
   bool told = false;
   for (std::size_t k = 0; k < motion.timeline.intervals.size(); ++k) {
     const Interval& stretch = motion.timeline.intervals[k];
     for (const double share : shares) {
-      std::vector<bool> zero;
-      (void)instant(motion, k, stretch.begin + share * (stretch.end - stretch.begin), &zero);
-      for (std::size_t u = 0; u < zero.size(); ++u) idle[u] = idle[u] && zero[u];
-      told = told || !zero.empty();
+      Roundings roundings;
+      const Instant at = instant(motion, k, stretch.begin + share * (stretch.end - stretch.begin), &roundings);
+      if (roundings.at_rest.size() == 0) continue;
+      told = true;
+      const std::array<std::pair<const Eigen::VectorXd*, const Eigen::VectorXd*>, 2> parts = {
+          {{&at.at_rest, &roundings.at_rest}, {&at.inertial, &roundings.inertial}}};
+      for (const auto& [values, bounds] : parts) {
+        for (std::size_t u = 0; u < idle.unknowns.size(); ++u) {
+          const auto row = static_cast<Eigen::Index>(u);
+          idle.unknowns[u] = idle.unknowns[u] && std::abs((*values)(row)) <= (*bounds)(row);
+        }
+        for (std::size_t j = 0; j < idle.ends.size(); ++j) {
+          const JointColumns& columns = motion.columns[j];
+          const double h = motion.clearances[j].half_length;
+          if (columns.normal < 0 || columns.tilt < 0 || !(h > 0)) continue;
+          const std::array<double, 2> ends = guide_ends((*values)(columns.normal), (*values)(columns.tilt), h);
+          const double bound = (*bounds)(columns.normal) + (*bounds)(columns.tilt) / h;
+          for (const std::size_t end : {0, 1}) idle.ends[j][end] = idle.ends[j][end] && std::abs(ends[end]) <= bound;
+        }
+      }
     }
   }
-  return told ? idle : std::vector<bool>(idle.size(), false);
+  return told ? idle : Idle{};
 }
 
 std::vector<JointReaction> joint_reactions(const Motion& motion, const Instant& at, const Eigen::VectorXd& values) {

@@ -30,6 +30,13 @@ struct BodyDirection {
   std::optional<Triple> axis = {};
 };
 
+/// What is zero all along a path, at rest and in motion. Empty: not known.
+struct Idle {
+  std::vector<bool> unknowns = {};
+  /// Of each joint's guide, what its ends bear, N + T/h ahead and N - T/h behind.
+  std::vector<std::array<bool, 2>> ends = {};
+};
+
 /// A mechanism on its way along a path.
 struct Motion {
   NumericModel model;
@@ -44,8 +51,7 @@ struct Motion {
   std::vector<bool> still;  ///< links that do not turn: guides hold them to the ground
   std::vector<JointColumns> columns;
   std::vector<JointClearance> clearances;
-  /// Of the unknowns: zero all along the path, at rest and in motion. Empty: not known.
-  std::vector<bool> idle = {};
+  Idle idle = {};
 };
 
 /// Throws core::InputError where a link with inertia has neither a second point nor a guide that would show its
@@ -85,9 +91,9 @@ Motion compile_motion(const mechanism::Mechanism& mechanism, std::vector<int> mo
 /// With these coordinates as functions of time; time is in s and the period 1 s.
 Instant instant_of(const Motion& motion, const std::vector<Series>& coordinates);
 
-/// Unknowns that are zero, to the rounding of their solution, at some instants of every interval: what their equations
-/// ask of them does not depend on where these are. Instants out of reach or next to a singularity tell nothing.
-std::vector<bool> idle_unknowns(const Motion& motion);
+/// What is zero, to the rounding of the solution, at some instants of every interval: what the equations ask of it does
+/// not depend on where these are. Instants out of reach or next to a singularity tell nothing.
+Idle idle_parts(const Motion& motion);
 
 /// What joints exert at an instant, of a column of the unknowns: as of reactions.hpp.
 std::vector<JointReaction> joint_reactions(const Motion& motion, const Instant& at, const Eigen::VectorXd& values);

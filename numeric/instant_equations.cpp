@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -83,7 +85,17 @@ class InstantEquations {
         A_(Eigen::MatrixXd::Zero(size_, size_)),
         A_rate_(A_),
         rest_(size_),
-        inertial_(size_) {}
+        inertial_(size_),
+        cancelled_(Eigen::VectorXd::Zero(size_)) {}
+
+  /// To be asked before `solve` where `roundings` are wanted.
+  void know_sizes() {
+    largest_acceleration_ = 0;
+    for (mechanism::PointIndex p = 0; p < static_cast<int>(model_.points.size()); ++p) {
+      const RateVector a = acceleration_of(point(p));
+      largest_acceleration_ = std::max(*largest_acceleration_, std::hypot(a[0].value(), a[1].value(), a[2].value()));
+    }
+  }
 
   void solve(Instant& instant) {
     assemble_statics();
@@ -97,24 +109,26 @@ class InstantEquations {
     instant.at_rest_rate = lu.solve(rest_.rate - A_rate_ * instant.at_rest);
     instant.inertial_rate = lu.solve(inertial_.rate - A_rate_ * instant.inertial);
     instant.influence = lu.solve(unit_wrenches_on_the_end_effector()).transpose();
-    for (std::size_t k = 0; k < motion_.idle.size(); ++k)
-      if (motion_.idle[k])
+    for (std::size_t k = 0; k < motion_.idle.unknowns.size(); ++k)
+      if (motion_.idle.unknowns[k])
         for (Eigen::VectorXd* part :
              {&instant.at_rest, &instant.inertial, &instant.at_rest_rate, &instant.inertial_rate})
           (*part)(static_cast<Eigen::Index>(k)) = 0;
   }
 
-  /// Zero within a bound of what rounding of A, b and the solution leaves: |A^-1| (|A| |w| + |b|), times so much.
-  std::vector<bool> zeros(const Instant& instant) const {
+  /// |A^-1| (|L| |U| |w| + |b|), times so much: elimination fills places where A is zero. Terms of b that cancel count
+  /// with their sizes.
+  Roundings roundings(const Instant& instant) const {
     constexpr double rounding = 1e-13;
-    const Eigen::MatrixXd inverse = A_.inverse().cwiseAbs(), size = A_.cwiseAbs();
-    std::vector<bool> zero(static_cast<std::size_t>(size_), true);
-    for (const auto& [values, right] : {std::pair(&instant.at_rest, &rest_), {&instant.inertial, &inertial_}}) {
-      const Eigen::VectorXd bound = rounding * (inverse * (size * values->cwiseAbs() + right->value.cwiseAbs()));
-      for (Eigen::Index k = 0; k < size_; ++k)
-        if (!(std::abs((*values)(k)) <= bound(k))) zero[static_cast<std::size_t>(k)] = false;
-    }
-    return zero;
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A_);
+    const Eigen::MatrixXd inverse = lu.inverse().cwiseAbs();
+    const Eigen::MatrixXd lower = lu.matrixLU().triangularView<Eigen::UnitLower>(),
+                          upper = lu.matrixLU().triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd size = lu.permutationP().transpose() * (lower.cwiseAbs() * upper.cwiseAbs());
+    const auto of = [&](const Eigen::VectorXd& values, const Eigen::VectorXd& right) -> Eigen::VectorXd {
+      return rounding * (inverse * (size * values.cwiseAbs() + right));
+    };
+    return {of(instant.at_rest, rest_.value.cwiseAbs()), of(instant.inertial, inertial_.value.cwiseAbs() + cancelled_)};
   }
 
  private:
@@ -177,15 +191,22 @@ class InstantEquations {
       const double m = motion_.mass[i], inertia = motion_.inertia[i];
       if (m == 0 && inertia <= 0) continue;
       add_inertia(link, links[i].centre_of_mass, m, inertia == slender_rod ? rod(links[i], m) : turned(link, inertia));
+      if (largest_acceleration_) add_size(link, links[i].centre_of_mass, m, size_of_turning(links[i], m, inertia));
     }
-    for (const PlacedMass& body : motion_.point_masses) add_inertia(body.link, body.at, body.mass, {});
+    for (const PlacedMass& body : motion_.point_masses) {
+      add_inertia(body.link, body.at, body.mass, {});
+      if (largest_acceleration_) add_size(body.link, body.at, body.mass, 0);
+    }
   }
 
   void assemble_payloads() {
     for (const int number : interval_.carried) {
       const mechanism::Payload& payload = motion_.timeline.trajectory.payloads[static_cast<std::size_t>(number)];
       const double m = core::to_double(payload.mass);
-      add_inertia(payload.link, payload.at, m, turned(payload.link, core::to_double(payload.inertia)));
+      const double inertia = core::to_double(payload.inertia);
+      add_inertia(payload.link, payload.at, m, turned(payload.link, inertia));
+      const mechanism::Link& link = model_.mechanism.links[static_cast<std::size_t>(payload.link)];
+      if (largest_acceleration_) add_size(payload.link, payload.at, m, size_of_turning(link, m, inertia));
       if (!model_.gravity) continue;
       add(rest_, payload.link, payload.at, times(m, truncated<1>(vector(*model_.gravity))), {}, -1);
     }
@@ -193,6 +214,35 @@ class InstantEquations {
 
   void add_inertia(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, const RateVector& turning) {
     add(inertial_, link, centre, times(m, acceleration_of(point(centre))), turning, 1);
+  }
+
+  /// With the largest acceleration of all points: that of one may be the sum of terms of that size.
+  void add_size(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, double turning) {
+    const double force = m * *largest_acceleration_;
+    const double moment = force * values_of(between(model_.mechanism.end_effector_point, centre)).norm();
+    for (std::size_t c = 0; c < rows_of_wrench_.size(); ++c)
+      cancelled_(row_of(link, c)) += rows_of_wrench_[c] < 3 ? force : turning + moment;
+  }
+
+  double size_of_turning(const mechanism::Link& link, double m, double inertia) const {
+    const auto index = static_cast<mechanism::LinkIndex>(&link - model_.mechanism.links.data());
+    if (inertia == slender_rod)
+      return m / 12 * *largest_acceleration_ * values_of(between(link.points.at(0), link.points.at(1))).norm();
+    if (inertia == 0) return 0;
+    // Along an axis: its own derivatives. Between points: theirs, which may cancel.
+    const auto size = [&](const PointSeries& r, bool is_axis) {
+      const double length = values_of(r).norm(), rate = Vector3d(r[0].c[1], r[1].c[1], r[2].c[1]).norm() / length;
+      const RateVector second = acceleration_of(r);
+      const Vector3d own(second[0].value(), second[1].value(), second[2].value());
+      return (is_axis ? own.norm() : *largest_acceleration_) / length + rate * rate;
+    };
+    if (model_.mechanism.space == mechanism::Space::planar)
+      return inertia * size(direction_in_plane(index), motion_.guide[static_cast<std::size_t>(index)] >= 0);
+    if (motion_.still[static_cast<std::size_t>(index)]) return 0;
+    double most = 0;
+    for (const BodyDirection& direction : motion_.directions[static_cast<std::size_t>(index)])
+      most = std::max(most, size(series_of(direction), direction.axis.has_value()));
+    return inertia * most;
   }
 
   /// m/12 r × r'' of a slender rod between a link's first two points.
@@ -250,6 +300,8 @@ class InstantEquations {
   Eigen::Index size_;
   Eigen::MatrixXd A_, A_rate_;
   Column rest_, inertial_;
+  std::optional<double> largest_acceleration_;  ///< of the points; where sizes are asked for
+  Eigen::VectorXd cancelled_;                   ///< sizes of the terms of the inertial column
 };
 }  // namespace
 
@@ -259,10 +311,11 @@ void refuse_rotation(const mechanism::Link& link) {
 }
 
 void solve_equations(const Motion& motion, const Interval& stretch, const std::vector<Series>& registers,
-                     Instant& instant, std::vector<bool>* zero) {
+                     Instant& instant, Roundings* roundings) {
   InstantEquations equations(motion, stretch, registers);
+  if (roundings != nullptr) equations.know_sizes();
   equations.solve(instant);
-  if (zero != nullptr) *zero = equations.zeros(instant);
+  if (roundings != nullptr) *roundings = equations.roundings(instant);
 }
 
 }  // namespace clearloci::numeric

@@ -75,6 +75,71 @@ loads:
   EXPECT_GT(least, 1) << "the slot bears the load";
 }
 
+std::ptrdiff_t idle_parts(const TrajectoryResult& along) {
+  return std::count_if(along.notes.begin(), along.notes.end(),
+                       [](const std::string& note) { return note.find("is zero all along the path") != note.npos; });
+}
+
+// Elimination fills the place of its couple, which is zero by an equation of its own.
+TEST(FollowTrajectory, NothingIsLostAtTheEndsOfAGuideThatBearsNothing) {
+  const Model model = Model::parse(R"(
+format: 1
+workspace: {x: [-0.3, 0.3], y: [0.2, 0.6]}
+points:
+  A: [-0.31, 0]
+  B: [0.29, 0.013]
+  P: [x, y]
+links:
+  ca: {points: [A]}
+  ra: {points: [P], mass: 1, com: P, inertia: 0}
+  cb: {points: [B]}
+  rb: {points: [P]}
+joints:
+  A: {revolute: [ground, ca], at: A}
+  S: {prismatic: [ca, ra], at: P, axis: [A, P], actuated: true, clearance: {axial: 8e-6}}
+  B: {revolute: [ground, cb], at: B}
+  T: {prismatic: [cb, rb], at: P, axis: [B, P], actuated: true, clearance: {axial: 8e-6, gap: 5e-6, half_length: 0.05}}
+  P: {revolute: [rb, ra], at: P, clearance: {radial: 10e-6}}
+end_effector: {link: ra, at: P}
+loads: [{link: ra, at: P, force: [13, -100]}]
+)");
+  const TrajectoryResult along = follow_trajectory_text(
+      model,
+      "format: 1\npath: {closed: true, waypoints: [{at: [-0.05, 0.33], stop: true}, {at: [0.07, 0.41], stop: true}]}\n"
+      "motion: cycloidal\nperiod: 2\n");
+  EXPECT_TRUE(along.losses.empty());
+  EXPECT_EQ(idle_parts(along), 2);
+  for (const auto& stage : along.stages) EXPECT_LT(stage.critical_period, 0.31);
+}
+
+// The crank is balanced and turns at a constant speed: what accelerates it is the sum of terms that cancel.
+TEST(FollowTrajectory, NothingIsLostInAMotorThatBearsNothing) {
+  const Model model = Model::parse(R"(
+format: 1
+workspace: {q: {angle: [0, 360 deg]}}
+points:
+  A: [0, 0]
+  B: ['0.1*cos(q)', '0.1*sin(q)']
+  D: [0.37, 0.02]
+  C: {dyad: [B, D], lengths: [0.33, 0.21], side: left}
+links:
+  AB: {points: [A, B], mass: 0.7, com: A, inertia: 0.01}
+  BC: {points: [B, C]}
+  CD: {points: [C, D]}
+joints:
+  A: {revolute: [ground, AB], at: A, actuated: true, clearance: {radial: 10e-6, angular: 1e-4}}
+  B: {revolute: [AB, BC], at: B, clearance: {radial: 10e-6}}
+  C: {revolute: [BC, CD], at: C, clearance: {radial: 10e-6}}
+  D: {revolute: [ground, CD], at: D, clearance: {radial: 10e-6}}
+end_effector: {link: CD, at: C}
+loads: [{link: AB, at: A, force: [3, -7]}]
+)");
+  const TrajectoryResult along = follow_trajectory_text(
+      model, "format: 1\npath: {waypoints: [[0 deg], [360 deg]]}\nmotion: {law: constant, speed: 120 rpm}\n");
+  EXPECT_TRUE(along.losses.empty());
+  EXPECT_EQ(idle_parts(along), 4);
+}
+
 TEST(FollowTrajectory, TellsOfOneCycle) {
   const TrajectoryResult motion = follow_trajectory(manipulator(), folder + "path.yaml", {.samples = 200});
   EXPECT_EQ(motion.trajectory, "Pick and place");
