@@ -131,7 +131,8 @@ std::string exclusion_words(const EffortSystem& system, const EffortExclusion& e
     if (!row.at.empty() && row.at != last) words += place(row.at);
     if (!row.at.empty()) last = row.at;
     words += row_words(row);
-    if (row.slope.size() != 1 || row.slope[0].value == 0) continue;
+    // To rounding, no effort makes a difference.
+    if (row.slope.size() != 1 || std::abs(row.slope[0].value) <= row.slope[0].error) continue;
     const double effort = -row.offset.value / row.slope[0].value;
     words += (row.slope[0].value > 0 ? " for efforts above " : " for efforts below ") +
              core::told(effort, system.wanted().front().force ? "N" : "N m", mechanism.units, 4);

@@ -200,7 +200,8 @@ std::string proof_text(const StudyResult& result) {
   const std::pair<Status, const char*> lines[] = {
       {Status::feasible, "every design verifies, proven"},
       {Status::infeasible, "every design fails, proven"},
-      {Status::undecided, "neither is proven, even in the finest cells"},
+      {Status::undecided,
+       result.complete ? "neither is proven, even in the finest cells" : "neither is proven, or not looked at yet"},
       {Status::left_out, result.best_goal ? "keep does not hold, or no better than the best" : "keep does not hold"}};
   for (const auto& [status, words] : lines) {
     const double part = share(result, status);

@@ -53,6 +53,7 @@ std::string sentence_of_proof(const StudyResult& result) {
       fmt::format("{} of the range verifies, {} fails, each proven for every design in it; {} stays undecided.",
                   percent(share(result, Status::feasible)), percent(share(result, Status::infeasible)),
                   percent(share(result, Status::undecided)));
+  if (!result.complete) words += " Not all of it was looked at.";
   if (result.best)
     words += fmt::format(" Recommended: {} = {}.", result.parameters.front(),
                          exact_number(result.designs[*result.best].values.front()));
@@ -142,7 +143,9 @@ std::string why_the_rest_fails(const StudyResult& result) {
     for (const auto& [reason, part] : cell_reasons(result)) add(reason, percent(part));
   else
     for (const auto& [reason, many] : study_reasons(result)) add(reason, std::to_string(many));
-  return any ? table(rows) : "<p>No design fails.</p>\n";
+  if (any) return table(rows);
+  const bool all_decided = result.complete && !(is_proof(result) && share(result, Status::undecided) > 0);
+  return all_decided ? "<p>No design fails.</p>\n" : "<p>No design is known to fail.</p>\n";
 }
 
 std::string tolerances_of(const StudyResult& result) {

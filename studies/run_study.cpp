@@ -158,6 +158,15 @@ void leave_what_is_no_better(BestProven& best, const CellTree& tree, std::vector
   });
 }
 
+/// When the deadline came.
+StudyDesign not_looked_at(std::uint64_t path) {
+  StudyDesign design;
+  design.index = path;
+  design.status = Status::undecided;
+  design.reason = "not looked at";
+  return design;
+}
+
 /// Cells level by level: what is undecided is cut, down to the finest.
 void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyResult& result) {
   require_provable(problem.study());
@@ -188,7 +197,10 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
       std::vector<std::uint64_t> finer;
       for (const std::uint64_t path : level) {
         const auto judged = judged_designs.find(path);
-        if (judged == judged_designs.end()) continue;
+        if (judged == judged_designs.end()) {
+          leaves.push_back(not_looked_at(path));
+          continue;
+        }
         if (best && judged->second.status == Status::feasible) best->add_feasible(tree.ranges(path));
         if (judged->second.status == Status::undecided && !tree.is_finest(path)) {
           finer.push_back(2 * path);
@@ -203,6 +215,7 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
       level = std::move(finer);
     }
     (void)found.take();
+    for (const std::uint64_t path : level) leaves.push_back(not_looked_at(path));
     for (const StudyDesign& design : leaves) result.cells.push_back(cell_of(design, tree));
     if (result.complete && problem.study().vary.size() == 1) {
       result.ranges = joined_ranges(result.cells);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <set>
 
@@ -220,6 +221,21 @@ TEST(Study, VariesFreeEffortsAndWritesTheBest) {
   ASSERT_TRUE(result.best);
   const Model best = Model::parse(design_text(model, result, result.designs[*result.best]));
   EXPECT_TRUE(verify(best, parse_task("format: 1\nbox: {x: [-0.05, 0.15], y: [0.45, 0.6]}\n", best)).verified());
+}
+
+TEST(Study, WhatAProofDidNotComeToStaysUndecided) {
+  const Model model = five_bar();
+  const StudyResult result = run_study(model, parse_study(study_text("{prove: 1/64}", ""), model),
+                                       {.threads = 1, .deadline = std::chrono::steady_clock::now()});
+  EXPECT_FALSE(result.complete);
+  double all = 0;
+  bool is_left = false;
+  for (const StudyCell& cell : result.cells) {
+    all += (cell.upper[0] - cell.lower[0]) * (cell.upper[1] - cell.lower[1]);
+    is_left = is_left || (cell.status == Status::undecided && cell.reason == "not looked at");
+  }
+  EXPECT_NEAR(all, 0.16, 1e-12);
+  EXPECT_TRUE(is_left);
 }
 
 TEST(Study, ProvesCellsOfDesigns) {
