@@ -258,6 +258,10 @@ TrajectoryResult follow_trajectory(const mechanism::Mechanism& mechanism, const 
   result.stages = stages_of(motion, period, motions.critical_periods(thresholds));
   for (std::string& note : motions.slack_notes(samples, period)) result.notes.push_back(std::move(note));
   for (std::string& note : idle_notes(motion)) result.notes.push_back(std::move(note));
+  if (!numeric::are_dense(motion, samples))
+    result.notes.push_back("the path turns round between the " + std::to_string(request.samples) +
+                           " instants that it is followed at: contact losses may be missing, and periods wrong; "
+                           "take more (--samples)");
   check_deadline();
   result.samples = table_of(motion, samples, period);
   if (!request.periods.empty()) add_sweep(motions, thresholds, request.periods, result);

@@ -317,4 +317,27 @@ std::vector<std::vector<Instant>> sample(const Motion& motion, int count) {
   return all;
 }
 
+bool are_dense(const Motion& motion, const std::vector<std::vector<Instant>>& samples) {
+  constexpr double near = 0.1;                         // of the largest acceleration
+  constexpr std::array shares = {0.190983, 0.618034};  // of the way: whatever the frequency, some are off its zeros
+  const auto second = [](const Series& coordinate) { return coordinate.c[2]; };
+  for (std::size_t q = 0; q < motion.model.mechanism.coordinates.size(); ++q) {
+    double largest = 0, farthest = 0;
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      for (std::size_t i = 0; i + 1 < samples[k].size(); ++i) {
+        const Instant &a = samples[k][i], &b = samples[k][i + 1];
+        const double at_a = second(a.coordinates[q]), at_b = second(b.coordinates[q]);
+        largest = std::max({largest, std::abs(at_a), std::abs(at_b)});
+        for (const double share : shares) {
+          const double there =
+              second(coordinates_at(motion.timeline, motion.timeline.intervals[k], a.tau + share * (b.tau - a.tau))[q]);
+          largest = std::max(largest, std::abs(there));
+          farthest = std::max(farthest, std::abs(there - (1 - share) * at_a - share * at_b));
+        }
+      }
+    if (farthest > near * largest) return false;
+  }
+  return true;
+}
+
 }  // namespace clearloci::numeric

@@ -121,4 +121,8 @@ InstantError instant_error(const Motion& motion, const Instant& at, double perio
 /// parallel. Throws core::InputError where the path leaves the workspace or meets a direct singularity.
 std::vector<std::vector<Instant>> sample(const Motion& motion, int count);
 
+/// Whether accelerations of the coordinates between samples are near those of the samples beside them. Where they are
+/// not the path turns round between samples, and what is looked for there may be missed.
+bool are_dense(const Motion& motion, const std::vector<std::vector<Instant>>& samples);
+
 }  // namespace clearloci::numeric
