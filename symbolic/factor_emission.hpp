@@ -58,7 +58,8 @@ class FactorEmission {
   /// tower, null where it vanishes in every pose.
   std::size_t pair_function(std::size_t factor);
   const std::vector<std::size_t>* pair_functions(const Poly& natural);
-  /// In the place of two factors, of fx and fy. False, and nothing is added, where both functions are zero along a curve.
+  /// In the place of two factors, of fx and fy. False, and nothing is added, where both functions are zero along a
+  /// curve.
   bool add_pairs(const LowerPair& pair, const std::array<std::size_t, 2>& factors, core::ForcePairs& of_joint);
   /// Which of the problem's factors a reaction's factor is, of a component of a joint's force.
   std::vector<std::size_t> parts_of(std::size_t factor, const std::string& joint, core::Quantity component) const;
