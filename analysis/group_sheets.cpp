@@ -41,7 +41,8 @@ std::optional<loci::pose::CoveredBox> cover_groups(const mechanism::Mechanism& m
     char text[32];
     std::snprintf(text, sizeof text, "%.1g", found.finest);
     notes.push_back("the sheet of " + names + " ends in the box, at dead centres; what it reaches through passages " +
-                    "narrower than " + text + " of the box is not told");
+                    "narrower than " + text + " of the box is not told, and poses beside a dead centre may count as " +
+                    "out of reach");
   }
   return found;
 }

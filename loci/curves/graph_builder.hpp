@@ -122,10 +122,6 @@ class GraphBuilder {
   /// Other cuts move neither the border nor a star's corners. `segment`: of the border.
   void blame(int patch, int axis, const Interval& segment, const Trouble& trouble, bool runs_along);
 
-  const ChartBorder& border_of(int patch, int axis, int end) const {
-    return parts_.borders[static_cast<std::size_t>(patch)][static_cast<std::size_t>(2 * axis + (end > 0 ? 1 : 0))];
-  }
-
   void hand_over(int patch, int index, int axis, int end, std::vector<Interval> zero);
 
   /// Whether a zero on a rim is one that was met at a star: both are in one box in which there is one at most.

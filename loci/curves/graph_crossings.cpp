@@ -217,7 +217,7 @@ void GraphBuilder::meet_border(int patch) {
     for (const int end : {-1, 1}) {
       const Interval& range = axis == 0 ? domain.x : domain.y;
       const double at = end < 0 ? range.lower() : range.upper();
-      const ChartBorder& border = border_of(patch, axis, end);
+      const ChartBorder& border = parts_.border(patch, axis, end);
       if (!border.is_searched) continue;
       bool runs_along = false;
       for (std::size_t l = 0; l < at_leaf_[patch].size(); ++l) {
@@ -262,7 +262,7 @@ void GraphBuilder::blame(int patch, int axis, const Interval& segment, const Tro
 void GraphBuilder::hand_over(int patch, int index, int axis, int end, std::vector<Interval> zero) {
   using To = ChartBorder::To;
   const Chart& chart = graph_.patches[patch].chart;
-  const ChartBorder& border = border_of(patch, axis, end);
+  const ChartBorder& border = parts_.border(patch, axis, end);
   if (border.to == To::edge) {
     at_leaf_[patch][index].push_back({add_crossing(patch, zero, Crossing::Kind::box), zero});
     return;

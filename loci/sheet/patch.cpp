@@ -58,13 +58,13 @@ void add_charts(Partition& parts, int star, const std::array<Rational, 4>& recta
   using To = ChartBorder::To;
   const Star& at = parts.stars[static_cast<std::size_t>(star)];
   std::array<std::array<int, 2>, 4> outermost{};  // of each side's charts, those before and beyond all others
-  const auto border = [&](int chart, int axis, int end) -> ChartBorder& {
-    return parts.borders[static_cast<std::size_t>(chart)][static_cast<std::size_t>(2 * axis + (end > 0 ? 1 : 0))];
+  const auto border = [&](const ChartBorder& of) -> ChartBorder& {
+    return parts.borders[static_cast<std::size_t>(of.chart)][side_of(of.axis, of.end)];
   };
   /// `from` searches for the zeros between them.
   const auto join = [&](const ChartBorder& from, const ChartBorder& to) {
-    border(from.chart, from.axis, from.end) = {To::chart, true, to.chart, to.axis, to.end};
-    border(to.chart, to.axis, to.end) = {To::chart, false, from.chart, from.axis, from.end};
+    border(from) = {To::chart, true, to.chart, to.axis, to.end};
+    border(to) = {To::chart, false, from.chart, from.axis, from.end};
   };
   const auto place = [](int chart, int axis, int end) { return ChartBorder{To::chart, true, chart, axis, end}; };
   constexpr std::array sides = {Side::right, Side::top, Side::left, Side::bottom};

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -134,7 +135,8 @@ struct ChartBorder {
   bool is_searched = true;            ///< zeros on a side between two charts of a star are searched from one of them
   int chart = -1, axis = 0, end = 0;  ///< of another chart: which side
 };
-using ChartBorders = std::array<ChartBorder, 4>;  ///< 2 axis, and one more at the higher end
+using ChartBorders = std::array<ChartBorder, 4>;  ///< by side_of
+inline std::size_t side_of(int axis, int end) { return 2 * static_cast<std::size_t>(axis) + (end > 0 ? 1 : 0); }
 
 /// A rectangle of the plane with rectangles around its stars cut out.
 struct Partition {
@@ -143,7 +145,13 @@ struct Partition {
   std::array<double, 4> domain{};            ///< at least the wanted box, larger where a star is near its edge
   std::vector<Chart> charts;                 ///< the plane first, then those of each star: four or more
   std::vector<ChartBorders> borders;         ///< of the charts
+
+  /// Of a chart: across an axis, at its lower (-1) or upper (1) end.
+  const ChartBorder& border(int chart, int axis, int end) const {
+    return borders[static_cast<std::size_t>(chart)][side_of(axis, end)];
+  }
 };
+
 /// `bases`: points that no rectangle may come near unless it is their own; those of a whole tower make the partitions
 /// of its parts agree on the rectangles they have in common. `special`: stars besides the cones of the tower. `skewed`:
 /// rectangles that have their stars off the middle, so that their corners lie in other directions.
