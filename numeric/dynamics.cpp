@@ -177,7 +177,10 @@ Idle idle_parts(const Motion& motion) {
         for (std::size_t j = 0; j < idle.ends.size(); ++j) {
           const JointColumns& columns = motion.columns[j];
           const double h = motion.clearances[j].half_length;
-          if (columns.normal < 0 || columns.tilt < 0 || !(h > 0)) continue;
+          if (columns.normal < 0 || columns.tilt < 0 || !(h > 0)) {
+            idle.ends[j] = {false, false};
+            continue;
+          }
           const std::array<double, 2> ends = guide_ends((*values)(columns.normal), (*values)(columns.tilt), h);
           const double bound = (*bounds)(columns.normal) + (*bounds)(columns.tilt) / h;
           for (const std::size_t end : {0, 1}) idle.ends[j][end] = idle.ends[j][end] && std::abs(ends[end]) <= bound;
@@ -318,26 +321,34 @@ std::vector<std::vector<Instant>> sample(const Motion& motion, int count) {
 }
 
 bool are_dense(const Motion& motion, const std::vector<std::vector<Instant>>& samples) {
-  constexpr double near = 0.1;                         // of the largest acceleration
+  constexpr double near = 0.1;                         // of the largest acceleration of the interval
+  constexpr double rounding = 1e-9;                    // of the largest of all
   constexpr std::array shares = {0.190983, 0.618034};  // of the way: whatever the frequency, some are off its zeros
-  const auto second = [](const Series& coordinate) { return coordinate.c[2]; };
-  for (std::size_t q = 0; q < motion.model.mechanism.coordinates.size(); ++q) {
-    double largest = 0, farthest = 0;
-    for (std::size_t k = 0; k < samples.size(); ++k)
-      for (std::size_t i = 0; i + 1 < samples[k].size(); ++i) {
-        const Instant &a = samples[k][i], &b = samples[k][i + 1];
-        const double at_a = second(a.coordinates[q]), at_b = second(b.coordinates[q]);
-        largest = std::max({largest, std::abs(at_a), std::abs(at_b)});
-        for (const double share : shares) {
-          const double there =
-              second(coordinates_at(motion.timeline, motion.timeline.intervals[k], a.tau + share * (b.tau - a.tau))[q]);
-          largest = std::max(largest, std::abs(there));
+  const std::size_t size = motion.model.mechanism.coordinates.size();
+  std::vector<std::vector<std::array<double, 2>>> found;  // of the intervals and coordinates: largest, farthest
+  std::vector<double> largest_of_all(size, 0.0);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    auto& of_interval = found.emplace_back(size);
+    for (std::size_t i = 0; i + 1 < samples[k].size(); ++i) {
+      const Instant &a = samples[k][i], &b = samples[k][i + 1];
+      for (const double share : shares) {
+        const std::vector<Series> between =
+            coordinates_at(motion.timeline, motion.timeline.intervals[k], a.tau + share * (b.tau - a.tau));
+        for (std::size_t q = 0; q < size; ++q) {
+          const double at_a = a.coordinates[q].c[2], at_b = b.coordinates[q].c[2], there = between[q].c[2];
+          auto& [largest, farthest] = of_interval[q];
+          largest = std::max({largest, std::abs(at_a), std::abs(at_b), std::abs(there)});
           farthest = std::max(farthest, std::abs(there - (1 - share) * at_a - share * at_b));
+          largest_of_all[q] = std::max(largest_of_all[q], largest);
         }
       }
-    if (farthest > near * largest) return false;
+    }
   }
-  return true;
+  return std::all_of(found.begin(), found.end(), [&](const auto& of_interval) {
+    for (std::size_t q = 0; q < size; ++q)
+      if (of_interval[q][1] > std::max(near * of_interval[q][0], rounding * largest_of_all[q])) return false;
+    return true;
+  });
 }
 
 }  // namespace clearloci::numeric

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanism/guide.hpp"
+
 namespace clearloci::numeric {
 
 namespace {
@@ -14,6 +16,7 @@ namespace {
 struct JointTerms {
   JointClearance clearance;  ///< 0 where the joint has no such reaction
   JointColumns columns;
+  std::array<bool, 2> idle;  ///< ends of its guide
 };
 
 }  // namespace
@@ -49,7 +52,9 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
     const JointColumns& columns = motion.columns[j];
     JointClearance clearance = motion.clearances[j];
     if (columns.normal < 0) clearance.gap = 0;
-    joints.push_back({clearance, columns});
+    std::array<bool, 2> idle{};
+    for (const auto& [end, sign] : mechanism::guide_end_signs) idle[sign > 0 ? 0 : 1] = is_idle(motion, j, end);
+    joints.push_back({clearance, columns, idle});
   }
   tbb::parallel_for(std::size_t{0}, periods.size(), [&](std::size_t p) {
     const double u = 1 / (periods[p] * periods[p]);
@@ -58,7 +63,7 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
       const Instant& at = *all[s];
       Eigen::Vector3d error = Eigen::Vector3d::Zero();
       for (const JointTerms& joint : joints) {
-        const auto& [clearance, columns] = joint;
+        const auto& [clearance, columns, idle] = joint;
         const auto reaction = [&](int column) { return at.at_rest(column) + u * at.inertial(column); };
         if (clearance.radial > 0) {  // 0/0 where the force vanishes
           const double x = reaction(columns.fx), y = reaction(columns.fy);
@@ -73,7 +78,8 @@ PeriodSweep period_sweep(const Motion& motion, const std::vector<std::vector<Ins
         if (clearance.gap > 0) {
           const double h = clearance.half_length;
           std::array<double, 2> way = guide_ends(reaction(columns.normal), reaction(columns.tilt), h);
-          for (double& end : way) end = end == 0 ? nan : -std::copysign(clearance.gap, end);
+          for (const std::size_t end : {0, 1})
+            way[end] = idle[end] || way[end] == 0 ? nan : -std::copysign(clearance.gap, way[end]);
           error += (way[0] + way[1]) / 2 * at.influence.col(columns.normal) +
                    (way[0] - way[1]) / (2 * h) * at.influence.col(columns.tilt);
         }

@@ -183,7 +183,7 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
     std::vector<StudyDesign> leaves;
     std::optional<BestProven> best;
     if (!problem.study().goals.empty() && problem.study().vary.size() > 1) best.emplace(problem);
-    while (!level.empty() && result.complete) {
+    while (!level.empty()) {
       std::size_t next = 0;
       work.next = [&]() -> std::optional<std::uint64_t> {
         while (next < level.size() && judged_designs.contains(level[next])) ++next;
@@ -193,7 +193,7 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
         for (const StudyDesign& design : some) judged_designs.insert_or_assign(design.index, design);
         found.add(std::move(some));
       };
-      result.complete = do_work(work, options);
+      if (result.complete) result.complete = do_work(work, options);
       std::vector<std::uint64_t> finer;
       for (const std::uint64_t path : level) {
         const auto judged = judged_designs.find(path);
@@ -215,7 +215,6 @@ void prove_all(const StudyProblem& problem, const StudyOptions& options, StudyRe
       level = std::move(finer);
     }
     (void)found.take();
-    for (const std::uint64_t path : level) leaves.push_back(not_looked_at(path));
     for (const StudyDesign& design : leaves) result.cells.push_back(cell_of(design, tree));
     if (result.complete && problem.study().vary.size() == 1) {
       result.ranges = joined_ranges(result.cells);

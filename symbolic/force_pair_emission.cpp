@@ -56,9 +56,9 @@ bool FactorEmission::add_pairs(const LowerPair& pair, const std::array<std::size
   const auto& functions = d_.result.problem.pair_functions;
   std::vector<core::ForcePair> pairs;
   if (pair.normal) {
-    const bool by_x = pair.second == d_.factors[factors[0]].natural;
+    const bool by_x = pair.normal->component == Quantity::fx;
     const core::Polynomial normal =
-        core::scaled_for_doubles(d_.elimination.over_tower(*pair.normal).plain(d_.geometry.tower_variables()));
+        core::scaled_for_doubles(d_.elimination.over_tower(pair.normal->way).plain(d_.geometry.tower_variables()));
     for (const std::size_t i : *a)
       for (const std::size_t k : parts_of(factors[by_x ? 0 : 1], of_joint.joint, by_x ? Quantity::fx : Quantity::fy))
         for (const std::size_t third :

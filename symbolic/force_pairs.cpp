@@ -7,7 +7,8 @@ namespace clearloci::symbolic {
 namespace {
 
 constexpr double most_terms = 20000;  // of a product, before it is multiplied out
-// Of a new polynomial: longer ones take longer to put over the tower than the search that they shorten.
+// Of a new polynomial: longer ones take longer to put over the tower than the search that they shorten. The moments of
+// a force may be as long as its components.
 constexpr std::size_t most_terms_over_tower = 64;
 
 /// The last variable of a linear polynomial, which is a coordinate of the point that is constructed last.
@@ -178,9 +179,10 @@ std::optional<std::vector<LowerPair>> PairReduction::lowered_by_two_moments(cons
         return pairs;
       }
       const bool by_x = !(*a.way)[0].is_zero();
-      if (by_component || x == *a.divisor || y == *a.divisor) continue;
+      if (by_component || ratio(x, *a.divisor) || ratio(y, *a.divisor)) continue;
       by_component = regular_pairs(a.value, b.value);
-      if (by_component) by_component->push_back({*a.divisor, by_x ? x : y, (*a.way)[by_x ? 0 : 1]});
+      const LowerPair::Normal normal{(*a.way)[by_x ? 0 : 1], by_x ? core::Quantity::fx : core::Quantity::fy};
+      if (by_component) by_component->push_back({*a.divisor, by_x ? x : y, normal});
     }
   return by_component;
 }

@@ -26,11 +26,15 @@ namespace clearloci::symbolic {
 
 using PolyPair = std::array<Poly, 2>;
 
-/// Two polynomials that vanish together. With a normal the second one is a component itself, and the other component
-/// has to vanish, too: it does where the normal does not.
+/// Two polynomials that vanish together. With a normal the second one is a component of the force, and the other one
+/// has to vanish, too: it does where the normal, that component of the way along which the force is, does not.
 struct LowerPair {
+  struct Normal {
+    Poly way;
+    core::Quantity component;  ///< fx or fy
+  };
   Poly first, second;
-  std::optional<Poly> normal = {};
+  std::optional<Normal> normal = {};
 };
 
 class PairReduction {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "loci/curves/edge_labels.hpp"
@@ -142,13 +143,14 @@ bool is_proven_at(const LocusMap& map, const WorkingMode& mode, const std::strin
   });
 }
 
-/// Joins a joint to a point already found, or adds the point. Where |A| is proven to vanish with the numerators of one
-/// force they all do: without limit, one proof is of all joints.
-void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same) {
+/// Joins a joint to a point already found, or adds the point; its place among the points. `shares`: whether what is
+/// proven of one of the joints there is proven of the other.
+std::size_t add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, double same,
+                      const std::function<bool(std::size_t)>& shares = {}) {
   for (std::size_t i = first; i < map.isolated_points.size(); ++i) {
     IsolatedPoint& isolated_point = map.isolated_points[i];
     if (isolated_point.mode != point.mode || isolated_point.kind != point.kind ||
-        (isolated_point.certified != point.certified && point.kind != LocusKind::no_limit) ||
+        (isolated_point.certified != point.certified && !(shares && shares(i))) ||
         std::hypot(isolated_point.at[0] - point.at[0], isolated_point.at[1] - point.at[1]) > same) {
       continue;
     }
@@ -159,9 +161,10 @@ void add_point(LocusMap& map, std::size_t first, const IsolatedPoint& point, dou
         isolated_point.vanishing.push_back(v);
       }
     }
-    return;
+    return i;
   }
   map.isolated_points.push_back(point);
+  return map.isolated_points.size() - 1;
 }
 
 /// Relative to the box: Newton's method in doubles finds multiple zeros no better, such as the place where the axis of
@@ -281,6 +284,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
                                    .searches = known_searches});
   });
   Doubts doubts;
+  std::set<std::size_t> proven_of_all;  // points without a limit
   for (const auto& joint_and_factors : asked) {
     const std::string& joint = joint_and_factors.first;
     const ForceZeros& factors = joint_and_factors.second;
@@ -294,14 +298,13 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     };
     // Where |A| is zero too, and not only to the last bit, there is no limit.
     const auto add_without_limit = [&](const sheet::SheetZero& at, bool is_proven) {
-      if (!ends_on_singularity(map, mode, {at.x, at.y}, 1e-7 * size))
-        add_point(map, first,
-                  {LocusKind::no_limit,
-                   {{joint, Quantity::f, 1}},
-                   {at.x, at.y},
-                   mode,
-                   is_proven && has_no_limit(problem, mode, joint, factors, at)},
-                  same_point * size);
+      if (ends_on_singularity(map, mode, {at.x, at.y}, 1e-7 * size)) return;
+      const NoLimit proven = is_proven ? no_limit(problem, mode, joint, factors, at) : NoLimit::unknown;
+      const auto shares = [&](std::size_t i) { return proven == NoLimit::of_all || proven_of_all.contains(i); };
+      const std::size_t place = add_point(
+          map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at.x, at.y}, mode, proven != NoLimit::unknown},
+          same_point * size, shares);
+      if (proven == NoLimit::of_all) proven_of_all.insert(place);
     };
     for (const sheet::SheetZero& zero : found.zeros) {
       const std::optional<bool> vanishes = vanishes_at(problem, mode, factors, zero);

@@ -103,8 +103,8 @@ double size_of(const core::LocusProblem& problem) {
   return size;
 }
 
-/// Whether |A| is proven to be zero at a zero of the system, as it holds a factor of |A| itself; then a numerator that
-/// crosses this factor there, as its zero is a simple one of both, has quotients of any size around.
+/// Whether |A| is proven to be zero at a zero of the system, as it holds a factor of |A| itself, which a numerator
+/// crosses there: that zero is a simple one of both, so that their quotient has more than one limit around.
 bool crosses_singularity(const core::LocusProblem& problem, const core::WorkingMode& mode,
                          const core::ForceProbe& probe, const ForceZeros& zeros, const sheet::SheetZero& zero,
                          double reach) {
@@ -123,11 +123,11 @@ bool crosses_singularity(const core::LocusProblem& problem, const core::WorkingM
 
 }  // namespace
 
-bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mode, const std::string& joint,
-                  const ForceZeros& zeros, const sheet::SheetZero& zero) {
+NoLimit no_limit(const core::LocusProblem& problem, const core::WorkingMode& mode, const std::string& joint,
+                 const ForceZeros& zeros, const sheet::SheetZero& zero) {
   const auto probe = std::find_if(problem.force_probes.begin(), problem.force_probes.end(),
                                   [&](const core::ForceProbe& known) { return known.joint == joint; });
-  if (probe == problem.force_probes.end()) return false;
+  if (probe == problem.force_probes.end()) return NoLimit::unknown;
   const core::Polynomial none{problem.tower.variables(), {}};
   // Of functions that stand for the components (core::ForcePairs) the whole numerators tell.
   std::vector<std::pair<std::size_t, SheetFunction>> components;
@@ -139,7 +139,7 @@ bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mo
   constexpr std::array shares = {1e-9, 1e-7};  // of the box
   for (const double share : shares) {
     const double reach = std::max(share * size_of(problem), 16 * zero.radius);
-    if (crosses_singularity(problem, mode, *probe, zeros, zero, reach)) return true;
+    if (crosses_singularity(problem, mode, *probe, zeros, zero, reach)) return NoLimit::of_joint;
     if (zeros.third != nullptr) continue;
     const Neighbourhood whole(problem, mode, zero, reach);
     for (const auto& [own, component] : components) {
@@ -148,10 +148,10 @@ bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mo
       for (const LocusFactor& singular : problem.factors)
         if (singular.role == core::FactorRole::direct_singularity &&
             around.has_zero_without(component, {singular.sheet, singular.line}, {none, probe->probes[own]}))
-          return true;
+          return NoLimit::of_all;
     }
   }
-  return false;
+  return NoLimit::unknown;
 }
 
 }  // namespace clearloci::loci

@@ -9,10 +9,16 @@
 
 namespace clearloci::loci {
 
-/// Whether |A| is proven to vanish at a zero of a joint's force, a simple zero of the two factors. There is a zero of
-/// one component and |A| next to it, at which the other component vanishes by Cramer's rule (core::ForceProbe); and
-/// the components have no two zeros so near one another.
-bool has_no_limit(const core::LocusProblem& problem, const core::WorkingMode& mode, const std::string& joint,
-                  const ForceZeros& zeros, const sheet::SheetZero& zero);
+enum class NoLimit {
+  unknown,
+  of_joint,  ///< the force has none
+  of_all,    ///< no force has one whose components vanish there
+};
+
+/// Of a zero of a joint's force, a simple zero of the two functions. By Cramer's rule (core::ForceProbe): there is a
+/// zero of one component and |A| next to it, at which the other component vanishes, and the components have no two
+/// zeros so near one another. Or one of the functions is a factor of |A| itself, which a component crosses there.
+NoLimit no_limit(const core::LocusProblem& problem, const core::WorkingMode& mode, const std::string& joint,
+                 const ForceZeros& zeros, const sheet::SheetZero& zero);
 
 }  // namespace clearloci::loci

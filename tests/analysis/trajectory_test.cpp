@@ -140,6 +140,20 @@ loads: [{link: AB, at: A, force: [3, -7]}]
   EXPECT_EQ(idle_parts(along), 4);
 }
 
+TEST(FollowTrajectory, SaysSoWhereThePathTurnsRoundBetweenTheInstants) {
+  const Model model = manipulator();
+  const auto turns_round = [&](const std::string& x, int samples) {
+    const TrajectoryResult along = follow_trajectory_text(
+        model, "format: 1\nmotion: {law: expression, coordinates: ['" + x + "', '-0.6']}\nperiod: 1\n",
+        {.samples = samples});
+    return std::any_of(along.notes.begin(), along.notes.end(),
+                       [](const std::string& note) { return note.find("turns round between") != note.npos; });
+  };
+  EXPECT_TRUE(turns_round("0.25 + 1e-5*sin(400*pi*t)", 200)) << "a period of the samples";
+  EXPECT_FALSE(turns_round("0.25 + 1e-5*sin(400*pi*t)", 4000));
+  EXPECT_FALSE(turns_round("0.25 + 0.01*sin(2*pi*t)", 200));
+}
+
 TEST(FollowTrajectory, TellsOfOneCycle) {
   const TrajectoryResult motion = follow_trajectory(manipulator(), folder + "path.yaml", {.samples = 200});
   EXPECT_EQ(motion.trajectory, "Pick and place");

@@ -7,6 +7,7 @@
 #include "loci/curves/force_zeros.hpp"
 #include "loci/curves/isolated_points.hpp"
 #include "mechanism/read.hpp"
+#include "numeric/reactions.hpp"
 #include "symbolic/locus_problem.hpp"
 #include "tests/source_dir.hpp"
 
@@ -38,6 +39,54 @@ std::size_t terms_of(const core::LocusProblem& problem, const std::string& joint
   for (const loci::ForceZeros& zeros : loci::zeros_of_force(problem, joint))
     most = std::max(most, zeros.system[0]->sheet.terms.size() + zeros.system[1]->sheet.terms.size());
   return most;
+}
+
+/// The normal of three functions is that component of the way between two points of a link which the second of them is
+/// of the force, but for a positive factor: their signs are the same at all poses. How many there are.
+int expect_normals_of_components(const mechanism::Mechanism& m, const core::LocusProblem& problem) {
+  const numeric::NumericModel model = numeric::compile(m);
+  const core::WorkingMode& mode = problem.modes.front();
+  std::vector<std::vector<double>> poses;
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k) poses.push_back({-0.8 + 0.095 * i, -0.9 + 0.09 * k});
+  const auto value = [&](const core::Polynomial& p, const std::vector<double>& pose) {
+    std::vector<double> at = pose;
+    at.resize(static_cast<std::size_t>(problem.tower.variables()), 0.0);
+    for (std::size_t j = 0; j < problem.tower.roots.size(); ++j)
+      at[2 + j] = core::root_value(problem.tower.roots[j], mode[j], at).value_or(NAN);
+    return core::evaluate(p, std::span<const double>(at));
+  };
+  int count = 0;
+  for (const core::ForcePairs& pairs : problem.force_pairs)
+    for (const core::ForcePair& pair : pairs.pairs) {
+      if (!pair.third) continue;
+      ++count;
+      const auto factor = std::find_if(problem.factors.begin(), problem.factors.end(), [&](const auto& one) {
+        return one.sheet == problem.pair_functions[pair.system[1]].sheet;
+      });
+      if (factor == problem.factors.end()) {
+        ADD_FAILURE() << "no component of " << pairs.joint;
+        continue;
+      }
+      const bool is_x = std::any_of(factor->vanishing.begin(), factor->vanishing.end(), [&](const core::Vanishing& v) {
+        return v.joint == pairs.joint && v.quantity == core::Quantity::fx;
+      });
+      bool found = false;
+      for (const mechanism::Link& link : m.links)
+        for (const auto a : link.points)
+          for (const auto b : link.points) {
+            std::array<int, 2> alike{};  // poses at which signs are the same, and not
+            for (const std::vector<double>& pose : poses) {
+              const double normal = value(pair.normal, pose);
+              const auto points = numeric::posture(model, pose, mechanism::working_mode(m)).points;
+              const auto way = points[static_cast<std::size_t>(a)] - points[static_cast<std::size_t>(b)];
+              if (std::isfinite(normal) && way.allFinite()) ++alike[normal * way[is_x ? 0 : 1] > 0 ? 0 : 1];
+            }
+            found = found || (alike[0] > 20 && alike[1] == 0);
+          }
+      EXPECT_TRUE(found) << pairs.joint;
+    }
+  return count;
 }
 
 /// `loads`: of the file; `joints`: how many have lower pairs.
@@ -83,6 +132,7 @@ loads:
   core::LocusProblem plain = lower;
   plain.force_pairs.clear();
   EXPECT_EQ(lower.force_pairs.size(), joints);
+  EXPECT_GT(expect_normals_of_components(m, lower), 0);
   for (const core::ForcePairs& pairs : lower.force_pairs)
     EXPECT_LT(terms_of(lower, pairs.joint), terms_of(plain, pairs.joint)) << pairs.joint;
   const std::vector<core::IsolatedPoint> found = points_of(lower), expected = points_of(plain);

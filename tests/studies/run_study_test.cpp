@@ -238,6 +238,17 @@ TEST(Study, WhatAProofDidNotComeToStaysUndecided) {
   EXPECT_TRUE(is_left);
 }
 
+TEST(Study, AProofThatGoesOnStillTellsWhatItKnew) {
+  const Model model = five_bar();
+  const Study study = parse_study(study_text("{prove: 1/16}", ""), model);
+  const report::fixture::ScratchFolder folder;
+  const std::filesystem::path table = folder.path() / "table.csv";
+  const StudyResult whole = run_study(model, study, {.table = table, .threads = 1});
+  const StudyResult again = run_study(
+      model, study, {.table = table, .resume = true, .threads = 1, .deadline = std::chrono::steady_clock::now()});
+  EXPECT_EQ(again.cells.size(), whole.cells.size());
+}
+
 TEST(Study, ProvesCellsOfDesigns) {
   const Model model = five_bar();
   const StudyResult result = run_study(model, parse_study(study_text("{prove: 1/16}", ""), model), {.threads = 2});

@@ -42,9 +42,22 @@ struct Mechanism {
 
   bool has_no_limit_at(double at_x, double at_y, double radius = 1e-13) const {
     const ForceZeros zeros = {{&problem.factors[0], &problem.factors[1]}};
-    return has_no_limit(problem, {}, "B", zeros, {at_x, at_y, {}, radius});
+    return no_limit(problem, {}, "B", zeros, {at_x, at_y, {}, radius}) == NoLimit::of_all;
+  }
+  /// Of a system that holds |A| itself.
+  NoLimit no_limit_on_singularity() const {
+    const ForceZeros zeros = {{&problem.factors[2], &problem.factors[0]}, &problem.factors[1]};
+    return no_limit(problem, {}, "B", zeros, {0, 0, {}, 1e-13});
   }
 };
+
+TEST(NoLimit, IsProvenWhereAComponentCrossesTheSingularity) {
+  const Polynomial square = x * x, none = number(0);
+  EXPECT_EQ(Mechanism(y + square, x * y, none, none).no_limit_on_singularity(), NoLimit::of_joint);
+  EXPECT_EQ(Mechanism(y * y + x, square, none, none).no_limit_on_singularity(), NoLimit::unknown) << "a limit along x";
+  EXPECT_EQ(Mechanism(square + y * y, x * y, none, none).no_limit_on_singularity(), NoLimit::unknown);
+  EXPECT_EQ(Mechanism(x * y, square, none, none).no_limit_on_singularity(), NoLimit::unknown);
+}
 
 // On x = 0 the forces are (y + x, 2 y - x) under the one load and (1, 2 + x) under the other: multiples of (1, 2).
 TEST(NoLimit, IsProvenByTheForceUnderAnotherLoad) {
