@@ -300,7 +300,12 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     const auto add_without_limit = [&](const sheet::SheetZero& at, bool is_proven) {
       if (ends_on_singularity(map, mode, {at.x, at.y}, 1e-7 * size)) return;
       const NoLimit proven = is_proven ? no_limit(problem, mode, joint, factors, at) : NoLimit::unknown;
-      const auto shares = [&](std::size_t i) { return proven == NoLimit::of_all || proven_of_all.contains(i); };
+      const auto shares = [&](std::size_t i) {
+        const IsolatedPoint& known = map.isolated_points[i];
+        const bool is_named = names_all(known.vanishing, {{joint, Quantity::f, 1}});
+        return proven == NoLimit::of_all || proven_of_all.contains(i) ||
+               (is_named && (known.certified || known.vanishing.size() == 1));
+      };
       const std::size_t place = add_point(
           map, first, {LocusKind::no_limit, {{joint, Quantity::f, 1}}, {at.x, at.y}, mode, proven != NoLimit::unknown},
           same_point * size, shares);
