@@ -132,6 +132,9 @@ class InstantEquations {
   }
 
  private:
+  const mechanism::Link& link_at(mechanism::LinkIndex link) const {
+    return model_.mechanism.links[static_cast<std::size_t>(link)];
+  }
   const Series& at(Register r) const { return registers_[static_cast<std::size_t>(r)]; }
   PointSeries vector(const Triple& v) const { return {at(v[0]), at(v[1]), at(v[2])}; }
   PointSeries point(mechanism::PointIndex p) const { return vector(model_.points[static_cast<std::size_t>(p)]); }
@@ -190,30 +193,26 @@ class InstantEquations {
       const auto link = static_cast<mechanism::LinkIndex>(i);
       const double m = motion_.mass[i], inertia = motion_.inertia[i];
       if (m == 0 && inertia <= 0) continue;
-      add_inertia(link, links[i].centre_of_mass, m, inertia == slender_rod ? rod(links[i], m) : turned(link, inertia));
-      if (largest_acceleration_) add_size(link, links[i].centre_of_mass, m, size_of_turning(links[i], m, inertia));
+      add_inertia(link, links[i].centre_of_mass, m, inertia);
     }
-    for (const PlacedMass& body : motion_.point_masses) {
-      add_inertia(body.link, body.at, body.mass, {});
-      if (largest_acceleration_) add_size(body.link, body.at, body.mass, 0);
-    }
+    for (const PlacedMass& body : motion_.point_masses) add_inertia(body.link, body.at, body.mass, 0);
   }
 
   void assemble_payloads() {
     for (const int number : interval_.carried) {
       const mechanism::Payload& payload = motion_.timeline.trajectory.payloads[static_cast<std::size_t>(number)];
       const double m = core::to_double(payload.mass);
-      const double inertia = core::to_double(payload.inertia);
-      add_inertia(payload.link, payload.at, m, turned(payload.link, inertia));
-      const mechanism::Link& link = model_.mechanism.links[static_cast<std::size_t>(payload.link)];
-      if (largest_acceleration_) add_size(payload.link, payload.at, m, size_of_turning(link, m, inertia));
+      add_inertia(payload.link, payload.at, m, core::to_double(payload.inertia));
       if (!model_.gravity) continue;
       add(rest_, payload.link, payload.at, times(m, truncated<1>(vector(*model_.gravity))), {}, -1);
     }
   }
 
-  void add_inertia(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, const RateVector& turning) {
+  /// `inertia`: about the centre, or that of a slender rod.
+  void add_inertia(mechanism::LinkIndex link, mechanism::PointIndex centre, double m, double inertia) {
+    const RateVector turning = inertia == slender_rod ? rod(link_at(link), m) : turned(link, inertia);
     add(inertial_, link, centre, times(m, acceleration_of(point(centre))), turning, 1);
+    if (largest_acceleration_) add_size(link, centre, m, size_of_turning(link, m, inertia));
   }
 
   /// With the largest acceleration of all points: that of one may be the sum of terms of that size.
@@ -224,10 +223,11 @@ class InstantEquations {
       cancelled_(row_of(link, c)) += rows_of_wrench_[c] < 3 ? force : turning + moment;
   }
 
-  double size_of_turning(const mechanism::Link& link, double m, double inertia) const {
-    const auto index = static_cast<mechanism::LinkIndex>(&link - model_.mechanism.links.data());
-    if (inertia == slender_rod)
-      return m / 12 * *largest_acceleration_ * values_of(between(link.points.at(0), link.points.at(1))).norm();
+  double size_of_turning(mechanism::LinkIndex link, double m, double inertia) const {
+    if (inertia == slender_rod) {
+      const auto& points = link_at(link).points;
+      return m / 12 * *largest_acceleration_ * values_of(between(points.at(0), points.at(1))).norm();
+    }
     if (inertia == 0) return 0;
     // Along an axis: its own derivatives. Between points: theirs, which may cancel.
     const auto size = [&](const PointSeries& r, bool is_axis) {
@@ -237,10 +237,10 @@ class InstantEquations {
       return (is_axis ? own.norm() : *largest_acceleration_) / length + rate * rate;
     };
     if (model_.mechanism.space == mechanism::Space::planar)
-      return inertia * size(direction_in_plane(index), motion_.guide[static_cast<std::size_t>(index)] >= 0);
-    if (motion_.still[static_cast<std::size_t>(index)]) return 0;
+      return inertia * size(direction_in_plane(link), motion_.guide[static_cast<std::size_t>(link)] >= 0);
+    if (motion_.still[static_cast<std::size_t>(link)]) return 0;
     double most = 0;
-    for (const BodyDirection& direction : motion_.directions[static_cast<std::size_t>(index)])
+    for (const BodyDirection& direction : motion_.directions[static_cast<std::size_t>(link)])
       most = std::max(most, size(series_of(direction), direction.axis.has_value()));
     return inertia * most;
   }
