@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace clearloci::mechanism::imports {
 
@@ -128,6 +129,18 @@ void Constraints::add_square(const SourceJoint& j, std::vector<double>& values, 
     rows->back()[column] += from ? dot(turned(j.on_from.frame.z, freedom), j.on_to.frame.z)
                                  : dot(j.on_from.frame.z, turned(j.on_to.frame.z, freedom));
   });
+}
+
+double amount_of(const SourceJoint& joint) {
+  const Vec &z = joint.axis(), &from = joint.on_from.frame.x, &to = joint.on_to.frame.x;
+  if (joint.kind == SourceKind::revolute) return std::atan2(dot(z, cross(from, to)), dot(from, to));
+  const bool slides = joint.kind == SourceKind::prismatic || joint.kind == SourceKind::cylindrical;
+  return slides ? dot(z, joint.on_to.at - joint.on_from.at) : 0;
+}
+
+double way_between(const SourceJoint& before, const SourceJoint& after) {
+  const double way = amount_of(after) - amount_of(before);
+  return after.slides() ? way : std::remainder(way, 2 * std::numbers::pi);
 }
 
 double largest(const std::vector<double>& values) {

@@ -45,6 +45,13 @@ class Constraints {
   std::vector<Vec> centres_;
 };
 
+/// How far `to` of a pin, guide or cylindrical joint is from where its frame meets that of `from`: rad, or the source's
+/// length. 0 of others.
+double amount_of(const SourceJoint& joint);
+
+/// The same by which a joint went from one posture to another, less than half a turn.
+double way_between(const SourceJoint& before, const SourceJoint& after);
+
 /// The largest absolute value; infinite where one is no number.
 double largest(const std::vector<double>& values);
 

@@ -21,11 +21,53 @@ double squares(const std::vector<double>& values) {
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> values_of(const Source& source) {
+/// The angles of pins that follow others, in the posture of the source: they keep their ratios from there on.
+class Ratios {
+ public:
+  explicit Ratios(const Source& source) {
+    for (const SourceFollower& follower : source.followers) {
+      const SourceJoint &joint = source.joints[follower.joint], &leader = source.joints[follower.leader];
+      const bool pins = joint.kind == SourceKind::revolute && leader.kind == SourceKind::revolute;
+      if (!pins || joint.dropped || leader.dropped) continue;
+      followers_.push_back(follower);
+      offsets_.push_back(amount_of(joint) - follower.ratio * amount_of(leader));
+    }
+  }
+
+  /// How far each is from where it follows, rad.
+  std::vector<double> values(const Source& source) const {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < followers_.size(); ++i) {
+      const SourceFollower& follower = followers_[i];
+      const double off = amount_of(source.joints[follower.joint]) -
+                         follower.ratio * amount_of(source.joints[follower.leader]) - offsets_[i];
+      values.push_back(std::remainder(off, 2 * std::numbers::pi));
+    }
+    return values;
+  }
+  void add(const Source& source, std::vector<double>& all, Rows* rows) const {
+    const std::vector<double> more = values(source);
+    all.insert(all.end(), more.begin(), more.end());
+    for (std::size_t i = 0; rows != nullptr && i < followers_.size(); ++i) {
+      std::vector<double> row = motor_row(source, source.joints[followers_[i].joint]);
+      const std::vector<double> of_leader = motor_row(source, source.joints[followers_[i].leader]);
+      for (std::size_t c = 0; c < row.size(); ++c) row[c] -= followers_[i].ratio * of_leader[c];
+      rows->push_back(std::move(row));
+    }
+  }
+  const std::vector<SourceFollower>& followers() const { return followers_; }
+
+ private:
+  std::vector<SourceFollower> followers_;
+  std::vector<double> offsets_;
+};
+
+std::vector<double> values_of(const Source& source, const Ratios& ratios) {
   const Constraints constraints(source);
   std::vector<double> values;
   for (const SourceJoint& joint : source.joints)
     if (!joint.dropped) constraints.add(joint, values, nullptr);
+  ratios.add(source, values, nullptr);
   return values;
 }
 
@@ -69,9 +111,9 @@ Source moved_by(const Source& source, const Constraints& constraints, const std:
 }
 
 /// The zero that is reached from here, or the best that was found. `work`: multiplications that may still be done.
-Source descend(Source source, double& work) {
+Source descend(Source source, const Ratios& ratios, double& work) {
   double damping = 1e-6;
-  double cost = squares(values_of(source));
+  double cost = squares(values_of(source, ratios));
   constexpr int most_steps = 200;
   for (int step = 0; step < most_steps && cost > met * met && work > 0; ++step) {
     const Constraints constraints(source);
@@ -79,6 +121,7 @@ Source descend(Source source, double& work) {
     Rows rows;
     for (const SourceJoint& joint : source.joints)
       if (!joint.dropped) constraints.add(joint, values, &rows);
+    ratios.add(source, values, &rows);
     const std::size_t n = constraints.columns();
     Rows normal(n, std::vector<double>(n));
     std::vector<double> right(n);
@@ -98,7 +141,7 @@ Source descend(Source source, double& work) {
       std::vector<double> way = right;
       if (!solve(damped, way)) continue;
       Source next = moved_by(source, constraints, way);
-      const double next_cost = squares(values_of(next));
+      const double next_cost = squares(values_of(next, ratios));
       if (!(next_cost < cost)) continue;
       source = std::move(next);
       cost = next_cost;
@@ -263,7 +306,22 @@ double size_of(const Source& source) {
   return distance(low, high);
 }
 
+namespace {
+
+/// Ranges are counted from the posture: from the one that was found.
+void keep_ranges(const Source& before, Source& source) {
+  for (std::size_t j = 0; j < source.joints.size(); ++j) {
+    SourceJoint& joint = source.joints[j];
+    if (!joint.range || joint.range_is_distance) continue;
+    const double way = way_between(before.joints[j], joint);
+    joint.range = std::array<double, 2>{(*joint.range)[0] - way, (*joint.range)[1] - way};
+  }
+}
+
+}  // namespace
+
 void close_posture(Source& source, const std::string& file) {
+  const Ratios ratios(source);
   const auto refuse = [&](const Source& found) {
     const Constraints constraints(found);
     const SourceJoint* worst = nullptr;
@@ -277,6 +335,15 @@ void close_posture(Source& source, const std::string& file) {
         worst = &joint;
       }
     }
+    const std::vector<double> off = ratios.values(found);
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      const SourceFollower& follower = ratios.followers()[i];
+      const std::string name = found.joints[follower.joint].name, leader = found.joints[follower.leader].name;
+      if (std::abs(off[i]) > most)
+        throw core::InputError({file, follower.line},
+                               "the links do not close while joint " + name + " follows joint " + leader,
+                               "correct the ratio, the lengths, or the posture of the file");
+    }
     const double gap = worst == nullptr ? 0 : distance(worst->on_from.at, worst->on_to.at);
     // A guide's sides are apart along it, too; and what meets in one place may be turned.
     const std::string apart = worst != nullptr && !worst->slides() && gap * constraints.scale() > met
@@ -289,7 +356,7 @@ void close_posture(Source& source, const std::string& file) {
             apart + (source.open_posture ? "" : " near the file's posture"),
         "correct the lengths, or the posture of the file");
   };
-  const std::vector<double> before = values_of(source);
+  const std::vector<double> before = values_of(source, ratios);
   if (largest(before) <= met) return;
   constexpr double rounding = 1e-6;  // of the size: what digits that were cut off leave, as in files of CAD programs
   if (!source.open_posture && largest(before) <= rounding) {
@@ -304,8 +371,9 @@ void close_posture(Source& source, const std::string& file) {
   const Source start = source;
   double work = 1e9;  // a second
   if (!source.open_posture) {
-    source = descend(std::move(source), work);
-    if (!(largest(values_of(source)) <= 100 * met)) refuse(source);
+    source = descend(std::move(source), ratios, work);
+    if (!(largest(values_of(source, ratios)) <= 100 * met)) refuse(source);
+    keep_ranges(start, source);
     double moved = 0;
     for (std::size_t j = 0; j < source.joints.size(); ++j)
       moved = std::max(moved, distance(source.joints[j].on_from.at, start.joints[j].on_from.at));
@@ -320,8 +388,8 @@ void close_posture(Source& source, const std::string& file) {
   std::optional<Source> folded, beyond;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_starts && work > 0; ++i) {
-    Source found = descend(spread_out(start, spread), work);
-    const double left = largest(values_of(found));
+    Source found = descend(spread_out(start, spread), ratios, work);
+    const double left = largest(values_of(found, ratios));
     if (left < least) {
       least = left;
       best = found;

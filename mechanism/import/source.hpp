@@ -95,7 +95,7 @@ struct SourceMesh {
   bool belt = false;
 };
 
-/// A joint whose angle is `ratio` times that of another one, but for a number.
+/// A joint whose angle is `ratio` times that of another one, but for a number: it follows in the posture of the source.
 struct SourceFollower {
   std::size_t joint = 0, leader = 0;  ///< of Source::joints
   double ratio = 1;

@@ -373,6 +373,34 @@ TEST(Mjcf, TurnsJointsThatFollow) {
   EXPECT_EQ(section(offset, "joints").at("R_follows"), "{gear: [right, left], centres: [R, L], teeth: [20, -40]}");
 }
 
+double angle_of(const std::vector<double>& from, const std::vector<double>& to) {
+  return std::atan2(to[1] - from[1], to[0] - from[0]);
+}
+
+/// jb = 0.2 - ja / 2 about axes into the plane, whatever closes the loop.
+TEST(Mjcf, KeepsARatioWhereALoopIsClosed) {
+  const Imported file = imported("mjcf/ratio_in_an_open_loop.xml");
+  EXPECT_TRUE(has_note(file, "they were closed near it"));
+  const auto at = places(file);
+  const double ja = std::atan2(0.02, 0.13) - angle_of(at.at("ja"), at.at("jc"));
+  const double jb = std::atan2(0.11, 0.03) - angle_of(at.at("jb"), at.at("jd"));
+  EXPECT_GT(std::abs(ja), 0.01);  // else the loop was closed before
+  EXPECT_NEAR(jb, 0.2 - ja / 2, 1e-7);
+}
+
+/// As the source counts them: link a stands upright where its joint is at 0.
+TEST(Mjcf, CountsRangesFromTheZeroOfTheSource) {
+  const Imported file = imported("mjcf/range_in_an_open_loop.xml");
+  EXPECT_GT(std::abs(places(file).at("jc")[0]), 1e-3);
+  EXPECT_EQ(section(file, "workspace").at("theta"), "{angle: [30 deg, 170 deg], of: a}");
+}
+
+/// The tip is at 0.31 + js, and js in -0.12 to 0.03.
+TEST(Urdf, CountsRangesOfGuidesFromTheZeroOfTheSource) {
+  const Imported file = imported("urdf/range_of_a_guide_in_an_open_loop.urdf");
+  EXPECT_EQ(section(file, "workspace").at("s"), "{stroke: [0.19, 0.34], of: js}");
+}
+
 TEST(Mjcf, HoldsAJointThatFollowsNothing) {
   const Imported file = imported("mjcf/joint_held.xml");
   EXPECT_EQ(section(file, "joints").size(), 1U);
