@@ -1,6 +1,8 @@
 // DXF of R12 or R2000, as text: pairs of lines, a group code and a value. Lines and polylines on a layer are a link, of
 // the layer's name; the layer `ground` is the ground. A circle is a pin of all links that end or pass where its centre
-// is; on the layer `motor` it marks the motor there. The unit is that of $INSUNITS.
+// is; on the layer `motor` it marks the motor there. The unit is that of $INSUNITS. Circles and polylines have a plane of
+// their own: if its normal is -z, as where a drawing was mirrored, their x is -x of the drawing (DXF Reference, Object
+// Coordinate Systems).
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -158,10 +160,14 @@ class Reader {
       if (type == "LWPOLYLINE" && pair.code == 20 && !vertices.empty()) vertices.back()[1] = scale_ * number(pair);
       if (pair.code == 42 && number(pair) != 0) bulges = true;
       if (pair.code == 10 || pair.code == 20 || pair.code == 30 || pair.code == 11 || pair.code == 21 ||
-          pair.code == 31 || pair.code == 40 || pair.code == 70)
+          pair.code == 31 || pair.code == 40 || pair.code == 70 || pair.code == 210 || pair.code == 220 ||
+          pair.code == 230)
         values[pair.code] = number(pair);
     }
     const auto at = [&](int code) { return values.contains(code) ? values.at(code) : 0; };
+    constexpr double turned = 1e-6;  // of a normal
+    const bool inclined = std::max(std::abs(at(210)), std::abs(at(220))) > turned * std::abs(at(230));
+    const double mirrored = values.contains(230) && at(230) < 0 && type != "LINE" ? -1 : 1;
     const bool closed = (static_cast<int>(std::clamp(at(70), 0.0, 1e6)) & 1) != 0;
     if (type == "LINE") {
       vertices = {{scale_ * at(10), scale_ * at(20), 0}, {scale_ * at(11), scale_ * at(21), 0}};
@@ -178,13 +184,20 @@ class Reader {
         end = last;
       }
       if (end < pairs_.size() && pairs_[end].value == "SEQEND") end = end_of(end);
-    } else if (type == "CIRCLE") {
-      circles_.push_back({name, {scale_ * at(10), scale_ * at(20), 0}, scale_ * std::abs(at(40)), pairs_[start].line});
-      return end;
-    } else if (type != "LWPOLYLINE") {
+    } else if (type != "LWPOLYLINE" && type != "CIRCLE") {
       ++others_[type];
       return end;
     }
+    if (inclined && type != "LINE") {
+      ++others_[type + " in an inclined plane"];
+      return end;
+    }
+    if (type == "CIRCLE") {
+      const Vec centre = {mirrored * scale_ * at(10), scale_ * at(20), 0};
+      circles_.push_back({name, centre, scale_ * std::abs(at(40)), pairs_[start].line});
+      return end;
+    }
+    for (Vec& vertex : vertices) vertex[0] *= mirrored;
     if (bulges) ++others_["arcs of polylines, read as straight"];
     if (lower(name) == "defpoints") {
       ++others_["lines on Defpoints"];

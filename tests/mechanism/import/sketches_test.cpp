@@ -1,4 +1,6 @@
 // DXF, Pyslvs and CUIK.
+#include <sstream>
+
 #include "tests/mechanism/import/imported.hpp"
 
 namespace clearloci::mechanism {
@@ -18,6 +20,36 @@ TEST(Dxf, ReadsR12WithItsPolylines) {
   EXPECT_TRUE(has_note(file, "left out: TEXT (1)"));
   EXPECT_EQ(places(file), places(imported("dxf/inches.dxf")));
   EXPECT_NE(imported("dxf/inches.dxf").text.find("units: {length: in}"), std::string::npos);
+}
+
+/// As programs write what was mirrored twice: circles and polylines with the normal -z, and x the other way.
+std::string with_planes_below(const std::string& text) {
+  std::istringstream lines(text);
+  std::string below, code, value;
+  bool turned = false;
+  const auto normal = [&] {
+    if (turned) below += "210\n0.0\n220\n0.0\n230\n-1.0\n";
+    turned = false;
+  };
+  while (std::getline(lines, code) && std::getline(lines, value)) {
+    const bool begins = std::stoi(code) == 0;
+    if (begins) normal();
+    if (begins) turned = value.starts_with("CIRCLE") || value.starts_with("LWPOLYLINE");
+    if (turned && std::stoi(code) == 10) value = std::to_string(-std::stod(value));
+    below += code + "\n" + value + "\n";
+  }
+  return below;
+}
+
+TEST(Dxf, TakesMirroredPlanesForWhatTheyAre) {
+  const std::string text = bytes_of(path_of("dxf/four_bar_r2000.dxf")), below = with_planes_below(text);
+  EXPECT_GT(below.size(), text.size() + 30);
+  const Imported mirrored = import_text(below, "below.dxf");
+  EXPECT_EQ(places(mirrored), places(imported("dxf/four_bar_r2000.dxf")));
+  std::string inclined = below;
+  const std::size_t at = inclined.find("220\n0.0");
+  inclined.replace(at, 7, "220\n0.7");
+  EXPECT_TRUE(has_note(import_text(inclined, "inclined.dxf"), "in an inclined plane (1)"));
 }
 
 TEST(Dxf, RefusesWhatIsBroken) {
