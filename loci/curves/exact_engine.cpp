@@ -181,20 +181,10 @@ class ExactTrace {
     return false;
   }
 
-  VertexMarks mark_vertices(const std::vector<EdgeInMode>& edges, const WorkingMode& mode) const {
+  /// What ends arcs in points that no edge tells.
+  VertexMarks mark_points(const WorkingMode& mode) const {
     const std::size_t count = arrangement_.vertices();
     VertexMarks marks{std::vector<bool>(count), std::vector<bool>(count), std::vector<bool>(count)};
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const ArrangementEdge& edge = arrangement_.edges()[e];
-      const auto mark = [&edge](std::vector<bool>& list) {
-        list[static_cast<std::size_t>(edge.from)] = list[static_cast<std::size_t>(edge.to)] = true;
-      };
-      if (is_box_side(edge.curve)) mark(marks.box);
-      for (const EdgeLabel& label : edges[e].labels) {
-        if (label.kind == LocusKind::workspace_boundary) mark(marks.boundary);
-        if (label.kind == LocusKind::direct_singularity) mark(marks.direct_singularity);
-      }
-    }
     // What touches the box from outside meets the arcs of others in a point.
     for (const auto& [vertex, curve] : passed_)
       if (is_singular(vertex, curve, mode)) marks.direct_singularity[static_cast<std::size_t>(vertex)] = true;
@@ -217,17 +207,27 @@ class ExactTrace {
     });
   }
 
-  /// A curve does not end on the boundary that it is itself.
-  VertexMarks without_boundary_of(int curve, VertexMarks marks, const std::vector<EdgeInMode>& edges) const {
-    if (!owned_by(curve, FactorRole::workspace_boundary)) return marks;
-    marks.boundary.assign(marks.boundary.size(), false);
+  /// Edges of one curve with one label.
+  struct Group {
+    int curve;
+    EdgeLabel label;
+    std::vector<int> edges;  ///< ascending
+  };
+
+  /// With what edges tell. A curve does not end on the boundary that it is itself, nor where |A| vanishes because it
+  /// does so all along the curve.
+  VertexMarks marks_along(const Group& group, VertexMarks marks, const std::vector<EdgeInMode>& edges) const {
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const ArrangementEdge& edge = arrangement_.edges()[e];
-      if (edge.curve == curve) continue;
-      for (const EdgeLabel& label : edges[e].labels)
-        if (label.kind == LocusKind::workspace_boundary)
-          marks.boundary[static_cast<std::size_t>(edge.from)] = marks.boundary[static_cast<std::size_t>(edge.to)] =
-              true;
+      const auto mark = [&edge](std::vector<bool>& list) {
+        list[static_cast<std::size_t>(edge.from)] = list[static_cast<std::size_t>(edge.to)] = true;
+      };
+      if (is_box_side(edge.curve)) mark(marks.box);
+      const bool is_own = std::binary_search(group.edges.begin(), group.edges.end(), static_cast<int>(e));
+      for (const EdgeLabel& label : edges[e].labels) {
+        if (label.kind == LocusKind::workspace_boundary && edge.curve != group.curve) mark(marks.boundary);
+        if (label.kind == LocusKind::direct_singularity && !is_own) mark(marks.direct_singularity);
+      }
     }
     return marks;
   }
@@ -260,7 +260,7 @@ class ExactTrace {
 
   void trace_mode(const WorkingMode& mode) {
     const std::vector<EdgeInMode> edges = label_edges(problem_, mode, arrangement_, list_.of_factor, signs_, sheets_);
-    VertexMarks marks = mark_vertices(edges, mode);
+    VertexMarks marks = mark_points(mode);
     const std::size_t count_before = map_.isolated_points.size();
     add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, cones_, map_);
     // Where the sheet ends in a point that is a direct singularity too, that is the graver of the two.
@@ -276,11 +276,6 @@ class ExactTrace {
       leave_edge_open(static_cast<int>(e), mode);
     }
 
-    struct Group {
-      int curve;
-      EdgeLabel label;
-      std::vector<int> edges;
-    };
     std::vector<Group> groups;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const int curve = arrangement_.edges()[e].curve;
@@ -304,7 +299,7 @@ class ExactTrace {
       curve.excited = group.label.excited;
       if (is_wanted_ && !is_wanted_(curve)) continue;
       const bool ends_on_singularities = curve.kind < LocusKind::direct_singularity;
-      const VertexMarks vertex_marks = without_boundary_of(group.curve, marks, edges);
+      const VertexMarks vertex_marks = marks_along(group, marks, edges);
       for (const EdgeWalk& walk : join_edges(arrangement_, group.edges, vertex_marks, ends_on_singularities)) {
         Traced traced = polyline(walk, curve.closed_form);
         if (traced.length <= shortest_arc * scale()) continue;

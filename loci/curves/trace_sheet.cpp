@@ -101,6 +101,50 @@ void append(SheetTrace& all, SheetTrace part) {
   all.stopped = all.stopped || part.stopped;
 }
 
+/// A curve along which a root is zero: s_j = 0, or a rim.
+struct RootCurve {
+  int root = 0;
+  const core::Polynomial& sheet;
+  const std::optional<SheetFunction>& rim;
+};
+
+/// On the plane below the root.
+SheetTrace trace_boundary(const core::RootTower& tower, const core::WorkingMode& mode,
+                          const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,
+                          const RootCurve& curve, const std::vector<Cutter>& cutters,
+                          const SheetTraceOptions& options) {
+  const auto j = static_cast<std::size_t>(curve.root);
+  const int v = 2 + curve.root;
+  core::WorkingMode rest = mode;
+  rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(j));
+  std::vector<Cutter> on_boundary;
+  for (const Cutter& cutter : cutters) {
+    const SheetFunction there = without_variable(cutter.sheet, v);
+    if (!there.polynomial.is_constant())
+      on_boundary.push_back({there, cutter.label, cutter.keep});
+    else if (cutter.keep && (there.polynomial.is_zero() || there.polynomial.terms.front().coefficient < 0))
+      return {};  // none of the boundary is wanted
+  }
+  const core::RootTower below = on_rim(tower, curve.root);
+  const SheetFunction boundary = curve.rim ? *curve.rim : square_of(tower, curve.root, options.special);
+  SheetTraceOptions there = options;
+  there.special = on_rim(options.special, curve.root);
+  std::vector<SheetFunction> parts = {boundary};
+  const core::Root& root = tower.roots[j];
+  // A certificate names the factor itself.
+  if (const auto within = beyond_quarter_turn(tower, root);
+      curve.rim && within && !options.certificate && has_sides(tower, root, curve.sheet)) {
+    parts.clear();
+    for (const core::Rim& side : root.rims) parts.push_back({side.polynomial, side.line});
+    on_boundary.push_back({without_variable(*within, v), core::ArcEnd::boundary, true});
+  }
+  SheetTrace all;
+  for (const SheetFunction& part : parts)
+    append(all, trace_sheet(below, rest, lower, upper, without_variable(part, v), on_boundary, there));
+  for (core::SheetClaim& claim : all.claims) put_back(claim, curve.root);
+  return all;
+}
+
 }  // namespace
 
 bool reaches(const core::RootTower& tower, const core::WorkingMode& mode, const SheetFunction& sheet, const Star& star,
@@ -125,33 +169,7 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
     if (tower.roots[j].is_angle()) continue;
     const std::optional<SheetFunction> rim = on_rim_of(tower, static_cast<int>(j), sheet, options.special);
     if (!rim && !divisible_by_variable(sheet, v)) continue;
-    core::WorkingMode rest = mode;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(j));
-    std::vector<Cutter> on_boundary;
-    for (const Cutter& cutter : cutters) {
-      const SheetFunction there = without_variable(cutter.sheet, v);
-      if (!there.polynomial.is_constant())
-        on_boundary.push_back({there, cutter.label, cutter.keep});
-      else if (cutter.keep && (there.polynomial.is_zero() || there.polynomial.terms.front().coefficient < 0))
-        return {};  // none of the boundary is wanted
-    }
-    const core::RootTower below = on_rim(tower, static_cast<int>(j));
-    const SheetFunction boundary = rim ? *rim : square_of(tower, static_cast<int>(j), options.special);
-    SheetTraceOptions there = options;
-    there.special = on_rim(options.special, static_cast<int>(j));
-    std::vector<SheetFunction> parts = {boundary};
-    const core::Root& root = tower.roots[j];
-    // A certificate names the factor itself.
-    if (const auto within = beyond_quarter_turn(tower, root);
-        rim && within && !options.certificate && has_sides(tower, root, sheet)) {
-      parts.clear();
-      for (const core::Rim& side : root.rims) parts.push_back({side.polynomial, side.line});
-      on_boundary.push_back({without_variable(*within, v), core::ArcEnd::boundary, true});
-    }
-    SheetTrace all;
-    for (const SheetFunction& part : parts)
-      append(all, trace_sheet(below, rest, lower, upper, without_variable(part, v), on_boundary, there));
-    for (core::SheetClaim& claim : all.claims) put_back(claim, static_cast<int>(j));
+    SheetTrace all = trace_boundary(tower, mode, lower, upper, {static_cast<int>(j), sheet, rim}, cutters, options);
     if (!rim) {
       core::Polynomial quotient = sheet;
       for (core::Term& term : quotient.terms) --term.exponents[v];

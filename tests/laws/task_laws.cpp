@@ -10,6 +10,7 @@
 #include "report/certificate.hpp"
 #include "report/verification.hpp"
 #include "tests/laws/law_subject.hpp"
+#include "tests/laws/same_topology.hpp"
 #include "tests/laws/task_designs.hpp"
 #include "tests/laws/task_oracle.hpp"
 
@@ -104,6 +105,15 @@ void hold_spread(Subject& s, std::mt19937& random, const core::Task& task, const
   }
 }
 
+/// What goes to a certificate is traced in other ways here and there; the loci are the same.
+void tells_the_same(Subject& s, const core::LocusMap& with_certificate) {
+  const std::optional<core::LocusMap> map = loci_of(s);
+  if (!map || !map->complete || !with_certificate.complete) return;
+  for (const std::string& difference : differences(*map, with_certificate, EndsOnSides::by_place))
+    s.report.fault("without and with a certificate: " + difference);
+  s.report.held("maps without and with a certificate");
+}
+
 }  // namespace
 
 void judge_task(Subject& s) {
@@ -157,7 +167,9 @@ void judge_certificate(Subject& s) {
     if (with_zones) {
       s.report.in_patience([&] { return find_zones(s.mechanism, {s.request}, &certificate); });
     } else {
-      s.report.in_patience([&] { return trace_loci(s.mechanism, s.request, &certificate); });
+      const core::LocusMap map =
+          s.report.in_patience([&] { return trace_loci(s.mechanism, s.request, &certificate); });
+      tells_the_same(s, map);
     }
     text = report::certificate_text(source, certificate);
   } catch (const core::InputError& refused) {
