@@ -68,6 +68,10 @@ class ArcCheck {
       core::StraightLineBuilder builder;
       if (!is_at_zero(j)) roots_.push_back(builder.line(builder.variable(2 + j)));
     }
+    for (const int j : curve_.claim.at_zero) {
+      const std::vector<const core::StraightLine*> square = {&c_.squares[static_cast<std::size_t>(j)]};
+      zero_squares_.emplace_back(parts_of(c_, curve_.claim.mode, curve_.claim.at_zero), square);
+    }
     for (const int f : part.singular) singular_.push_back(&c_.functions[static_cast<std::size_t>(f)].program);
   }
 
@@ -95,6 +99,13 @@ class ArcCheck {
   bool holds_zero(const Point2& at, double reach) {
     return curve_.sheet.enter(around(at[0], reach), around(at[1], reach)) && !curve_.sheet.is_free(0);
   }
+  /// So do the squares of the roots that are zero along the curve: a function of which one of these is a factor vanishes
+  /// everywhere there.
+  bool may_be_on(const Point2& at, double reach) {
+    return holds_zero(at, reach) && std::all_of(zero_squares_.begin(), zero_squares_.end(), [&](Sheet& square) {
+             return square.enter(around(at[0], reach), around(at[1], reach)) && !square.is_free(0);
+           });
+  }
   double vertex_reach(const Point2& at) const {
     return on_curve * curve_.size + 8 * 0x1p-52 * std::max(std::abs(at[0]), std::abs(at[1]));
   }
@@ -116,12 +127,12 @@ class ArcCheck {
     for (const std::size_t quarter : {1u, 2u, 3u}) {
       if (n > 2) {
         const Point2& at = arc.points[std::clamp<std::size_t>(quarter * (n - 1) / 4, 1, n - 2)];
-        on += holds_zero(at, 10 * vertex_reach(at)) ? 1 : 0;
+        on += may_be_on(at, 10 * vertex_reach(at)) ? 1 : 0;
       } else {
         // A chord alone: its middle may lie near another curve too, its ends do not.
         const Point2 &a = arc.points[0], &b = arc.points[1];
         const Point2 at = quarter == 1 ? a : quarter == 3 ? b : Point2{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-        on += holds_zero(at, quarter == 2 ? 1.5 * c_.tolerance : same_place * curve_.size) ? 1 : 0;
+        on += may_be_on(at, quarter == 2 ? 1.5 * c_.tolerance : same_place * curve_.size) ? 1 : 0;
       }
     }
     return on >= (n > 2 ? 2 : 3);
@@ -543,6 +554,7 @@ class ArcCheck {
   std::array<double, 4> box_{};
   std::vector<core::StraightLine> roots_;  // programs that are one root each
   std::vector<const core::StraightLine*> singular_;
+  std::vector<Sheet> zero_squares_;  // of the roots that are zero along the curve, a function each
   bool uncertain_ = false;  // some arc of it is not claimed to be certain
 };
 

@@ -1,6 +1,7 @@
 #include "symbolic/factor_emission.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/fold.hpp"
 #include "mechanism/actions.hpp"
@@ -136,7 +137,23 @@ bool FactorEmission::add_rims(std::size_t index) {
   return true;
 }
 
+void FactorEmission::join_boundaries(std::size_t first) {
+  std::vector<LocusFactor>& factors = d_.result.problem.factors;
+  std::vector<LocusFactor> different;
+  for (std::size_t f = first; f < factors.size(); ++f) {
+    const auto known = std::find_if(different.begin(), different.end(),
+                                    [&](const LocusFactor& other) { return other.sheet == factors[f].sheet; });
+    if (known == different.end())
+      different.push_back(std::move(factors[f]));
+    else if (("; " + known->cause + "; ").find("; " + factors[f].cause + "; ") == std::string::npos)
+      known->cause += "; " + factors[f].cause;
+  }
+  factors.erase(factors.begin() + static_cast<std::ptrdiff_t>(first), factors.end());
+  std::move(different.begin(), different.end(), std::back_inserter(factors));
+}
+
 void FactorEmission::boundaries() {
+  const std::size_t first = d_.result.problem.factors.size();
   for (std::size_t i = 0; i < d_.geometry.roots().size(); ++i) {
     const TowerRoot& root = d_.geometry.roots()[i];
     if (root.role == core::RootRole::working_mode && !root.value && !add_rims(i))
@@ -144,6 +161,7 @@ void FactorEmission::boundaries() {
   }
   for (const Fold& fold : d_.geometry.folds()) add_fold(fold);
   add_limits();
+  join_boundaries(first);
   const std::vector<int> variables = d_.geometry.tower_variables();
   const std::vector<int> free(variables.begin(), variables.begin() + d_.geometry.coordinates());
   for (const Poly& denominator : d_.elimination.denominator_factors()) {

@@ -86,6 +86,8 @@ class FactorEmission {
   void add_fold(const Fold& fold);
   /// A sheet ends where a limit does, as at a fold: one more root, of what is left to the limit.
   void add_limits();
+  /// Of the factors from `first` on, boundaries: those along one curve become one, with the causes of all.
+  void join_boundaries(std::size_t first);
   void add_limit(const LimitCondition& limit);
   /// Where a dyad on others is stretched and where it is folded, each by itself: the product of both, which the square
   /// of its root is, has many more terms, and a norm of twice the degree. False where the square will do.

@@ -37,7 +37,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Once{"crank_next_to_its_end_of_reach", {core::Quantity::M}},
                     Once{"legs_that_never_align", {core::Quantity::f}, {.joints = {"B2"}}},
                     Once{"components_at_a_cone", {core::Quantity::fy}},
-                    Once{"margins_at_a_cone", {core::Quantity::f}, {.joints = {"A1"}, .min_force = 10}}),
+                    Once{"margins_at_a_cone", {core::Quantity::f}, {.joints = {"A1"}, .min_force = 10}},
+                    Once{"two_boundaries_along_one_line"},
+                    Once{"guide_unloaded_along_the_boundary"}),
     [](const auto& candidate) { return std::string(candidate.param.name); });
 
 TEST(Kinds, FollowFromWhatVanishes) {
