@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "analysis/framed.hpp"
@@ -57,6 +58,34 @@ Metrics metrics_of(const Mechanism& mechanism, const Task& task, const WidenedTa
   for (const mechanism::Coordinate& c : mechanism.coordinates) metrics.angles->grows.push_back(c.angle);
   metrics.angles->grows.resize(metrics.asked.grows.size(), false);
   return metrics;
+}
+
+/// The least u with left + sum of ways[i] u[i] = 0: u = -Wt (W Wt)^-1 left, of up to three rows; where the ways do not
+/// reach everywhere, nearly.
+std::vector<double> shares_to_zero(const std::vector<double>& left, const std::vector<std::vector<double>>& ways) {
+  const std::size_t n = left.size();
+  std::vector<std::vector<double>> rows(n, std::vector<double>(n + 1));
+  double trace = 0;
+  for (std::size_t r = 0; r < n; ++r) {
+    for (std::size_t c = 0; c < n; ++c)
+      for (const std::vector<double>& way : ways) rows[r][c] += way[r] * way[c];
+    rows[r][n] = -left[r];
+    trace += rows[r][r];
+  }
+  constexpr double nothing = 1e-12;
+  for (std::size_t r = 0; r < n; ++r) rows[r][r] += nothing * trace;
+  std::vector<double> shares(ways.size());
+  if (!(trace > 0)) return shares;
+  // Positive definite: pivots need no order.
+  for (std::size_t p = 0; p < n; ++p)
+    for (std::size_t r = 0; r < n; ++r) {
+      if (r == p) continue;
+      const double factor = rows[r][p] / rows[p][p];
+      for (std::size_t c = p; c <= n; ++c) rows[r][c] -= factor * rows[p][c];
+    }
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    for (std::size_t r = 0; r < n; ++r) shares[i] += ways[i][r] * rows[r][n] / rows[r][r];
+  return shares;
 }
 
 class StaticsVerifier {
@@ -169,7 +198,7 @@ class StaticsVerifier {
       return result.witness.has_value();
     };
     // On one side of a fold links are rigid or bend all over it, and no proof leads across: one pose tells which.
-    if (refuted({Doubt::workspace, -1, region_.samples().front()})) {
+    if (refuted({Doubt::workspace, -1, region_.samples().front()}) || fails_under_a_load(result)) {
       result.verdict = core::Verdict::refuted;
       return result;
     }
@@ -241,8 +270,82 @@ class StaticsVerifier {
     return failure ? std::optional(told(at, *failure)) : std::nullopt;
   }
 
-  /// Whether a suspect fails for certain; with another pose, between the two.
+  /// At samples of the task, under the loads that take most of a demand.
+  bool fails_under_a_load(Verification& result) {
+    if (task_.loads_within.empty()) return false;
+    constexpr std::size_t most = 64;
+    const auto count = static_cast<std::ptrdiff_t>(mechanism_.coordinates.size());
+    std::set<PoseAt> poses;  // whatever the loads
+    for (const PoseAt& sample : region_.samples()) {
+      if (poses.size() >= most || !poses.insert({sample.begin(), sample.begin() + count}).second) continue;
+      for (std::size_t d = 0; d < statics_.demands.size(); ++d) {
+        if (request_.deadline && std::chrono::steady_clock::now() >= *request_.deadline) return false;
+        result.witness = confirmed_under_a_load({Doubt::demand, static_cast<int>(d), sample});
+        if (result.witness) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Whether a suspect fails for certain, under its own loads or under those that take most of the demand.
   std::optional<core::TaskWitness> confirmed(const PoseSuspect& suspect) {
+    if (auto found = confirmed_as_it_is(suspect)) return found;
+    if (task_.loads_within.empty() || suspect.kind != Doubt::demand) return std::nullopt;
+    return confirmed_under_a_load(suspect);
+  }
+
+  std::optional<core::TaskWitness> confirmed_under_a_load(const PoseSuspect& suspect) {
+    for (const bool last : {false, true}) {
+      if (last && models_.size() < 2) continue;
+      if (const auto worst = under_worst_load(suspect, last))
+        if (auto found = confirmed_as_it_is(*worst)) return found;
+    }
+    return std::nullopt;
+  }
+
+  /// The pose under the loads in balls that bring a demand nearest to zero, of which its components are affine functions;
+  /// with the same pose under the loads in the middle. `last`: of loads that go from one to another the last one.
+  std::optional<PoseSuspect> under_worst_load(const PoseSuspect& suspect, bool last) {
+    const auto& balls = widened_.beside().balls;
+    const std::size_t poses = mechanism_.coordinates.size();
+    PoseAt middle = widened_.settled(suspect.at);
+    for (const loci::pose::PoseBeside::Ball& ball : balls)
+      std::fill_n(middle.begin() + static_cast<std::ptrdiff_t>(poses + ball.first), ball.count, 0.0);
+    const auto components_at = [&](const PoseAt& pose) -> std::optional<std::vector<double>> {
+      const auto here = cell_->at(pose);
+      if (!here) return std::nullopt;
+      const auto& loads = here->components[static_cast<std::size_t>(suspect.demand)];
+      const auto& found = last ? loads.back() : loads.front();
+      return std::vector<double>(found.begin(), found.end());
+    };
+    const auto left = components_at(middle);
+    if (!left) return std::nullopt;
+    std::vector<std::vector<double>> ways;  // of a radius of each part
+    for (const loci::pose::PoseBeside::Ball& ball : balls)
+      for (std::size_t k = 0; k < ball.count; ++k) {
+        PoseAt pose = middle;
+        pose[poses + ball.first + k] = ball.radius;
+        auto way = components_at(pose);
+        if (!way) return std::nullopt;
+        for (std::size_t c = 0; c < way->size(); ++c) (*way)[c] -= (*left)[c];
+        ways.push_back(std::move(*way));
+      }
+    PoseAt worst = middle;
+    std::size_t part = 0;
+    const std::vector<double> shares = shares_to_zero(*left, ways);
+    for (const loci::pose::PoseBeside::Ball& ball : balls) {
+      double square = 0;
+      for (std::size_t k = 0; k < ball.count; ++k) square += shares[part + k] * shares[part + k];
+      // A single component is taken as far as it goes: beyond zero, that its sign tells.
+      const bool far = square > 1 || left->size() == 1;
+      const double scale = square > 0 && far ? ball.radius / std::sqrt(square) : ball.radius;
+      for (std::size_t k = 0; k < ball.count; ++k) worst[poses + ball.first + k] = scale * shares[part++];
+    }
+    return PoseSuspect{Doubt::demand, suspect.demand, widened_.settled(std::move(worst)), std::move(middle)};
+  }
+
+  /// Whether a suspect fails for certain; with another pose, between the two.
+  std::optional<core::TaskWitness> confirmed_as_it_is(const PoseSuspect& suspect) {
     if (auto found = fails_at(suspect.at, suspect.demand)) return found;
     if (!suspect.other) return std::nullopt;
     const std::vector<PoseAt> way = region_.way(*suspect.other, suspect.at);

@@ -1,8 +1,8 @@
 // DXF of R12 or R2000, as text: pairs of lines, a group code and a value. Lines and polylines on a layer are a link, of
 // the layer's name; the layer `ground` is the ground. A circle is a pin of all links that end or pass where its centre
-// is; on the layer `motor` it marks the motor there. The unit is that of $INSUNITS. Circles and polylines have a plane of
-// their own: if its normal is -z, as where a drawing was mirrored, their x is -x of the drawing (DXF Reference, Object
-// Coordinate Systems).
+// is; on the layer `motor` it marks the motor there. The unit is that of $INSUNITS. Circles and polylines have a plane
+// of their own: if its normal is -z, as where a drawing was mirrored, their x is -x of the drawing (DXF Reference,
+// Object Coordinate Systems).
 #include <algorithm>
 #include <cctype>
 #include <cmath>

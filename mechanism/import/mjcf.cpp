@@ -60,6 +60,7 @@ class Reader : private MjcfSettings {
         s_.points.push_back({name, bodies_[static_cast<std::size_t>(site.first)].link, site.second.at, true});
     for (const XmlElement* element : root_.all("keyframe")) keyframe(*element);
     for (const TreeFollower& follower : followers_) follow(follower);
+    count_ranges();
     if (const auto left = unread(root_); !left.empty()) {
       std::string text;
       for (const std::string& word : left) text += (text.empty() ? "" : ", ") + word;
@@ -429,6 +430,13 @@ class Reader : private MjcfSettings {
       for (const int link : below(joint.to)) move_link(s_, link, joint.at(), shift, r);
       // The side on the parent stays where it is; it is the child that moves.
     }
+  }
+
+  /// From the posture on, not from the zeros of the joints.
+  void count_ranges() {
+    for (const TreeJoint& tree_joint : tree_)
+      if (auto& range = s_.joints[static_cast<std::size_t>(tree_joint.joints.front())].range)
+        for (double& end : *range) end -= tree_joint.value;
   }
 
   /// A link and all that hang on it in the tree.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,7 +14,7 @@ import numpy as np
 from . import _arguments as arguments
 from . import _clearloci
 from .answers import write_files
-from .model import Model, parse
+from .model import Model, content_text, parse
 
 
 @dataclass(frozen=True)
@@ -83,12 +82,14 @@ def design(
     `table`, a path, finished designs are kept as they come, from which `resume` goes on.
     """
     if isinstance(study, Mapping):
-        content = {"format": 1, **study}
-        text = json.dumps(content, default=lambda value: np.asarray(value).tolist())
+        text = content_text({"format": 1, **study}, "the study is no content of a study file")
         file = os.path.join(os.getcwd(), "study")
     else:
         file = arguments.path("study", study)
-        text = Path(file).read_text(encoding="utf-8")
+        try:
+            text = Path(file).read_text(encoding="utf-8")
+        except OSError as error:
+            raise ValueError(f"the study {file!r} cannot be read: {error.strerror}; give the path of a study file") from None
     handle = arguments.handle_of(model)
     threads, chunk = arguments.count("threads", threads, least=0), arguments.count("chunk", chunk)
     if executor is not None:

@@ -410,12 +410,28 @@ def text_of(task: Mapping[str, Any] | np.ndarray) -> str:
     """A dictionary or an array as the text of a task file."""
     if not isinstance(task, (Mapping, np.ndarray, list, tuple)):
         raise TypeError(f"the task is {type(task).__name__}; give a task file, its content as a dictionary, or an array")
+    wrong = "the task is no content of a task file"
     try:
         content = dict(task) if isinstance(task, Mapping) else {"path": np.asarray(task, dtype=float)}
-        content.setdefault("format", 1)
-        return json.dumps(content, default=lambda value: np.asarray(value).tolist(), allow_nan=False)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"the task is no content of a task file: {error}") from None
+        raise ValueError(f"{wrong}: {error}") from None
+    content.setdefault("format", 1)
+    return content_text(content, wrong)
+
+
+def content_text(content: Mapping[str, Any], wrong: str) -> str:
+    """A dictionary as the text of a file; arrays are lists. ValueError: `wrong`, and why."""
+
+    def listed(value: Any) -> Any:
+        values = np.asarray(value)
+        if isinstance(value, np.ndarray) or values.dtype.kind in "biufU":
+            return values.tolist()
+        raise TypeError(f"{value!r} is no number, text or list")
+
+    try:
+        return json.dumps(content, default=listed, allow_nan=False)
+    except (TypeError, ValueError, OverflowError, RecursionError) as error:
+        raise ValueError(f"{wrong}: {error}") from None
 
 
 def read(path: str | os.PathLike[str]) -> Model:

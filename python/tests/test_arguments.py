@@ -69,6 +69,8 @@ WRONG = [
     ("validate", {"grid": [-4, 4]}),
     ("verify", {"task": 3}),
     ("verify", {"task": {"box": {"x": [math.nan, 1]}}}),
+    ("verify", {"task": {"box": {"x": [0, 1]}, "margin": 1j}}),
+    ("verify", {"task": {"box": {"x": [0, object()]}}}),
     ("verify", {"task": {"box": object()}}),
     ("verify", {"task": {"box": {"x": [0.1, 0.2], "y": [-0.7, -0.6]}}, "fit": "most"}),
     ("verify", {"task": "no_such_file.yaml"}),
@@ -124,6 +126,12 @@ def test_wrong_arguments_of_studies(five_bar, given):
     study = {"vary": {"L": [0.4, 0.6]}, "task": task, "goal": {"maximise": "margin"}, "method": {"grid": [3]}}
     with pytest.raises((TypeError, ValueError), match=next(iter(given)) if "table" not in given else "table"):
         cl.design(five_bar, study, **given)
+
+
+@pytest.mark.parametrize("study", ["missing.yaml", "", {"vary": {"L": [0.4, 1j]}}, {"vary": {"L": [0.4, math.nan]}}])
+def test_wrong_studies(five_bar, study):
+    with pytest.raises(ValueError, match="study"):
+        cl.design(five_bar, study)
 
 
 def test_working_modes_in_every_form(five_bar):

@@ -255,6 +255,25 @@ TEST(PoseTasks, HoldForEveryDesignAndLoadThatIsAskedFor) {
   EXPECT_LT(*answer.margin, *alone.margin) << "other designs and loads leave less room";
 }
 
+// At a corner of the cube leg 2 bears 7.3 N under the load of the file, and -1.1 N under one that is 5 N off it.
+// Halving poses and loads together told neither, since the middles of cells are under loads in the middle.
+TEST(PoseTasks, TriesTheLoadsThatTakeMost) {
+  const Model legs = Model::read(source_dir() + "/tests/corpus/verify/four_legs_load_ball.yaml");
+  const auto verdict = [&](const std::string& radius) {
+    return verify(legs,
+                  parse_task("format: 1\nbox: {x: [-0.149691, -0.069691], y: [0.064230, 0.144230], z: [0.600944, "
+                             "0.680944]}\nloads_within: [{load: 1, radius: " +
+                                 radius + "}]\n",
+                             legs),
+                  {.depth = VerifyDepth::verdict});
+  };
+  EXPECT_TRUE(verdict("0.01").verified());
+  const Verification answer = verdict("5");
+  ASSERT_EQ(answer.verdict, Verdict::refuted);
+  const Eigen::Vector3d load(answer.witness->loads.at(0).force.data());
+  EXPECT_LE((load - Eigen::Vector3d(-25, -60, -100)).norm(), 5 * (1 + 1e-12));
+}
+
 TEST(PoseTasks, AWitnessIsAPoseADesignAndALoad) {
   const Model slice = slice_of_hexapod("1/2");
   const Verification answer =

@@ -38,8 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Once{"legs_that_never_align", {core::Quantity::f}, {.joints = {"B2"}}},
                     Once{"components_at_a_cone", {core::Quantity::fy}},
                     Once{"margins_at_a_cone", {core::Quantity::f}, {.joints = {"A1"}, .min_force = 10}},
-                    Once{"two_boundaries_along_one_line"},
-                    Once{"guide_unloaded_along_the_boundary"}),
+                    Once{"two_boundaries_along_one_line"}, Once{"guide_unloaded_along_the_boundary"}),
     [](const auto& candidate) { return std::string(candidate.param.name); });
 
 TEST(Kinds, FollowFromWhatVanishes) {

@@ -148,8 +148,7 @@ TEST(Engines, AgreeWhereTheSingularityIsTheLineItself) {
 // At rest at 140 deg, the spring is half a turn off at -40 deg. Its angle is that of an arm without length of its own,
 // whose sine and cosine hold a root: the lines beside the slit were lost with the root, but for certificates.
 TEST(AdaptiveEngine, FindsTheSlitOfATorsionSpringOfAnArm) {
-  const mechanism::Mechanism arm =
-      mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/arm_torsion_slit.yaml");
+  const mechanism::Mechanism arm = mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/arm_torsion_slit.yaml");
   const core::LocusMap map = trace_loci(arm, {});
   core::Certificate certificate;
   const core::LocusMap certified = trace_loci(arm, {}, &certificate);

@@ -167,8 +167,7 @@ void judge_certificate(Subject& s) {
     if (with_zones) {
       s.report.in_patience([&] { return find_zones(s.mechanism, {s.request}, &certificate); });
     } else {
-      const core::LocusMap map =
-          s.report.in_patience([&] { return trace_loci(s.mechanism, s.request, &certificate); });
+      const core::LocusMap map = s.report.in_patience([&] { return trace_loci(s.mechanism, s.request, &certificate); });
       tells_the_same(s, map);
     }
     text = report::certificate_text(source, certificate);

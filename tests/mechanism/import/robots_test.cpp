@@ -395,6 +395,15 @@ TEST(Mjcf, CountsRangesFromTheZeroOfTheSource) {
   EXPECT_EQ(section(file, "workspace").at("theta"), "{angle: [30 deg, 170 deg], of: a}");
 }
 
+/// Whatever the posture of a keyframe: here the first key turns the motor by 20 degrees.
+TEST(Mjcf, CountsRangesFromTheZeroOfTheSourceNotOfAKey) {
+  const Imported file = imported("mjcf/range_with_a_key.xml");
+  EXPECT_LT(places(file).at("jc")[0], -0.03);
+  const std::string range = section(file, "workspace").at("theta");
+  EXPECT_NEAR(std::stod(range.substr(range.find('[') + 1)), 30, 1e-9) << range;
+  EXPECT_NEAR(std::stod(range.substr(range.find(',') + 1)), 170, 1e-9) << range;
+}
+
 /// The tip is at 0.31 + js, and js in -0.12 to 0.03.
 TEST(Urdf, CountsRangesOfGuidesFromTheZeroOfTheSource) {
   const Imported file = imported("urdf/range_of_a_guide_in_an_open_loop.urdf");
