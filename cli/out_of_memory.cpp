@@ -1,11 +1,14 @@
 #include "cli/out_of_memory.hpp"
 
 #include <gmp.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <new>
 #include <string_view>
 
@@ -16,6 +19,8 @@
 extern "C" [[gnu::weak]] void mi_register_error(void (*handler)(int error, void* argument), void* argument);
 /// What it would say on standard error besides.
 extern "C" [[gnu::weak]] void mi_register_output(void (*write)(const char* text, void* argument), void* argument);
+/// Switches an option on, one of mimalloc.h, for memory that is asked of the system from then on.
+extern "C" [[gnu::weak]] void mi_option_enable(int option);
 
 namespace clearloci::cli {
 namespace {
@@ -56,6 +61,18 @@ void call_where_memory_ends() {
 void end_where_memory_ends() {
   std::set_new_handler(end_without_memory);
   call_where_memory_ends<end_without_memory>();
+}
+
+void take_large_pages() {
+  constexpr int large_pages = 6;  // mi_option_large_os_pages, mi_option_allow_large_os_pages of later versions
+  if (mi_option_enable == nullptr) return;
+  ::mi_option_enable(large_pages);
+  // What it has of the system already, and has not touched yet: the segment of a new block, which begins at a multiple
+  // of its size. A hint, which changes nothing where it is wrong.
+  constexpr std::size_t segment = std::size_t{32} << 20;
+  const auto block = std::make_unique<char>();
+  auto* const start = block.get() - reinterpret_cast<std::uintptr_t>(block.get()) % segment;
+  static_cast<void>(::madvise(start, segment, MADV_HUGEPAGE));
 }
 
 void throw_where_memory_ends() { call_where_memory_ends<throw_without_memory>(); }

@@ -1,4 +1,4 @@
-// Where memory ends: one line, and the status of a limit that was reached.
+// How the program takes memory. Where it ends: one line, and the status of a limit that was reached.
 #pragma once
 
 namespace clearloci::cli {
@@ -9,6 +9,10 @@ void end_where_memory_ends();
 
 /// For one that answers again and again: GMP throws std::bad_alloc as the rest does, instead of ending the process.
 void throw_where_memory_ends();
+
+/// For a command that gives one answer: the allocator asks the system for memory in large pages, where it has them. Long
+/// polynomials touch many pages for the first time, each of which costs a fault. Such memory is kept until the end.
+void take_large_pages();
 
 /// Says so, removes temporary files and ends the process. Allocates nothing.
 [[noreturn]] void end_without_memory();

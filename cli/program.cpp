@@ -98,10 +98,12 @@ int parse_and_run(int argc, const char* const* argv) {
   }
   for (const Command& command : commands)
     if (command.app->parsed()) {
-      if (command.app->get_name() == "view")
+      if (command.app->get_name() == "view") {
         throw_where_memory_ends();
-      else
+      } else {
         end_where_memory_ends();
+        take_large_pages();
+      }
       report::keep_inputs(named_inputs(*command.app));
       loci::keep_to_threads_to_be_had();
       return command.run();
