@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -57,8 +58,8 @@ double terms_of(const FactoredPoly& product) {
   return terms;
 }
 
-/// Multiplicities may be negative; what the summands share is not multiplied out.
-FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands, std::size_t most_terms) {
+/// What summands share, with the least multiplicity of each factor; multiplicities may be negative.
+FactoredPoly shared_part(const std::vector<FactoredPoly>& summands) {
   FactoredPoly shared{1, {}};
   bool first = true;
   for (const FactoredPoly& summand : summands) {
@@ -71,6 +72,13 @@ FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands,
       if (factor.multiplicity < 0 && shared.multiplicity(factor.poly) == 0) shared.factors.push_back(factor);
     std::erase_if(shared.factors, [](const PolyFactor& factor) { return factor.multiplicity == 0; });
   }
+  sort_factors(shared.factors);
+  return shared;
+}
+
+/// The sum of the summands, each over what they share, multiplied out.
+Poly sum_over(const Ring& ring, const FactoredPoly& shared, const std::vector<FactoredPoly>& summands,
+              std::size_t most_terms) {
   Poly sum(ring);
   for (const FactoredPoly& summand : summands) {
     if (summand.is_zero()) continue;
@@ -79,10 +87,79 @@ FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands,
     if (terms_of(rest) > static_cast<double>(most_terms)) throw TooLong{};
     sum += expanded(rest, ring);
   }
-  sort_factors(shared.factors);
-  FactoredPoly result = factored(sum, shared.factors);
+  return sum;
+}
+
+FactoredPoly sum_of(const Ring& ring, const std::vector<FactoredPoly>& summands, std::size_t most_terms) {
+  const FactoredPoly shared = shared_part(summands);
+  FactoredPoly result = factored(sum_over(ring, shared, summands, most_terms), shared.factors);
   multiply(result, shared);
   return result;
+}
+
+/// Rows and as many columns, by their places among those that are left: the rows hold no other columns but those of
+/// blocks before them.
+struct Block {
+  std::vector<std::size_t> rows, columns;
+  std::vector<std::size_t> needed;  ///< blocks that its rows depend on, and those that these do; itself last
+};
+
+/// Of `holds`, a square table of which row holds which column, the blocks in an order in which they can be solved; none
+/// where it is singular whatever the entries are.
+std::vector<Block> blocks_of(const std::vector<std::vector<bool>>& holds) {
+  const std::size_t n = holds.size();
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  // A column of its own for every row, by augmenting paths.
+  std::vector<std::size_t> row_of(n, none);
+  std::vector<bool> seen;
+  const std::function<bool(std::size_t)> find_column = [&](std::size_t row) {
+    for (std::size_t column = 0; column < n; ++column) {
+      if (!holds[row][column] || seen[column]) continue;
+      seen[column] = true;
+      if (row_of[column] != none && !find_column(row_of[column])) continue;
+      row_of[column] = row;
+      return true;
+    }
+    return false;
+  };
+  for (std::size_t row = 0; row < n; ++row) {
+    seen.assign(n, false);
+    if (!find_column(row)) return {};
+  }
+  // Rows depend on those whose columns they hold, and on what these do.
+  std::vector<std::vector<bool>> depends(n, std::vector<bool>(n, false));
+  for (std::size_t row = 0; row < n; ++row)
+    for (std::size_t column = 0; column < n; ++column)
+      if (holds[row][column]) depends[row][row_of[column]] = true;
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (depends[i][k] && depends[k][j]) depends[i][j] = true;
+  std::vector<Block> blocks;
+  std::vector<std::size_t> block_of(n, none);
+  for (std::size_t solved = 0; solved < n;) {
+    for (std::size_t row = 0; row < n; ++row) {
+      bool is_next = block_of[row] == none;
+      for (std::size_t other = 0; other < n; ++other)
+        if (depends[row][other] && !depends[other][row] && block_of[other] == none) is_next = false;
+      if (!is_next) continue;
+      Block block;
+      for (std::size_t other = 0; other < n; ++other) {
+        if (!depends[row][other]) continue;
+        if (depends[other][row])
+          block.rows.push_back(other), block_of[other] = blocks.size();
+        else if (std::find(block.needed.begin(), block.needed.end(), block_of[other]) == block.needed.end())
+          block.needed.push_back(block_of[other]);
+      }
+      std::sort(block.needed.begin(), block.needed.end());
+      block.needed.push_back(blocks.size());
+      for (std::size_t column = 0; column < n; ++column)
+        if (block_of[row_of[column]] == blocks.size()) block.columns.push_back(column);
+      solved += block.rows.size();
+      blocks.push_back(std::move(block));
+    }
+  }
+  return blocks;
 }
 
 class CramerElimination {
@@ -121,13 +198,26 @@ class CramerElimination {
  private:
   /// As many rows as are left to be expanded by minors: 2^n of them, which share most of their work.
   static constexpr std::size_t most_expanded = 7;
-  /// Of a constant pivot: the entries that it may fill in before rows of two or three entries are used up.
+  /// Of a constant pivot: the entries that it may fill in before rows of few entries are used up.
   static constexpr std::size_t little_fill = 4;
+  /// Entries of such a row besides the pivot: a force in space and two couples along one axis.
+  static constexpr std::size_t few_others = 3;
+  static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
 
   enum class How { not_at_all, by_rows, by_columns };
   struct Choice {
     How how = How::not_at_all;
     Pivot pivot{};
+  };
+  /// The first of the cheapest of those taken.
+  struct Cheapest {
+    Choice choice{};
+    std::size_t cost = unbounded;
+    void take(const Choice& other, std::size_t other_cost) {
+      if (other_cost >= cost) return;
+      cost = other_cost;
+      choice = other;
+    }
   };
   /// An equation in the unknowns as they were then, and how those were changed after it: w = times * its new w.
   struct Step {
@@ -145,13 +235,14 @@ class CramerElimination {
     return count;
   }
 
-  /// The cheapest of what raises no degree: a number that fills in little, or a polynomial in a row of few entries
-  /// without a load, of which the other columns take what they need (the parts of a force along a link become one).
-  /// Behind those, where too much is left to be expanded, any number, then any polynomial.
+  /// The cheapest of what raises no degree. First numbers that fill in little, of rows without a load; then polynomials
+  /// in rows of few entries without a load, of which the other columns take what they need: so a leg's own equations
+  /// leave what it can bear, such as one force along it, before it meets the rest of the mechanism. Then numbers in
+  /// rows with loads, which spread these. Behind those, where too much is left to be expanded, any number, then any
+  /// polynomial.
   Choice choose(std::size_t left) const {
     const std::vector<std::size_t> in_column = entries_of_columns();
-    std::size_t least_fill = unbounded, least_by_columns = unbounded, least_by_rows = unbounded;
-    Choice number, by_columns, by_rows;
+    Cheapest number, loaded_number, by_columns, by_rows;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!active_[i]) continue;
       const std::size_t others = rows_[i].size() - 1;
@@ -159,24 +250,22 @@ class CramerElimination {
       for (const auto& [column, entry] : rows_[i]) {
         if (column == n_) continue;
         const std::size_t fill = others * (in_column[static_cast<std::size_t>(column)] - 1);
-        const auto take = [&, here = Pivot{i, column}](How how, std::size_t cost, std::size_t& least, Choice& best) {
-          if (cost >= least) return;
-          least = cost;
-          best = {how, here};
-        };
+        const Choice by_this_row = {How::by_rows, {i, column}};
         if (entry.is_constant()) {
-          take(How::by_rows, fill, least_fill, number);
+          (loaded && fill > 0 ? loaded_number : number).take(by_this_row, fill);
           continue;
         }
         const std::size_t cost = (fill + 1) * entry.length();
-        take(How::by_rows, cost, least_by_rows, by_rows);
-        if (!loaded && others <= 2) take(How::by_columns, cost, least_by_columns, by_columns);
+        by_rows.take(by_this_row, cost);
+        if (!loaded && others <= few_others) by_columns.take({How::by_columns, {i, column}}, cost);
       }
     }
-    if (least_fill <= little_fill) return number;
-    if (by_columns.how != How::not_at_all) return by_columns;
+    if (number.cost <= little_fill) return number.choice;
+    if (by_columns.cost != unbounded) return by_columns.choice;
+    number.take(loaded_number.choice, loaded_number.cost);
+    if (number.cost <= little_fill) return number.choice;
     if (left <= most_expanded) return {};
-    return number.how != How::not_at_all ? number : by_rows;
+    return number.cost != unbounded ? number.choice : by_rows.choice;
   }
 
   void eliminate(const Choice& choice) {
@@ -275,7 +364,8 @@ class CramerElimination {
     return factored(common, {});
   }
 
-  /// What is left, by its minors; false where it is singular.
+  /// What is left, block by block; false where it is singular. Minors of the whole would hold the determinants of
+  /// blocks as factors, multiplied out.
   bool expand_rest() {
     std::vector<std::size_t> rest;
     for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -292,43 +382,118 @@ class CramerElimination {
     std::vector<int> columns;
     for (int j = 0; j < n_; ++j)
       if (std::find(column_of_row_.begin(), column_of_row_.end(), j) == column_of_row_.end()) columns.push_back(j);
-    for (std::size_t i = 0; i < rest.size(); ++i) column_of_row_[rest[i]] = columns[i];
     std::vector<FactoredPoly> taken;
     for (const int column : columns) {
       taken.push_back(divide_column(column));
       multiply(determinant_, taken.back());
     }
+    std::vector<std::vector<bool>> holds;
+    for (const std::size_t i : rest) {
+      std::vector<bool>& row = holds.emplace_back();
+      for (const int column : columns) row.push_back(rows_[i].contains(column));
+    }
+    std::vector<SolvedBlock> solved;
+    const std::vector<Block> blocks = blocks_of(holds);
+    for (const Block& block : blocks) {
+      SolvedBlock& own = solved.emplace_back();
+      for (const std::size_t i : block.rows) own.rows.push_back(rest[i]);
+      for (const std::size_t j : block.columns) own.columns.push_back(columns[j]);
+      for (std::size_t i = 0; i < own.rows.size(); ++i) column_of_row_[own.rows[i]] = own.columns[i];
+      if (!solve(block, solved)) return false;
+    }
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      FactoredPoly& w = solution_[static_cast<std::size_t>(columns[j])];
+      if (!w.is_zero()) multiply(w, taken[j], -1);
+    }
+    return !blocks.empty();
+  }
+
+  /// Rows and columns of the whole, and the determinant.
+  struct SolvedBlock {
+    std::vector<std::size_t> rows;
+    std::vector<int> columns;
+    FactoredPoly determinant{1, {}};
+  };
+
+  /// The unknowns of the last of the blocks, from those of blocks before it; false where it is singular.
+  bool solve(const Block& block, std::vector<SolvedBlock>& solved) {
+    SolvedBlock& own = solved.back();
+    std::vector<std::vector<FactoredPoly>> summands;
+    std::vector<FactoredPoly> all_summands;
+    std::vector<SparseRow> rows;
+    for (const std::size_t i : own.rows) {
+      SparseRow& row = rows.emplace_back();
+      std::vector<FactoredPoly>& loads = summands.emplace_back();
+      for (const auto& [column, entry] : rows_[i]) {
+        if (std::find(own.columns.begin(), own.columns.end(), column) != own.columns.end())
+          row.emplace(column, entry);
+        else if (FactoredPoly load = load_of(column, entry); !load.is_zero())
+          loads.push_back(std::move(load));
+      }
+      all_summands.insert(all_summands.end(), loads.begin(), loads.end());
+    }
+    const FactoredPoly shared = shared_part(all_summands);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      Poly load = sum_over(ring_, shared, summands[i], most_terms_);
+      if (!load.is_zero()) rows[i].emplace(n_, std::move(load));
+    }
+    std::vector<int> columns = own.columns;
     columns.push_back(n_);
     std::map<unsigned, Poly> minors;
-    const unsigned all = (1U << rest.size()) - 1;
-    const FactoredPoly below = factored(minor(rest, columns, all, minors), {});
-    if (below.is_zero()) return false;
-    multiply(determinant_, below);
-    remember(below, rest, columns, all);
-    for (std::size_t j = 0; j < rest.size(); ++j) {
-      FactoredPoly& w = solution_[static_cast<std::size_t>(columns[j])];
-      const unsigned replaced = (all & ~(1U << j)) | (all + 1);
-      w = factored(minor(rest, columns, replaced, minors), below.factors);
+    const unsigned all = (1U << rows.size()) - 1;
+    own.determinant = factored(minor(rows, columns, all, minors), {});
+    if (own.determinant.is_zero()) return false;
+    multiply(determinant_, own.determinant);
+    remember(own.determinant, own.rows, own.columns);
+    SolvedBlock needed;
+    for (const std::size_t b : block.needed) {
+      needed.rows.insert(needed.rows.end(), solved[b].rows.begin(), solved[b].rows.end());
+      needed.columns.insert(needed.columns.end(), solved[b].columns.begin(), solved[b].columns.end());
+      multiply(needed.determinant, solved[b].determinant);
+    }
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      FactoredPoly& w = solution_[static_cast<std::size_t>(own.columns[j])];
+      w = factored(minor(rows, columns, (all & ~(1U << j)) | (all + 1), minors), needed.determinant.factors);
       if (w.is_zero()) continue;
-      remember(w, rest, columns, replaced);
-      if ((rest.size() - 1 - j) % 2 == 1) w.constant = -w.constant;
-      multiply(w, below, -1);
-      multiply(w, taken[j], -1);
+      if ((rows.size() - 1 - j) % 2 == 1) w.constant = -w.constant;
+      multiply(w, own.determinant, -1);
+      multiply(w, shared);
+      remember_numerator(w, needed, own.columns[j]);
     }
     return true;
   }
 
-  /// Keeps the form of an irreducible minor that has many more terms than its entries and their products.
-  void remember(const FactoredPoly& product, const std::vector<std::size_t>& rest, const std::vector<int>& columns,
-                unsigned set) {
+  /// What a known unknown, or the load in the column behind the last, puts on the right-hand side.
+  FactoredPoly load_of(int column, const Poly& entry) const {
+    FactoredPoly load = factored(entry, {});
+    if (column == n_) return load;
+    const FactoredPoly& w = solution_[static_cast<std::size_t>(column)];
+    if (w.is_zero()) return w;
+    multiply(load, w);
+    load.constant = -load.constant;
+    return load;
+  }
+
+  /// The numerator of w = |A_k| / |A|, A the blocks that it takes: with the loads behind the other columns.
+  void remember_numerator(FactoredPoly w, const SolvedBlock& needed, int column) {
+    multiply(w, needed.determinant);
+    std::vector<int> columns = needed.columns;
+    const auto replaced = std::find(columns.begin(), columns.end(), column);
+    if ((columns.end() - replaced) % 2 == 0) w.constant = -w.constant;
+    columns.erase(replaced);
+    columns.push_back(n_);
+    remember(w, needed.rows, columns);
+  }
+
+  /// Keeps the form of an irreducible determinant that has many more terms than its entries and their products.
+  void remember(const FactoredPoly& product, const std::vector<std::size_t>& rows, const std::vector<int>& columns) {
     if (product.factors.size() != 1 || product.factors.front().multiplicity != 1) return;
     DeterminantForm form{product.factors.front().poly, 1 / product.constant, {}};
-    std::size_t terms = rest.size() << rest.size();
-    for (const std::size_t i : rest) {
+    std::size_t terms = rows.size() << rows.size();
+    for (const std::size_t i : rows) {
       std::vector<Poly>& row = form.rows.emplace_back();
-      for (std::size_t j = 0; j < columns.size(); ++j) {
-        if ((set >> j & 1U) == 0) continue;
-        const auto entry = rows_[i].find(columns[j]);
+      for (const int column : columns) {
+        const auto entry = rows_[i].find(column);
         row.push_back(entry == rows_[i].end() ? Poly(ring_) : entry->second);
         terms += row.back().length();
       }
@@ -337,7 +502,7 @@ class CramerElimination {
   }
 
   /// Of the first rows, as many as there are columns in the set, expanded along the last of them.
-  const Poly& minor(const std::vector<std::size_t>& rest, const std::vector<int>& columns, unsigned set,
+  const Poly& minor(const std::vector<SparseRow>& rows, const std::vector<int>& columns, unsigned set,
                     std::map<unsigned, Poly>& minors) const {
     if (const auto found = minors.find(set); found != minors.end()) return found->second;
     const auto size = static_cast<std::size_t>(std::popcount(set));
@@ -345,9 +510,9 @@ class CramerElimination {
     std::size_t place = 0;
     for (std::size_t j = 0; j < columns.size(); ++j) {
       if ((set >> j & 1U) == 0) continue;
-      const SparseRow& row = rows_[rest[size - 1]];
+      const SparseRow& row = rows[size - 1];
       if (const auto entry = row.find(columns[j]); entry != row.end()) {
-        const Poly summand = product(entry->second, minor(rest, columns, set & ~(1U << j), minors));
+        const Poly summand = product(entry->second, minor(rows, columns, set & ~(1U << j), minors));
         if ((size - 1 + place) % 2 == 0)
           sum += summand;
         else
@@ -367,21 +532,12 @@ class CramerElimination {
     std::vector<FactoredPoly> summands;
     for (const auto& [column, entry] : step.equation) {
       if (column == step.column) continue;
-      FactoredPoly polynomial = factored(entry, {});
-      if (column < n_) {
-        const FactoredPoly& w = solution_[static_cast<std::size_t>(column)];
-        if (w.is_zero()) continue;
-        multiply(polynomial, w);
-        polynomial.constant = -polynomial.constant;
-      }
-      summands.push_back(std::move(polynomial));
+      if (FactoredPoly load = load_of(column, entry); !load.is_zero()) summands.push_back(std::move(load));
     }
     FactoredPoly& w = solution_[static_cast<std::size_t>(step.column)];
     w = sum_of(ring_, summands, most_terms_);
     if (!w.is_zero()) multiply(w, factored(step.equation.at(step.column), {}), -1);
   }
-
-  static constexpr std::size_t unbounded = std::numeric_limits<std::size_t>::max();
 
   const Ring& ring_;
   std::size_t most_terms_;

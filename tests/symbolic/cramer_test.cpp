@@ -116,29 +116,66 @@ struct Generic {
   std::vector<Poly> right;
 };
 
+/// That every form is of a determinant that is one factor, and has its value at some place.
+void hold_forms(const CramerDeterminants& d, const Ring& ring) {
+  std::vector<FactoredPoly> products = d.numerators;
+  products.push_back(d.determinant);
+  for (const DeterminantForm& form : d.forms) {
+    EXPECT_TRUE(std::any_of(products.begin(), products.end(), [&](const FactoredPoly& product) {
+      return std::any_of(product.factors.begin(), product.factors.end(),
+                         [&](const PolyFactor& factor) { return factor.poly == form.value; });
+    }));
+    const auto at_numbers = [&](Poly p) {
+      for (int v = 0; v < ring.size(); ++v) p = p.at(v, (v * v * v + 5 * v) % 23 - 11);
+      return p.constant();
+    };
+    const auto n = static_cast<unsigned>(form.rows.size());
+    GiNaC::matrix numbers(n, n);
+    for (unsigned i = 0; i < n; ++i)
+      for (unsigned j = 0; j < n; ++j)
+        numbers(i, j) = GiNaC::numeric(core::to_string(at_numbers(form.rows[i].at(j))).c_str());
+    const GiNaC::ex whole = numbers.determinant() * GiNaC::numeric(core::to_string(form.constant).c_str());
+    EXPECT_TRUE((whole - GiNaC::numeric(core::to_string(at_numbers(form.value)).c_str())).is_zero());
+    EXPECT_FALSE(whole.is_zero());
+  }
+}
+
 /// Seven rows of variables of their own: |A| has 5040 terms, its form 49 entries.
 TEST(Cramer, LongMinorsAreKnownAsDeterminants) {
   const auto& [ring, matrix, right] = Generic<7>();
   constexpr std::size_t n = 7;
   const CramerDeterminants d = cramer_determinants(ring, matrix, right);
   ASSERT_EQ(d.forms.size(), n + 1);
-  std::vector<FactoredPoly> products = d.numerators;
-  products.push_back(d.determinant);
-  for (const DeterminantForm& form : d.forms) {
-    EXPECT_TRUE(std::any_of(products.begin(), products.end(), [&](const FactoredPoly& product) {
-      return product.factors.size() == 1 && product.factors.front().poly == form.value;
-    }));
-    const auto at_numbers = [&](Poly p) {
-      for (int v = 0; v < ring.size(); ++v) p = p.at(v, (v * v * v + 5 * v) % 23 - 11);
-      return p.constant();
-    };
-    GiNaC::matrix numbers(n, n);
-    for (unsigned i = 0; i < n; ++i)
-      for (unsigned j = 0; j < n; ++j)
-        numbers(i, j) = GiNaC::numeric(core::to_string(at_numbers(form.rows[i][j])).c_str());
-    const GiNaC::ex whole = numbers.determinant() * GiNaC::numeric(core::to_string(form.constant).c_str());
-    EXPECT_TRUE((whole - GiNaC::numeric(core::to_string(at_numbers(form.value)).c_str())).is_zero());
+  hold_forms(d, ring);
+}
+
+/// Two rows that hold two unknowns, three that hold all five, entries of three variables each: the determinants of the
+/// blocks are never multiplied with each other, and the form of what the second one gives has the rows of both.
+TEST(Cramer, BlocksAreSolvedOneAfterTheOther) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 3 * (2 * 3 + 3 * 6); ++i) names.push_back("v" + std::to_string(i));
+  const Ring ring(names);
+  int next = 0;
+  const auto entry = [&] {
+    Poly sum(ring);
+    for (int k = 0; k < 3; ++k) sum += Poly::variable(ring, next++);
+    return sum;
+  };
+  std::vector<std::vector<Poly>> matrix;
+  std::vector<Poly> right;
+  for (std::size_t i = 0; i < 5; ++i) {
+    std::vector<Poly>& row = matrix.emplace_back();
+    for (std::size_t j = 0; j < 5; ++j) row.push_back(i < 2 && j >= 2 ? Poly(ring) : entry());
+    right.push_back(entry());
   }
+  const std::optional<CramerDeterminants> d = cramer_determinants_within(2916, ring, matrix, right);
+  ASSERT_TRUE(d) << "162 terms of each load times 18 of each minor";
+  ASSERT_EQ(d->determinant.factors.size(), 2);
+  EXPECT_EQ(d->determinant.factors[0].poly.length() + d->determinant.factors[1].poly.length(), 18 + 162);
+  std::vector<std::size_t> sizes;
+  for (const DeterminantForm& form : d->forms) sizes.push_back(form.rows.size());
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{3, 5, 5, 5})) << "|A| of the second block, and its three numerators";
+  hold_forms(*d, ring);
 }
 
 /// The same matrices: nothing where products are long, else what comes without a limit.
