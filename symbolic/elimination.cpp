@@ -375,7 +375,7 @@ void Elimination::eliminate(Poly p, std::vector<Poly>& found, bool keeps_divisor
     a = a.exact_quotient(shared);
     b = b.exact_quotient(shared);
   }
-  const Poly norm = geometry_->reduce(a * a - b * b * top->square);
+  const Poly norm = geometry_->reduce(a.squared() - b.squared() * top->square);
   // Roots that are equal but for their signs: p vanishes identically for one sign and is 2 a for the other.
   if (norm.is_zero())
     eliminate(a, found, keeps_divisors);

@@ -50,6 +50,43 @@ constexpr std::size_t worth_an_image = 100000;
 /// Terms of a polynomial whose discriminant is no longer than what its factorisation makes.
 constexpr std::size_t short_enough = 200;
 
+/// Terms of which the square is a product like any other.
+constexpr slong short_square = 24;
+
+/// Whether FLINT multiplies it with itself as if it had all terms: it does where that takes far fewer of them than
+/// there are products, and then halves gain nothing.
+bool has_dense_square(const fmpz_mpoly_struct* p, const fmpz_mpoly_ctx_struct* context) {
+  constexpr double products_a_term = 32;
+  std::vector<slong> degrees(static_cast<std::size_t>(context->minfo->nvars));
+  fmpz_mpoly_degrees_si(degrees.data(), p, context);
+  double terms = 1;
+  for (const slong degree : degrees) terms *= 2 * static_cast<double>(degree) + 1;
+  return static_cast<double>(p->length) * static_cast<double>(p->length) > products_a_term * terms;
+}
+
+/// (u + v)^2 = u^2 + v^2 + 2 u v with half of the terms in each: products of two terms are formed once, not twice.
+void square(fmpz_mpoly_t result, const fmpz_mpoly_struct* p, const fmpz_mpoly_ctx_struct* context) {
+  if (p->length <= short_square) {
+    fmpz_mpoly_mul(result, p, p, context);
+    return;
+  }
+  const slong half = p->length / 2, words = mpoly_words_per_exp(p->bits, context->minfo);
+  fmpz_mpoly_struct u = *p, v = *p;  // read alone
+  u.length = half;
+  v.coeffs += half;
+  v.exps += words * half;
+  v.length -= half;
+  fmpz_mpoly_t part;
+  fmpz_mpoly_init(part, context);
+  fmpz_mpoly_mul(result, &u, &v, context);
+  fmpz_mpoly_scalar_mul_ui(result, result, 2, context);
+  square(part, &u, context);
+  fmpz_mpoly_add(result, result, part, context);
+  square(part, &v, context);
+  fmpz_mpoly_add(result, result, part, context);
+  fmpz_mpoly_clear(part, context);
+}
+
 /// A number for a variable, the same in every run.
 ulong scattered(slong variable, ulong prime) {
   nmod_t modulus;
@@ -218,6 +255,15 @@ Poly Poly::pow(unsigned exponent) const {
   return result;
 }
 
+Poly Poly::squared() const {
+  core::WorkLimit::check();
+  if (is_zero() || has_dense_square(value_->zpoly, ring_->context()->zctx)) return *this * *this;
+  Poly result(*ring_);
+  fmpq_mul(result.value_->content, value_->content, value_->content);
+  square(result.value_->zpoly, value_->zpoly, ring_->context()->zctx);  // of a primitive one: primitive
+  return result;
+}
+
 bool Poly::operator==(const Poly& other) const { return fmpq_mpoly_equal(value_, other.value_, ring_->context()) != 0; }
 
 Poly Poly::in(const Ring& ring) const {
@@ -322,10 +368,18 @@ Poly Poly::derivative(int variable) const {
 }
 
 void sort_factors(std::vector<PolyFactor>& factors) {
-  std::sort(factors.begin(), factors.end(), [](const PolyFactor& a, const PolyFactor& b) {
-    const int by_degree = a.poly.total_degree() - b.poly.total_degree();
-    return by_degree != 0 ? by_degree < 0 : fmpq_mpoly_cmp(a.poly.raw(), b.poly.raw(), a.poly.ring().context()) > 0;
+  if (factors.size() < 2) return;
+  std::vector<std::pair<int, PolyFactor*>> by_degree;  // each asked for once: all terms are looked at
+  for (PolyFactor& factor : factors) by_degree.emplace_back(factor.poly.total_degree(), &factor);
+  std::sort(by_degree.begin(), by_degree.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first
+               ? a.first < b.first
+               : fmpq_mpoly_cmp(a.second->poly.raw(), b.second->poly.raw(), a.second->poly.ring().context()) > 0;
   });
+  std::vector<PolyFactor> sorted;
+  sorted.reserve(factors.size());
+  for (const auto& [degree, factor] : by_degree) sorted.push_back(std::move(*factor));
+  factors = std::move(sorted);
 }
 
 int Poly::variable_of_degree(int wanted) const {

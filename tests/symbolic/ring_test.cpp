@@ -139,6 +139,18 @@ TEST_F(RingTest, CoefficientsRebuildThePolynomial) {
   EXPECT_TRUE(sum == p);
 }
 
+TEST_F(RingTest, SquaresAreProductsWithThemselves) {
+  const Poly sum = x + y.scaled(Rational(-2, 3)) + s.scaled(5) + number(Rational(1, 7));
+  for (const unsigned power : {0U, 1U, 2U, 3U, 4U, 6U}) {  // up to 84 terms
+    const Poly p = sum.pow(power).scaled(Rational(-3, 4));
+    EXPECT_TRUE(p.squared() == p * p) << p.length();
+  }
+  const Poly dense = (x + number(1)).pow(80);
+  EXPECT_TRUE(dense.squared() == dense * dense);
+  EXPECT_TRUE(number(0).squared().is_zero());
+  EXPECT_TRUE((x.pow(40) - y.pow(70) + s).squared() == (x.pow(40) - y.pow(70) + s).pow(2));
+}
+
 TEST_F(RingTest, SquareRootsOfSquaresOnly) {
   Poly root(ring);
   EXPECT_TRUE(((x + y) * (x + y)).scaled(Rational(9, 4)).square_root(root));
