@@ -47,8 +47,7 @@ void collect_factors(Derivation& d) {
 void take_determinant_apart(Derivation& d) {
   for (const PolyFactor& factor : d.determinants.determinant.factors) {
     std::vector<Poly> without_curves;
-    std::vector<SheetFactor> sheets =
-        d.elimination.sheet_factors(d.elimination.over_tower(factor.poly), true, &without_curves);
+    std::vector<SheetFactor> sheets = d.elimination.natural_factors(factor.poly, true, &without_curves);
     d.keep_without_curves(FactorRole::direct_singularity, d.words.of(factor.poly), without_curves);
     const bool alone = sheets.size() == 1 && sheets.front().multiplicity == 1;
     const bool chosen = is_singular_by_choice(d.preload, d.mechanism, factor.poly, d.selection.controlled);

@@ -100,12 +100,6 @@ const std::string& Derivation::point_name(mechanism::PointIndex point) const {
   return mechanism.points[static_cast<std::size_t>(point)].name;
 }
 
-const Poly& Derivation::sheet_of(std::size_t factor) {
-  const auto found = sheets_.find(factor);
-  if (found != sheets_.end()) return found->second;
-  return sheets_.emplace(factor, elimination.over_tower(factors[factor].natural)).first->second;
-}
-
 void Derivation::keep_without_curves(FactorRole role, const std::string& expression, const std::vector<Poly>& sheets) {
   if (result.problem.tower.coordinates.size() != 2) return;
   for (const Poly& sheet : sheets) {

@@ -3,7 +3,6 @@
 // (factor_emission.hpp). Private to symbolic/.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,8 +58,6 @@ struct Derivation {
   bool is_asked_for(const std::string& joint, core::Quantity quantity) const;
   bool is_always_zero(const std::string& joint, core::Quantity quantity) const;
   const std::string& point_name(mechanism::PointIndex point) const;
-  /// Of one of `factors`, over the tower.
-  const Poly& sheet_of(std::size_t factor);
   /// Of |A| and of what is asked for; a certificate claims that they have no zeros, but for points. They alone of
   /// `rest` have sheets.
   void keep_without_curves(core::FactorRole role, const std::string& expression, const std::vector<Poly>& sheets);
@@ -88,8 +85,6 @@ struct Derivation {
   void write_reactions();
   /// Of pins in space, where contact losses or what they are made of are asked for.
   void add_pressing_reactions();
-
-  std::map<std::size_t, Poly> sheets_;  ///< by factor
 };
 
 }  // namespace clearloci::symbolic

@@ -149,14 +149,19 @@ const Poly& Elimination::over_tower(const Poly& natural) const {
   if (known_)
     if (const auto found = known_->find(KnownEliminations::Kind::over_tower, sources, natural.ring()))
       return over_tower_.emplace_back(natural, found->front().poly).second;
-  Poly result = natural;
-  for (const Substitution& pair : substitutions_) {
-    const int degree = Geometry::degree_in(result, pair);
-    // Clearing puts the denominators of every point to all terms: those that are not needed go before the next point.
-    if (degree > 0) result = strip_denominators(geometry_->substituted(result, pair, degree));
-  }
+  Poly result = put_in(natural, 0);
   if (known_) known_->keep(KnownEliminations::Kind::over_tower, sources, {{result, 1}});
   return over_tower_.emplace_back(natural, std::move(result)).second;
+}
+
+Poly Elimination::put_in(Poly natural, std::size_t first) const {
+  for (std::size_t i = first; i < substitutions_.size(); ++i) {
+    const Substitution& pair = substitutions_[i];
+    const int degree = Geometry::degree_in(natural, pair);
+    // Clearing puts the denominators of every point to all terms: those that are not needed go before the next point.
+    if (degree > 0) natural = strip_denominators(geometry_->substituted(natural, pair, degree));
+  }
+  return natural;
 }
 
 Poly Elimination::at_one_pose(Poly p) const {
@@ -272,8 +277,68 @@ std::optional<Poly> Elimination::without_root(const Poly& sheet, const TowerRoot
 
 std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with_implicit,
                                                     std::vector<Poly>* without_curves) const {
+  return described(factors_over_tower(strip_denominators(sheet)), with_implicit, without_curves);
+}
+
+std::optional<Poly> Elimination::found_element(const Fold& fold) const {
+  const mechanism::PointIndex point = geometry_->roots()[fold.root].point;
+  const auto closing = geometry_->closings().find(point);
+  if (closing == geometry_->closings().end()) return std::nullopt;
+  const auto& dyad =
+      std::get<mechanism::DyadPoint>(geometry_->mechanism().points[static_cast<std::size_t>(point)].form);
+  const mechanism::PointIndex fourth = closing->second.fourth;
+  const auto [a, b] = way(*geometry_, fourth, dyad.from);
+  const auto [u, v] = way(*geometry_, fourth, dyad.to);
+  const Poly element = a * v - b * u;
+  Poly quotient(geometry_->ring());
+  if (!over_tower(element).divides(fold.where, quotient) || !quotient.is_constant()) return std::nullopt;
+  return element.primitive();
+}
+
+const std::optional<Poly>& Elimination::fold_element(std::size_t fold) const {
+  elements_.resize(geometry_->folds().size());
+  if (!elements_[fold]) elements_[fold] = found_element(geometry_->folds()[fold]);
+  return *elements_[fold];
+}
+
+std::vector<SheetFactor> Elimination::natural_factors(const Poly& natural, bool with_implicit,
+                                                      std::vector<Poly>* without_curves) const {
+  // With the closing points written by others, which is the first that is put in, elements divide as polynomials.
+  Poly rest = natural;
+  const std::size_t closings = geometry_->closings().size();
+  for (std::size_t i = 0; i < closings; ++i)
+    if (const int degree = Geometry::degree_in(rest, substitutions_[i]); degree > 0)
+      rest = geometry_->substituted(rest, substitutions_[i], degree);
+  std::vector<PolyFactor> elements;
+  for (std::size_t i = 0; i < geometry_->folds().size() && closings > 0; ++i) {
+    if (!fold_element(i)) continue;
+    Poly element = *fold_element(i), quotient(natural.ring());
+    for (std::size_t k = 0; k < closings; ++k)
+      if (const int degree = Geometry::degree_in(element, substitutions_[k]); degree > 0)
+        element = geometry_->substituted(element, substitutions_[k], degree);
+    int times = 0;
+    for (; rest.divides(element, quotient); ++times) std::swap(rest, quotient);
+    if (times == 0) continue;
+    Rational constant;
+    for (const PolyFactor& part : geometry_->folds()[i].where.factors(constant))
+      elements.push_back({part.poly, part.multiplicity * times});
+  }
+  if (elements.empty()) return sheet_factors(over_tower(natural), with_implicit, without_curves);
+  std::vector<PolyFactor> factors = factors_over_tower(strip_denominators(put_in(std::move(rest), closings)));
+  for (PolyFactor& element : elements) {
+    const auto known = std::find_if(factors.begin(), factors.end(),
+                                    [&](const PolyFactor& factor) { return factor.poly == element.poly; });
+    if (known == factors.end())
+      factors.push_back(std::move(element));
+    else
+      known->multiplicity += element.multiplicity;
+  }
+  return described(factors, with_implicit, without_curves);
+}
+
+std::vector<SheetFactor> Elimination::described(const std::vector<PolyFactor>& factors, bool with_implicit,
+                                                std::vector<Poly>* without_curves) const {
   std::vector<SheetFactor> result;
-  std::vector<PolyFactor> factors = factors_over_tower(strip_denominators(sheet));
   for (const PolyFactor& factor : factors) {
     if (!has_free_coordinate(factor.poly) || is_denominator(factor.poly)) continue;
     SheetFactor entry{factor.poly, factor.multiplicity, {}};

@@ -49,6 +49,15 @@ class Elimination {
   std::vector<SheetFactor> sheet_factors(const Poly& sheet, bool with_implicit,
                                          std::vector<Poly>* without_curves = nullptr) const;
 
+  /// The same of a natural polynomial that is not zero in every pose. What it holds of the elements of folds is divided
+  /// out of it before it is put over the tower, where it has many more terms.
+  std::vector<SheetFactor> natural_factors(const Poly& natural, bool with_implicit,
+                                           std::vector<Poly>* without_curves = nullptr) const;
+
+  /// Of a fold where a dyad X on V, W closes a loop with a point C (Geometry::Closing), (V - C) x (W - C) in natural
+  /// coordinates: a number times Fold::where over the tower. None where no such loop is known.
+  const std::optional<Poly>& fold_element(std::size_t fold) const;
+
   /// The irreducible polynomials in the free coordinates that contain the zeros of a sheet polynomial.
   std::vector<Poly> implicit_factors(const Poly& sheet) const;
   /// The same of a factor that the places of points are divided by.
@@ -87,6 +96,11 @@ class Elimination {
   /// earlier ones numerators and |A| share the element in whose sign it differs, and where a dyad is stretched the root
   /// that is zero there: those are divided out as often as it goes.
   std::vector<PolyFactor> factors_over_tower(const Poly& sheet) const;
+  std::vector<SheetFactor> described(const std::vector<PolyFactor>& factors, bool with_implicit,
+                                     std::vector<Poly>* without_curves) const;
+  std::optional<Poly> found_element(const Fold& fold) const;
+  /// From one of the substitutions on.
+  Poly put_in(Poly natural, std::size_t first) const;
   std::vector<PolyFactor> found_factors(Poly sheet) const;
   /// A sheet polynomial a + b s divided by s, where it holds s at all and s^2 divides a.
   static std::optional<Poly> without_root(const Poly& sheet, const TowerRoot& root);
@@ -116,6 +130,7 @@ class Elimination {
   mutable std::list<std::pair<Poly, Poly>> over_tower_;  ///< what has been asked for: many numerators share factors
   mutable std::list<std::pair<Poly, bool>> vanishing_;   ///< likewise
   mutable std::list<std::pair<Poly, ResiduePoly>> over_tower_on_line_;
+  mutable std::vector<std::optional<std::optional<Poly>>> elements_;  ///< by fold, once they are asked for
   std::vector<Stretched> stretched_;
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower

@@ -65,10 +65,12 @@ std::optional<std::array<core::Rational, 3>> constant_normal(const Ring& ring, c
 void FactorEmission::add(FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit,
                          LocusFactor common) {
   common.role = role;
+  add_parts(natural, d_.elimination.sheet_factors(sheet, with_implicit), common);
+}
+
+void FactorEmission::add_parts(const Poly* natural, const std::vector<SheetFactor>& parts, const LocusFactor& common) {
+  const FactorRole role = common.role;
   const std::vector<int> variables = d_.geometry.tower_variables();
-  std::vector<Poly> without_curves;
-  const std::vector<SheetFactor> parts = d_.elimination.sheet_factors(sheet, with_implicit, &without_curves);
-  if (role == FactorRole::reaction) d_.keep_without_curves(role, common.expression, without_curves);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const SheetFactor& part = parts[p];
     LocusFactor factor = common;
@@ -140,8 +142,12 @@ void FactorEmission::reactions() {
     factor.expression = d_.words.of(shared.natural);
     factor.cause = d_.causes.of(shared.natural);
     factor.vanishing = shared.vanishing;
-    add(FactorRole::reaction, &shared.natural, d_.sheet_of(static_cast<std::size_t>(&shared - d_.factors.data())),
-        shared.wanted_curve, factor);
+    factor.role = FactorRole::reaction;
+    std::vector<Poly> without_curves;
+    const std::vector<SheetFactor> parts =
+        d_.elimination.natural_factors(shared.natural, shared.wanted_curve, &without_curves);
+    d_.keep_without_curves(factor.role, factor.expression, without_curves);
+    add_parts(&shared.natural, parts, factor);
     ranges_.back()[1] = d_.result.problem.factors.size();
     if (is_cut_) cut_.insert(ranges_.size() - 1);
   }

@@ -50,6 +50,7 @@ class FactorEmission {
  private:
   /// `natural`: the polynomial that gave the sheet; null where there is none.
   void add(core::FactorRole role, const Poly* natural, const Poly& sheet, bool with_implicit, core::LocusFactor common);
+  void add_parts(const Poly* natural, const std::vector<SheetFactor>& parts, const core::LocusFactor& common);
   void put_implicit(const SheetFactor& part, core::LocusFactor& factor) const;
   /// How the `part` of a natural polynomial is computed whose other parts are elements of folds; empty where it is not
   /// known.

@@ -27,10 +27,9 @@ const std::vector<std::size_t>* FactorEmission::pair_functions(const Poly& natur
   const auto known = std::find_if(pair_functions_of_natural_.begin(), pair_functions_of_natural_.end(),
                                   [&](const auto& one) { return one.first == natural; });
   if (known != pair_functions_of_natural_.end()) return &known->second;
-  const Poly& sheet = d_.elimination.over_tower(natural);
-  if (sheet.is_zero()) return nullptr;
+  if (d_.elimination.vanishes_everywhere(natural)) return nullptr;
   std::vector<std::size_t> places;
-  const std::vector<SheetFactor> parts = d_.elimination.sheet_factors(sheet, false);
+  const std::vector<SheetFactor> parts = d_.elimination.natural_factors(natural, false);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     LocusFactor function;
     function.sheet = core::scaled_for_doubles(parts[p].sheet.plain(d_.geometry.tower_variables()));

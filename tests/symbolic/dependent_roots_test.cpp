@@ -191,6 +191,39 @@ TEST(Parallelogram, IsClosedByThePlacesOfThreePoints) {
   EXPECT_EQ(crossed, 1);
 }
 
+// The element of a fold is divided out before a natural polynomial is put over the tower: what comes of it is what
+// comes of all of it put over the tower.
+TEST(Parallelogram, ElementsAreDividedOutOfNaturalPolynomials) {
+  const mechanism::Mechanism m = corpus("parallelogram_under_coupler");
+  for (const int half : {1, -1}) {
+    const Geometry side(m, false, {}, {{}, {half}});
+    const Elimination elimination(side);
+    ASSERT_EQ(side.folds().size(), 1u);
+    ASSERT_TRUE(elimination.fold_element(0));
+    core::Rational constant;
+    const std::vector<PolyFactor> element = side.folds().front().where.factors(constant);
+    const FactoredDeterminants found = factored_determinants(side);
+    std::vector<FactoredPoly> products = found.numerators;
+    products.push_back(found.determinant);
+    int held = 0, others = 0;
+    for (const FactoredPoly& product : products)
+      for (const PolyFactor& factor : product.factors) {
+        const Poly& whole = elimination.over_tower(factor.poly);
+        if (whole.is_zero()) continue;
+        const std::vector<SheetFactor> parts = elimination.natural_factors(factor.poly, false),
+                                       all = elimination.sheet_factors(whole, false);
+        ASSERT_EQ(parts.size(), all.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+          EXPECT_EQ(parts[i].sheet, all[i].sheet);
+          EXPECT_EQ(parts[i].multiplicity, all[i].multiplicity);
+          ++(parts[i].sheet == element.front().poly ? held : others);
+        }
+      }
+    EXPECT_GT(held, 0);
+    EXPECT_GT(others, 0);
+  }
+}
+
 // Of a dyad on two others what is put in is shorter than its place, and the two steps make the place.
 TEST(DyadsOnOthers, ArePutInByStepsOfFewTerms) {
   const mechanism::Mechanism m =
