@@ -63,7 +63,9 @@ struct CurveGraph {
   std::vector<Stretch> stretches;
   std::vector<Cluster> clusters;
   std::vector<PlaneCell> undecided;  ///< in the plane, clusters included
-  bool stopped = false;              ///< by TreeOptions::stop or the budget
+  /// In the plane: where the curve of another working mode touches this mode's sheet, on the rim of a root.
+  std::vector<PlaneCell> touched_from_beyond;
+  bool stopped = false;         ///< by TreeOptions::stop or the budget
   bool open_at_corner = false;  ///< all that is open may be so because a branch leaves a star towards a corner of it
 };
 

@@ -85,6 +85,13 @@ class GraphBuilder {
   /// zero is there twice, or not at all where no branch arrives. Required: the curve is a graph over t there.
   void settle_touches(int patch, FoundZeros& found) const;
 
+  /// Where the curve touches the rim of a root, next to a place.
+  std::optional<Touch> touch_of_rim(int patch, int root, const PlaneCell& cell) const;
+
+  /// The double zeros of the curve and a root among what is undecided along that root's rim: there the curve passes the
+  /// rim without crossing it, on the mode's sheet or beyond.
+  void settle_rim_touches(int patch, int root, FoundZeros& found);
+
   std::optional<std::vector<std::vector<Interval>>> zeros_on(int patch, ZeroSearch& search, int axis, double at,
                                                              double from, double to, std::size_t most_cells,
                                                              bool at_star, bool is_graph, Trouble& trouble);

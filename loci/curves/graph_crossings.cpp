@@ -28,6 +28,9 @@ constexpr std::ptrdiff_t many_edges_given_up = 64;
 // A double zero over the directions from a star is left open down to this width at most.
 constexpr double widest_star_touch = 1e-5;
 
+// A place where the curve may touch a rim reaches at least so far, relative to the patch.
+constexpr double around_touch = 1e-8;
+
 constexpr std::size_t most_rim_cells = 8192;
 
 // In a sketch a curve with more cells than this next to a rim, along which it then runs, is left open there.
@@ -101,6 +104,47 @@ void GraphBuilder::settle_touches(int patch, FoundZeros& found) const {
   found.undecided.clear();
   found.gave_up = false;
   found.enclosures.insert(found.enclosures.end(), zeros.begin(), zeros.end());
+}
+
+std::optional<Touch> GraphBuilder::touch_of_rim(int patch, int root, const PlaneCell& cell) const {
+  const Patch& data = graph_.patches[patch];
+  const SheetProgram& program = *data.program;
+  const double size = std::max(data.domain.x.width(), data.domain.y.width());
+  core::StraightLineBuilder builder;
+  const int level = builder.variable(2 + root);
+  const SheetFunction rim = {core::Polynomial{program.variables(), {}}, builder.line(level)};
+  std::vector<Interval> place = {cell.x, cell.y, Interval(0.0)};
+  for (Interval& range : place)
+    range = hull(range, Interval(range.middle()) + Interval(-around_touch * size, around_touch * size));
+  return TouchSearch(program.tower(), {program.function(0), rim}, mode_, size).around(place, {root});
+}
+
+void GraphBuilder::settle_rim_touches(int patch, int root, FoundZeros& found) {
+  const Chart& chart = graph_.patches[patch].chart;
+  std::vector<PlaneCell> left, settled;
+  const auto is_within = [](const PlaneCell& cell, const PlaneCell& box) {
+    return box.x.contains(cell.x.lower()) && box.x.contains(cell.x.upper()) && box.y.contains(cell.y.lower()) &&
+           box.y.contains(cell.y.upper());
+  };
+  for (const PlaneCell& cell : clusters(found.undecided)) {
+    if (std::any_of(settled.begin(), settled.end(), [&](const PlaneCell& box) { return is_within(cell, box); }))
+      continue;
+    const std::optional<Touch> touch = touch_of_rim(patch, root, cell);
+    const auto is_inside = [&](const std::vector<Interval>& zero) {
+      return !disjoint(zero[0], touch->box[0]) && !disjoint(zero[1], touch->box[1]);
+    };
+    if (!touch || std::any_of(found.enclosures.begin(), found.enclosures.end(), is_inside)) {
+      left.push_back(cell);
+      continue;
+    }
+    settled.push_back({touch->box[0], touch->box[1]});
+    if (touch->enclosure.empty() || touch->extremum == mode_[static_cast<std::size_t>(root)]) continue;
+    const Interval reach(-touch->reach, touch->reach);
+    graph_.touched_from_beyond.push_back(
+        chart.to_plane(PlaneCell{touch->enclosure[0] + reach, touch->enclosure[1] + reach}));
+  }
+  found.gave_up = found.gave_up && !left.empty();
+  found.undecided = std::move(left);
 }
 
 std::optional<std::vector<std::vector<Interval>>> GraphBuilder::zeros_on(int patch, ZeroSearch& search, int axis,
@@ -339,6 +383,7 @@ void GraphBuilder::meet_rims(int patch) {
     const std::size_t most_cells = options_.extended ? most_rim_cells : most_rim_cells_of_a_sketch;
     FoundZeros found =
         ZeroSearch(rim, mode, {}).run(seeds, {1e-12 * size, most_cells, crossing_accuracy * size, options_.stop});
+    settle_rim_touches(patch, j, found);
     if (!found.undecided.empty() && !found.gave_up) leave_open_for_good();
     for (const PlaneCell& cell : found.undecided) {
       unlucky_ = true;

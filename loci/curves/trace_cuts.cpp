@@ -96,7 +96,7 @@ void Tracer::cut_in_patches(const SheetFunction& cutter, const Cut& cut, const P
       if (!cut_stretch(graph_, static_cast<int>(p), zero, crossing_of(cut))) open.push_back({zero[0], zero[1]});
     for (const PlaneCell& cell : clusters(std::move(open)))
       if (!at_star(patch.chart, cell) && !at_end(patch.chart.to_plane(cell), cut) &&
-          !touch(static_cast<int>(p), cell, cut))
+          !is_touched_from_beyond(patch.chart.to_plane(cell)) && !touch(static_cast<int>(p), cell, cut))
         graph_.undecided.push_back(patch.chart.to_plane(cell));
   }
 }
@@ -130,6 +130,26 @@ bool Tracer::touch(int patch, const PlaneCell& place, const Cut& cut) {
   std::vector<Interval> enclosure = {place.x, place.y};
   for (std::size_t j = 0; j < own_.mode.size(); ++j) enclosure.push_back(cell.root(static_cast<int>(j)));
   return cut_stretch(graph_, patch, enclosure, crossing_of(cut));
+}
+
+bool Tracer::is_touched_from_beyond(const PlaneCell& place) const {
+  return std::any_of(
+      graph_.touched_from_beyond.begin(), graph_.touched_from_beyond.end(),
+      [&](const PlaneCell& touched) { return !disjoint(touched.x, place.x) && !disjoint(touched.y, place.y); });
+}
+
+void Tracer::add_touched_points(const std::vector<Cut>& cuts) {
+  for (const PlaneCell& place : graph_.touched_from_beyond) {
+    const core::Point2 at = {place.x.middle(), place.y.middle()};
+    const bool is_off = std::any_of(cuts.begin(), cuts.end(), [&](const Cut& cut) {
+      const Subtower part = subtower(tower_, mode_, {cut.sheet.polynomial});
+      const SheetProgram program(part.tower, std::vector{narrowed(cut.sheet, part)});
+      SheetCell cell(program, part.mode);
+      if (!cell.enter(place.x, place.y)) return true;
+      return cut.keep ? cell.value(0).sign() < 0 : cell.value(0).contains_zero();
+    });
+    if (!is_off) isolated_points_.push_back(at);
+  }
 }
 
 void Tracer::cut_at_stars(const Subtower& both, const Cut& cut, const Partition& parts) {
@@ -209,7 +229,7 @@ void Tracer::cut_on_both(const Subtower& both, const Cut& cut, const Partition& 
     }
   }
   for (const PlaneCell& cell : clusters(std::move(open))) {
-    if (!at_end(cell, cut) &&
+    if (!at_end(cell, cut) && !is_touched_from_beyond(cell) &&
         !(is_one_point(cell, cut, size_) && may_cut_at(cell, cut) && cut_at(cell, crossing_of(cut))))
       graph_.undecided.push_back(cell);
   }

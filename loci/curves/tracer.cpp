@@ -118,6 +118,7 @@ void Tracer::find(const std::vector<Cutter>& cutters) {
   if (!graph_.stretches.empty())
     for (const Cut& cut : cuts) apply(cut, parts);
   settle_clusters();
+  add_touched_points(cuts);
   std::vector<Chain> pieces;
   const std::vector<Edge> edges = edges_of(cuts);
   for (Chain& chain : chains(graph_)) {

@@ -97,6 +97,12 @@ class Tracer {
   /// The cutter reaches a star in the direction of a branch: cut_at_stars has seen to it.
   static bool at_star(const Chart& chart, const PlaneCell& cell) { return chart.is_at_star(cell, same_place); }
 
+  /// There the curve is on the sheet in one point of its rim at most.
+  bool is_touched_from_beyond(const PlaneCell& place) const;
+
+  /// Such points are isolated ones of the curve, but where a cutter may vanish there too.
+  void add_touched_points(const std::vector<Cut>& cuts);
+
   /// Branches that reach a star end there where the cutter reaches it too, in whatever direction.
   void cut_at_stars(const Subtower& both, const Cut& cut, const Partition& parts);
 

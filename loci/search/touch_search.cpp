@@ -124,6 +124,7 @@ std::optional<Touch> TouchSearch::settle(const std::vector<double>& at, const st
   const Interval value = value_on_curve(along);
   Touch touch;
   touch.box = box;
+  touch.extremum = least;
   if (value.sign() != 0 && value.sign() == least) return touch;
   const double way = std::sqrt(value.magnitude() * reach_squared);
   if (!(way <= one_point_ * size_)) return std::nullopt;

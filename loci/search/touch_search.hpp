@@ -22,6 +22,7 @@ struct Touch {
   std::vector<Interval> box;        ///< in local coordinates
   std::vector<Interval> enclosure;  ///< of (x, y, s1...sm) where the curves touch; none: they do not meet in the box
   double reach = 0;                 ///< from there, of all places in the box where they meet, in x and in y
+  int extremum = 0;                 ///< what g has along f = 0 there: 1 a least value, -1 a greatest
 };
 
 class TouchSearch {

@@ -1,6 +1,7 @@
 // Curves that touch, or nearly do: double zeros that ZeroSearch settles by their tangency (touch_search.hpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "loci/curves/trace_sheet.hpp"
@@ -140,6 +141,41 @@ TEST(Touch, SidesOfTheBoxAreSettledOnTheSheet) {
       EXPECT_NEAR(length, entry.length, 1e-5);
     }
   }
+}
+
+// With s^2 = 1 - D the curve s = 2 (x^2 - 1/2)^2 touches the rim s = 0 at four irrational points: it passes there on
+// one sheet, and on the other one it has these points alone. Another curve may cut it in them.
+TEST(Touch, TheRimOfItsOwnSheet) {
+  const Ring r{3};
+  const auto x = r.x(), y = r.y(), s = r.s(1);
+  const core::RootTower tower = testing::one_root(r(1) - x * x - y * y);
+  const auto off = x * x - r(Rational(1, 2));
+  const auto curve = s - r(2) * off * off;
+  const Cutter cutter = {{off + r(Rational(1, 3)) * s}, core::ArcEnd::direct_singularity, false};
+  for (const bool is_cut : {false, true})
+    for (const int sign : {1, -1}) {
+      SheetTraceOptions options;
+      options.tolerance = 1e-6;
+      std::vector<Cutter> cutters;
+      if (is_cut) cutters.push_back(cutter);
+      const SheetTrace trace = trace_sheet(tower, {sign}, {Rational(-7, 6), Rational(-8, 7)},
+                                           {Rational(9, 8), Rational(10, 9)}, {curve}, cutters, options);
+      EXPECT_TRUE(trace.certified) << sign << is_cut;
+      double length = 0;
+      for (const TracedArc& arc : trace.arcs) length += arc.arc.length;
+      if (sign > 0) {
+        EXPECT_GT(length, 5);
+        EXPECT_TRUE(std::all_of(trace.arcs.begin(), trace.arcs.end(),
+                                [&](const TracedArc& arc) { return arc.arc.closed != is_cut; }));
+        EXPECT_TRUE(trace.isolated_points.empty());
+      } else {
+        EXPECT_TRUE(trace.arcs.empty());
+        EXPECT_EQ(trace.isolated_points.size(), is_cut ? 0u : 4u);
+      }
+      for (const TracedArc& arc : trace.arcs)
+        for (std::size_t end = 0; is_cut && end < 2; ++end)
+          EXPECT_EQ(arc.arc.ends[end], core::ArcEnd::direct_singularity);
+    }
 }
 
 }  // namespace
