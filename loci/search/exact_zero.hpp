@@ -9,9 +9,9 @@
 
 namespace clearloci::loci::sheet {
 
-/// Whether all the functions vanish at the point with the shortest coordinates within `place`, itself as far again
-/// around it, on the mode's sheet. False also where it is on a workspace boundary, a root of it is not rational or an
-/// angle, or the tower is undefined there.
+/// Whether all the functions vanish at the base or else the point with the shortest coordinates within `place`, itself
+/// as far again around it, on the mode's sheet or its boundary, whatever the angles among the roots are there. False
+/// also where another root of it is not rational, or the tower is undefined there.
 bool vanish_exactly(const core::RootTower& tower, const core::WorkingMode& mode,
                     const std::vector<core::Polynomial>& functions, const PlaneCell& place);
 

@@ -178,5 +178,26 @@ TEST(Touch, TheRimOfItsOwnSheet) {
     }
 }
 
+// Where two functions vanish whatever an angle is they are known to.
+TEST(Touch, IsExactWhereAnAngleDoesNotCount) {
+  const Ring r{3};
+  const auto x = r.x(), y = r.y(), phi = r.s(1);
+  core::Root angle;
+  angle.name = angle.point = "phi";
+  angle.square = x * x + r(1);
+  angle.cosine_and_sine = {r(1), x};
+  core::RootTower tower = testing::plane();
+  tower.roots.push_back(angle);
+  const auto off = x - r(Rational(1, 2));
+  const PlaneCell place = {{0.5 - 1e-14, 0.5 + 1e-14}, {-1e-14, 1e-14}};
+  EXPECT_TRUE(vanish_exactly(tower, {1}, {phi * off + y, phi * y + r(2) * off}, place));
+  EXPECT_FALSE(vanish_exactly(tower, {1}, {phi * off + y, phi - r(4)}, place));
+  EXPECT_FALSE(vanish_exactly(tower, {1}, {phi * off + y, phi * x}, place));
+  // At x = y = 0 it would be undefined.
+  tower.roots[0].square = off * off + y * y;
+  tower.roots[0].cosine_and_sine = {off, y};
+  EXPECT_FALSE(vanish_exactly(tower, {1}, {phi * off, y}, place));
+}
+
 }  // namespace
 }  // namespace clearloci::loci::sheet
