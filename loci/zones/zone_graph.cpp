@@ -18,6 +18,7 @@
 #include "loci/zones/margin_crossings.hpp"
 #include "loci/zones/near_passes.hpp"
 #include "loci/zones/segment_crossings.hpp"
+#include "loci/zones/workspace_area.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -46,6 +47,8 @@ constexpr double chords_apart = 2.5;
 // Of chords that cross where their curves do not: as many halvings leave a 65000th of the tolerance between chord and
 // curve.
 constexpr int most_halvings = 8;
+// How far beside a boundary the workspace is looked for, relative to the box.
+constexpr double farthest_aside = 1e-8, nearest_aside = 1e-10;
 // Curves that leave a star side by side are told apart this far from it.
 constexpr double around_a_star = 0.15;
 // The exact arrangement of two curves is quick up to this degree.
@@ -692,12 +695,22 @@ class Builder {
     }
     std::sort(bearings.begin(), bearings.end(),
               [](const auto& a, const auto& b) { return a.first.angle < b.first.angle; });
+    const std::size_t count = bearings.size();
+    std::vector<bool> is_told(count);  // before the next one
+    for (std::size_t i = 0; i < count; ++i) {
+      const Bearing &bearing = bearings[i].first, &next = bearings[(i + 1) % count].first;
+      const double turn = i + 1 < count ? 0 : 2 * std::numbers::pi;
+      is_told[i] = next.angle + turn - bearing.angle > bearing.doubt + next.doubt;
+    }
     std::vector<HalfEdge> order;
-    for (std::size_t i = 0; i < bearings.size(); ++i) {
-      const Bearing &bearing = bearings[i].first, &next = bearings[(i + 1) % bearings.size()].first;
-      const double turn = i + 1 < bearings.size() ? 0 : 2 * std::numbers::pi;
-      if (!(next.angle + turn - bearing.angle > bearing.doubt + next.doubt)) return {};
-      order.push_back(bearings[i].second);
+    for (const auto& [bearing, half] : bearings) order.push_back(half);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_told[i]) continue;
+      HalfEdge &first = order[i], &second = order[(i + 1) % count];
+      const bool is_pair = count > 2 && is_told[(i + 1) % count] && is_told[(i + count - 1) % count];
+      const int turn = is_pair ? turn_within_workspace(first, second) : 0;
+      if (turn == 0) return {};
+      if (turn < 0) std::swap(first, second);
     }
     // Start from the same half-edge on every circle.
     const auto first = std::min_element(order.begin(), order.end(), [](HalfEdge a, HalfEdge b) {
@@ -711,6 +724,50 @@ class Builder {
     double angle = 0;
     double doubt = 0;  ///< by which it may be wrong
   };
+
+  /// A locus that leaves a node beside a boundary, nearer than rounding, is on the side of the workspace. 1: the second
+  /// edge is on the left of the first one, -1: on its right. 0: they are no locus and boundary, or it is not told.
+  int turn_within_workspace(HalfEdge first, HalfEdge second) {
+    const auto is_boundary = [&](HalfEdge half) {
+      const std::vector<int>& owners = graph().edges[static_cast<std::size_t>(half.edge)].owners;
+      return std::all_of(owners.begin(), owners.end(), [&](int owner) {
+        return owner != box_owner && curve(owner).kind == LocusKind::workspace_boundary;
+      });
+    };
+    const auto is_locus = [&](HalfEdge half) {
+      const std::vector<int>& owners = graph().edges[static_cast<std::size_t>(half.edge)].owners;
+      return std::all_of(owners.begin(), owners.end(), [&](int owner) {
+        return owner != box_owner && curve(owner).kind != LocusKind::workspace_boundary;
+      });
+    };
+    if (is_boundary(first) && is_locus(second)) return side_of_workspace(first);
+    if (is_locus(first) && is_boundary(second)) return -side_of_workspace(second);
+    return 0;
+  }
+
+  /// 1: the workspace is on the left of a boundary, as it leaves its node; -1: on its right; 0: that is not told.
+  int side_of_workspace(HalfEdge half) {
+    const GraphEdge& edge = graph().edges[static_cast<std::size_t>(half.edge)];
+    const CurveProjection* const curve_projection = projection(edge.owners.front());
+    if (curve_projection == nullptr) return 0;
+    if (!workspace_) workspace_ = std::make_unique<ModeWorkspace>(problem_.tower, mode_);
+    const std::size_t i = (edge.points.size() - 1) / 2;
+    const Point2 &from = edge.points[i], &to = edge.points[i + 1];
+    const double length = distance(from, to);
+    if (!(length > 0)) return 0;
+    const double sense = half.reversed ? -1 : 1;
+    const Point2 left = {sense * (from[1] - to[1]) / length, sense * (to[0] - from[0]) / length};
+    const Point2 at = (*curve_projection)({(from[0] + to[0]) / 2, (from[1] + to[1]) / 2}).at;
+    // As near as it is told: farther away there may be other boundaries.
+    for (double off = nearest_aside * size_; off <= farthest_aside * size_; off *= 4) {
+      const auto is_held = [&](double side) {
+        return workspace_->holds({at[0] + side * off * left[0], at[1] + side * off * left[1]});
+      };
+      const std::optional<bool> on_left = is_held(1), on_right = is_held(-1);
+      if (on_left && on_right) return *on_left == *on_right ? 0 : *on_left ? 1 : -1;
+    }
+    return 0;
+  }
 
   /// The same of a curve that is followed from the node; none where it is not found.
   std::optional<Bearing> followed_bearing(int owner, const Point2& centre, const Point2& next, double radius) {
@@ -823,6 +880,7 @@ class Builder {
   };
   std::map<std::pair<const core::LocusFactor*, const core::LocusFactor*>, Apart> apart_;
   std::unique_ptr<MarginNodes> margin_nodes_;     // made where two curves may meet
+  std::unique_ptr<ModeWorkspace> workspace_;      // made where a curve leaves a node beside a boundary
   std::unique_ptr<sheet::SheetProgram> factors_;  // made where a curve touches a side
   ZoneGraph result_;
 };

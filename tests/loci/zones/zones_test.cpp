@@ -182,6 +182,33 @@ TEST(ZonesBetween, CurvesNearerThanSuchChordsAreLeftToFinerOnes) {
   for (const core::Zone& zone : finer.map.zones) EXPECT_TRUE(zone.certified);
 }
 
+// s^2 = 1 - D. The locus s = x^3 + x / 10^6 leaves the boundary at (0, 1) and (0, -1) along it: 0.01 away, where a line
+// crosses both, it is 5e-13 beside. That it is inside tells the order around those nodes, no number does.
+TEST(ZonesBetween, ALocusThatLeavesTheBoundaryAlongIt) {
+  const Polynomial s = core::variable_polynomial(3, 2);
+  const auto lifted = [](const Polynomial& p) { return core::with_variables(p, 3); };
+  const Polynomial rise = x * x * x + number(Rational(1, 1'000'000)) * x, inside = number(1) - x * x - y * y;
+  const Polynomial line = number(100) * x - number(1);
+  LocusProblem problem = problem_of({rise * rise - inside, line});
+  problem.tolerance = 1e-5;
+  problem.lower = {Rational(-5, 4), Rational(-6, 5)};
+  problem.upper = {Rational(9, 8), Rational(8, 7)};
+  problem.tower.roots.push_back({"s1", "B1", core::RootRole::working_mode, lifted(inside)});
+  problem.modes = {{1}};
+  problem.factors[0].sheet = core::primitive_part(s - lifted(rise));
+  problem.factors[1].sheet = lifted(problem.factors[1].sheet);
+  LocusFactor boundary;
+  boundary.role = core::FactorRole::workspace_boundary;
+  boundary.sheet = core::primitive_part(lifted(inside));
+  boundary.implicit = {core::primitive_part(inside)};
+  problem.factors.push_back(boundary);
+  const core::Zones map = zones(problem, trace(problem)).map;
+  EXPECT_GE(map.zones.size(), 3U);
+  for (const core::Zone& zone : map.zones) EXPECT_TRUE(zone.certified) << zone.id;
+  EXPECT_NEAR(whole_area(map), std::numbers::pi, 1e-4);
+  EXPECT_LT(map.modes.front().in_doubt, 1e-4);
+}
+
 TEST(AreaBounds, HoldTheAreaAtEveryTolerance) {
   // y^2 = x^3 - x has an oval, whose area is 2 times the integral of sqrt(x^3 - x) from -1 to 0: B(3/4, 3/2).
   LocusProblem problem = problem_of({y * y - x * x * x + x});
