@@ -303,8 +303,9 @@ class StaticsVerifier {
     return std::nullopt;
   }
 
-  /// The pose under the loads in balls that bring a demand nearest to zero, of which its components are affine functions;
-  /// with the same pose under the loads in the middle. `last`: of loads that go from one to another the last one.
+  /// The pose under the loads in balls that bring a demand nearest to zero, of which its components are affine
+  /// functions; with the same pose under the loads in the middle. `last`: of loads that go from one to another the last
+  /// one.
   std::optional<PoseSuspect> under_worst_load(const PoseSuspect& suspect, bool last) {
     const auto& balls = widened_.beside().balls;
     const std::size_t poses = mechanism_.coordinates.size();

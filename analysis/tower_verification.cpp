@@ -36,6 +36,19 @@ constexpr int cells_of_a_margin = 40'000;
 
 int sign(const numeric::Bounded& value) { return value.value > value.error ? 1 : value.value < -value.error ? -1 : 0; }
 
+/// The limits among the causes of a boundary, which are separated by "; ".
+std::string limits_in(const std::string& causes) {
+  std::string limits;
+  for (std::size_t from = 0; from < causes.size();) {
+    const std::size_t end = std::min(causes.find("; ", from), causes.size());
+    const std::string cause = causes.substr(from, end - from);
+    if (cause.starts_with(mechanism::limit_cause))
+      limits += (limits.empty() ? "" : "; ") + cause.substr(mechanism::limit_cause.size());
+    from = end + 2;
+  }
+  return limits;
+}
+
 /// One load: the mechanism under it.
 struct LoadCase {
   explicit LoadCase(mechanism::Mechanism loaded) : mechanism(std::move(loaded)), model(numeric::compile(mechanism)) {}
@@ -264,8 +277,7 @@ class TowerVerifier {
       nearest.curve = curve.id;
       nearest.kind = curve.kind;
       nearest.vanishing = curve.vanishing;
-      if (curve.cause.rfind(mechanism::limit_cause, 0) == 0)
-        nearest.limit = curve.cause.substr(mechanism::limit_cause.size());
+      if (curve.kind == core::LocusKind::workspace_boundary) nearest.limit = limits_in(curve.cause);
     } else {
       const core::IsolatedPoint& point = map.isolated_points[static_cast<std::size_t>(found->point)];
       nearest.isolated = true;

@@ -99,8 +99,8 @@ class ArcCheck {
   bool holds_zero(const Point2& at, double reach) {
     return curve_.sheet.enter(around(at[0], reach), around(at[1], reach)) && !curve_.sheet.is_free(0);
   }
-  /// So do the squares of the roots that are zero along the curve: a function of which one of these is a factor vanishes
-  /// everywhere there.
+  /// The enclosures of the function and of the squares of all roots that are zero along the curve hold 0: of a function
+  /// that is a multiple of such a root the first holds it everywhere.
   bool may_be_on(const Point2& at, double reach) {
     return holds_zero(at, reach) && std::all_of(zero_squares_.begin(), zero_squares_.end(), [&](Sheet& square) {
              return square.enter(around(at[0], reach), around(at[1], reach)) && !square.is_free(0);
@@ -555,7 +555,7 @@ class ArcCheck {
   std::vector<core::StraightLine> roots_;  // programs that are one root each
   std::vector<const core::StraightLine*> singular_;
   std::vector<Sheet> zero_squares_;  // of the roots that are zero along the curve, a function each
-  bool uncertain_ = false;  // some arc of it is not claimed to be certain
+  bool uncertain_ = false;           // some arc of it is not claimed to be certain
 };
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <new>
+#include <string>
 #include <string_view>
 
 #include "cli/program.hpp"
@@ -19,8 +21,9 @@
 extern "C" [[gnu::weak]] void mi_register_error(void (*handler)(int error, void* argument), void* argument);
 /// What it would say on standard error besides.
 extern "C" [[gnu::weak]] void mi_register_output(void (*write)(const char* text, void* argument), void* argument);
-/// Switches an option on, one of mimalloc.h, for memory that is asked of the system from then on.
-extern "C" [[gnu::weak]] void mi_option_enable(int option);
+/// Switches an option on or off, one of mimalloc.h, unless the environment says which; for memory that is asked of the
+/// system from then on.
+extern "C" [[gnu::weak]] void mi_option_set_enabled_default(int option, bool enable);
 
 namespace clearloci::cli {
 namespace {
@@ -56,6 +59,15 @@ void call_where_memory_ends() {
   ::mp_set_memory_functions(gmp_allocate<end>, gmp_reallocate<end>, gmp_free);
 }
 
+/// Pages that are set apart belong to others; where a process may take none of them, touching one is a bus error.
+bool has_pages_set_apart() {
+  for (const char* const name : {"nr_hugepages", "nr_overcommit_hugepages"}) {
+    std::ifstream file(std::string("/sys/kernel/mm/hugepages/hugepages-2048kB/") + name);
+    if (long count = 0; file >> count && count > 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void end_where_memory_ends() {
@@ -65,8 +77,8 @@ void end_where_memory_ends() {
 
 void take_large_pages() {
   constexpr int large_pages = 6;  // mi_option_large_os_pages, mi_option_allow_large_os_pages of later versions
-  if (mi_option_enable == nullptr) return;
-  ::mi_option_enable(large_pages);
+  if (mi_option_set_enabled_default == nullptr || has_pages_set_apart()) return;
+  ::mi_option_set_enabled_default(large_pages, true);
   // What it has of the system already, and has not touched yet: the segment of a new block, which begins at a multiple
   // of its size. A hint, which changes nothing where it is wrong.
   constexpr std::size_t segment = std::size_t{32} << 20;

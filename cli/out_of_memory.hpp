@@ -10,8 +10,9 @@ void end_where_memory_ends();
 /// For one that answers again and again: GMP throws std::bad_alloc as the rest does, instead of ending the process.
 void throw_where_memory_ends();
 
-/// For a command that gives one answer: the allocator asks the system for memory in large pages, where it has them. Long
-/// polynomials touch many pages for the first time, each of which costs a fault. Such memory is kept until the end.
+/// For a command that gives one answer: the allocator asks the system for memory in large pages, where it has them.
+/// Long polynomials touch many pages for the first time, each of which costs a fault. Such memory is kept until the
+/// end. Pages that the machine sets apart for others are left alone.
 void take_large_pages();
 
 /// Says so, removes temporary files and ends the process. Allocates nothing.

@@ -145,7 +145,10 @@ void FactorEmission::join_boundaries(std::size_t first) {
                                     [&](const LocusFactor& other) { return other.sheet == factors[f].sheet; });
     if (known == different.end())
       different.push_back(std::move(factors[f]));
-    else if (("; " + known->cause + "; ").find("; " + factors[f].cause + "; ") == std::string::npos)
+    else if (known->cause.empty())
+      known->cause = factors[f].cause;
+    else if (!factors[f].cause.empty() &&
+             ("; " + known->cause + "; ").find("; " + factors[f].cause + "; ") == std::string::npos)
       known->cause += "; " + factors[f].cause;
   }
   factors.erase(factors.begin() + static_cast<std::ptrdiff_t>(first), factors.end());

@@ -23,10 +23,11 @@ struct CramerDeterminants {
   std::vector<DeterminantForm> forms;    ///< of the factors that are computed sooner so than term by term
 };
 
-/// Constant pivots are eliminated first, which raises no degree; then short polynomial ones, each row divided by its
-/// content so that degrees stay small (the legs of a platform fold up one by one). |A| is the product of the pivots
-/// over what the rows were multiplied by, and the w_k are found backwards in lowest terms: nothing is ever multiplied
-/// out that is a product. One elimination serves every column.
+/// Constant pivots of rows without loads are eliminated first, which raises no degree; then short polynomial ones, each
+/// row divided by its content so that degrees stay small (the legs of a platform fold up one by one), and rows with
+/// loads. What is left is solved by the blocks of its triangular form. |A| is the product of the pivots over what the
+/// rows were multiplied by, and the w_k are found backwards in lowest terms: nothing is ever multiplied out that is a
+/// product. One elimination serves every column.
 CramerDeterminants cramer_determinants(const Ring& ring, const std::vector<std::vector<Poly>>& matrix,
                                        const std::vector<Poly>& right_hand_side);
 

@@ -309,6 +309,7 @@ std::vector<SheetFactor> Elimination::natural_factors(const Poly& natural, bool 
   for (std::size_t i = 0; i < closings; ++i)
     if (const int degree = Geometry::degree_in(rest, substitutions_[i]); degree > 0)
       rest = geometry_->substituted(rest, substitutions_[i], degree);
+  core::ensure(!rest.is_zero(), "what is factored over the tower is not zero there");
   std::vector<PolyFactor> elements;
   for (std::size_t i = 0; i < geometry_->folds().size() && closings > 0; ++i) {
     if (!fold_element(i)) continue;

@@ -2,7 +2,7 @@
 // the layer's name; the layer `ground` is the ground. A circle is a pin of all links that end or pass where its centre
 // is; on the layer `motor` it marks the motor there. The unit is that of $INSUNITS. Circles and polylines have a plane
 // of their own: if its normal is -z, as where a drawing was mirrored, their x is -x of the drawing (DXF Reference,
-// Object Coordinate Systems).
+// Object Coordinate Systems); vertices of meshes and of polylines in space are those of the drawing.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -166,9 +166,12 @@ class Reader {
     }
     const auto at = [&](int code) { return values.contains(code) ? values.at(code) : 0; };
     constexpr double turned = 1e-6;  // of a normal
-    const bool inclined = std::max(std::abs(at(210)), std::abs(at(220))) > turned * std::abs(at(230));
-    const double mirrored = values.contains(230) && at(230) < 0 && type != "LINE" ? -1 : 1;
-    const bool closed = (static_cast<int>(std::clamp(at(70), 0.0, 1e6)) & 1) != 0;
+    const int flags = static_cast<int>(std::clamp(at(70), 0.0, 1e6));
+    constexpr int in_space = 8 | 16 | 64;  // of a POLYLINE
+    const bool of_plane = type != "LINE" && !(type == "POLYLINE" && (flags & in_space) != 0);
+    const bool inclined = of_plane && std::max(std::abs(at(210)), std::abs(at(220))) > turned * std::abs(at(230));
+    const double mirrored = of_plane && values.contains(230) && at(230) < 0 ? -1 : 1;
+    const bool closed = (flags & 1) != 0;
     if (type == "LINE") {
       vertices = {{scale_ * at(10), scale_ * at(20), 0}, {scale_ * at(11), scale_ * at(21), 0}};
     } else if (type == "POLYLINE") {
@@ -188,7 +191,7 @@ class Reader {
       ++others_[type];
       return end;
     }
-    if (inclined && type != "LINE") {
+    if (inclined) {
       ++others_[type + " in an inclined plane"];
       return end;
     }

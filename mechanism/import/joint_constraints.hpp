@@ -45,8 +45,8 @@ class Constraints {
   std::vector<Vec> centres_;
 };
 
-/// How far `to` of a pin, guide or cylindrical joint is from where its frame meets that of `from`: rad, or the source's
-/// length. 0 of others.
+/// The angle of `to` from `from` about the axis of a pin, rad, or its travel along that of a guide or cylindrical
+/// joint, in the source's length; 0 where their frames are one, and of other joints.
 double amount_of(const SourceJoint& joint);
 
 /// The same by which a joint went from one posture to another, less than half a turn.

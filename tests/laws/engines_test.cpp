@@ -241,7 +241,9 @@ TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
   for (const core::LocusCurve& curve : map.curves) {
     EXPECT_TRUE(curve.certified) << curve.id;
     const auto* line = std::get_if<core::LineForm>(&curve.closed_form);
-    if (line != nullptr && curve.arcs.front().points.front()[0] == -0.5) ++on_the_line;
+    if (line == nullptr || curve.arcs.front().points.front()[0] != -0.5) continue;
+    ++on_the_line;
+    EXPECT_EQ(curve.cause.find("; ") != std::string::npos, curve.kind == core::LocusKind::workspace_boundary);
   }
   EXPECT_EQ(on_the_line, 2);  // the boundary, once, and |A| = 0
   expect_agreement(rails, all_modes(loci::Engine::adaptive_then_exact), test::EndsOnSides::by_place);

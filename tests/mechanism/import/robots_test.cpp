@@ -388,6 +388,14 @@ TEST(Mjcf, KeepsARatioWhereALoopIsClosed) {
   EXPECT_NEAR(jb, 0.2 - ja / 2, 1e-7);
 }
 
+/// Where closing the loop takes the leader beyond half a turn, too, which half a turn of the follower stands for.
+TEST(Mjcf, KeepsARatioBesideHalfATurn) {
+  const auto at = places(imported("mjcf/ratio_beside_half_a_turn.xml"));
+  const double ja = std::atan2(-0.019987955, -0.130001853) - angle_of(at.at("ja"), at.at("jc"));
+  const double jb = std::atan2(-0.008337959, 0.109847524) - angle_of(at.at("jb"), at.at("jd"));
+  EXPECT_NEAR(std::remainder(jb - (0.2 - ja / 2), std::acos(-1.0)), 0, 1e-7);
+}
+
 /// As the source counts them: link a stands upright where its joint is at 0.
 TEST(Mjcf, CountsRangesFromTheZeroOfTheSource) {
   const Imported file = imported("mjcf/range_in_an_open_loop.xml");
