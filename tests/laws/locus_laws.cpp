@@ -283,7 +283,12 @@ class LocusLaws {
         if (curve.kind == LocusKind::margin) {
           // A linear drive bears a force.
           const auto& least = what.quantity == core::Quantity::M ? s_.request.min_couple : s_.request.min_force;
-          if (least && !(std::abs(wb - core::to_double(*least)) <= 1e-4 * core::to_double(*least) + std::abs(wb - wa)))
+          const auto is_between = [&](double nearer, double farther) {
+            const double bound = core::to_double(*least);
+            return std::abs(nearer - bound) <= 1e-4 * bound + std::abs(nearer - farther);
+          };
+          // Beside a boundary a force may change all that it does within the nearer place.
+          if (least && !is_between(wb, wa) && !(c && is_between(std::abs(s_.witness.value_of(*c, what)), wb)))
             fault << what.joint << "." << core::to_string(what.quantity) << " is " << wb << " on a margin";
         } else if (!(wb <= 0.2 * wa + 1e-6 * scale) && !(c && std::abs(s_.witness.value_of(*c, what)) <= 0.2 * wb)) {
           // The last is what rounding may leave of a zero among reactions of that size.

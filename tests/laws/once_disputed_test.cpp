@@ -119,7 +119,7 @@ TEST(OnceDisputed, ArcsThatLeadToANodeOnTheRim) {
   const core::Zones map = find_zones(corpus("witness/prrr_r_node_on_the_rim"), {request});
   EXPECT_FALSE(map.zones.empty());
   for (const core::Zone& zone : map.zones) EXPECT_FALSE(zone.certified) << zone.id;
-  EXPECT_GE(map.modes.front().in_doubt, map.modes.front().workspace);
+  EXPECT_GE(map.modes.front().in_doubt, map.modes.front().workspace * (1 - 1e-9));  // areas are sums
   EXPECT_FALSE(map.loci.complete);
 }
 

@@ -12,8 +12,9 @@ namespace {
 
 bool is_actuators(Quantity q) { return q == Quantity::M || q == Quantity::F; }
 
-/// Columns of reactions that are zero whatever the pose and the load: not asked for.
-std::vector<bool> never_loaded(const std::vector<Oracle::Solved>& samples) {
+/// Columns of reactions that are not asked for: those that are zero whatever the pose and the load, and those of joints
+/// without a clearance where others have one.
+std::vector<bool> not_asked_for(const Oracle& oracle, const std::vector<Oracle::Solved>& samples) {
   std::vector<bool> zero;
   if (samples.empty()) return zero;
   double largest = 0;
@@ -24,6 +25,12 @@ std::vector<bool> never_loaded(const std::vector<Oracle::Solved>& samples) {
       return std::all_of(s.ends.begin(), s.ends.end(),
                          [&](const auto& end) { return std::abs(end(k)) <= 1e-9 * largest; });
     }));
+  const std::vector<mechanism::Joint>& joints = oracle.model().mechanism.joints;
+  const bool any =
+      std::any_of(joints.begin(), joints.end(), [](const auto& joint) { return joint.clearance.has_value(); });
+  const auto& unknowns = oracle.model().unknowns;
+  for (std::size_t k = 0; k < zero.size(); ++k)
+    zero[k] = zero[k] || (any && !joints[static_cast<std::size_t>(unknowns[k].joint)].clearance.has_value());
   return zero;
 }
 
@@ -62,7 +69,7 @@ void hold_verified(std::mt19937& random, const Oracle& oracle, const core::Task&
     if (!solve) return say(false, fmt::format("out of reach at {:.17g}, {:.17g}", at[0], at[1]));
     solved.push_back(*solve);
   }
-  const std::vector<bool> zero = never_loaded(solved);
+  const std::vector<bool> zero = not_asked_for(oracle, solved);
   const double force = task.min_force ? core::to_double(*task.min_force) : 0;
   const double couple = task.min_couple ? core::to_double(*task.min_couple) : 0;
   const auto& unknowns = oracle.model().unknowns;
