@@ -301,24 +301,31 @@ const std::optional<Poly>& Elimination::fold_element(std::size_t fold) const {
   return *elements_[fold];
 }
 
+Poly Elimination::with_closings(Poly natural) const {
+  for (std::size_t i = 0; i < geometry_->closings().size(); ++i)
+    if (const int degree = Geometry::degree_in(natural, substitutions_[i]); degree > 0)
+      natural = geometry_->substituted(natural, substitutions_[i], degree);
+  return natural;
+}
+
+const Poly& Elimination::fold_divisor(std::size_t fold) const {
+  divisors_.resize(geometry_->folds().size());
+  if (!divisors_[fold]) divisors_[fold] = with_closings(*fold_element(fold));
+  return *divisors_[fold];
+}
+
 std::vector<SheetFactor> Elimination::natural_factors(const Poly& natural, bool with_implicit,
                                                       std::vector<Poly>* without_curves) const {
   // With the closing points written by others, which is the first that is put in, elements divide as polynomials.
-  Poly rest = natural;
+  Poly rest = with_closings(natural);
   const std::size_t closings = geometry_->closings().size();
-  for (std::size_t i = 0; i < closings; ++i)
-    if (const int degree = Geometry::degree_in(rest, substitutions_[i]); degree > 0)
-      rest = geometry_->substituted(rest, substitutions_[i], degree);
   core::ensure(!rest.is_zero(), "what is factored over the tower is not zero there");
   std::vector<PolyFactor> elements;
   for (std::size_t i = 0; i < geometry_->folds().size() && closings > 0; ++i) {
     if (!fold_element(i)) continue;
-    Poly element = *fold_element(i), quotient(natural.ring());
-    for (std::size_t k = 0; k < closings; ++k)
-      if (const int degree = Geometry::degree_in(element, substitutions_[k]); degree > 0)
-        element = geometry_->substituted(element, substitutions_[k], degree);
+    Poly quotient(natural.ring());
     int times = 0;
-    for (; rest.divides(element, quotient); ++times) std::swap(rest, quotient);
+    for (; rest.divides(fold_divisor(i), quotient); ++times) std::swap(rest, quotient);
     if (times == 0) continue;
     Rational constant;
     for (const PolyFactor& part : geometry_->folds()[i].where.factors(constant))

@@ -99,6 +99,10 @@ class Elimination {
   std::vector<SheetFactor> described(const std::vector<PolyFactor>& factors, bool with_implicit,
                                      std::vector<Poly>* without_curves) const;
   std::optional<Poly> found_element(const Fold& fold) const;
+  /// With the closing points written by others. Denominators stay.
+  Poly with_closings(Poly natural) const;
+  /// The element of a fold that has one, so written.
+  const Poly& fold_divisor(std::size_t fold) const;
   /// From one of the substitutions on.
   Poly put_in(Poly natural, std::size_t first) const;
   std::vector<PolyFactor> found_factors(Poly sheet) const;
@@ -131,6 +135,7 @@ class Elimination {
   mutable std::list<std::pair<Poly, bool>> vanishing_;   ///< likewise
   mutable std::list<std::pair<Poly, ResiduePoly>> over_tower_on_line_;
   mutable std::vector<std::optional<std::optional<Poly>>> elements_;  ///< by fold, once they are asked for
+  mutable std::vector<std::optional<Poly>> divisors_;                 ///< likewise
   std::vector<Stretched> stretched_;
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower
