@@ -181,10 +181,16 @@ class ExactTrace {
     return false;
   }
 
-  /// What ends arcs in points that no edge tells.
+  static void mark_ends(const ArrangementEdge& edge, std::vector<bool>& list) {
+    list[static_cast<std::size_t>(edge.from)] = list[static_cast<std::size_t>(edge.to)] = true;
+  }
+
+  /// What ends the arcs of all curves: the sides of the box, and points that no label tells.
   VertexMarks mark_points(const WorkingMode& mode) const {
     const std::size_t count = arrangement_.vertices();
     VertexMarks marks{std::vector<bool>(count), std::vector<bool>(count), std::vector<bool>(count)};
+    for (const ArrangementEdge& edge : arrangement_.edges())
+      if (is_box_side(edge.curve)) mark_ends(edge, marks.box);
     // What touches the box from outside meets the arcs of others in a point.
     for (const auto& [vertex, curve] : passed_)
       if (is_singular(vertex, curve, mode)) marks.direct_singularity[static_cast<std::size_t>(vertex)] = true;
@@ -214,19 +220,15 @@ class ExactTrace {
     std::vector<int> edges;  ///< ascending
   };
 
-  /// With what edges tell. A curve does not end on the boundary that it is itself, nor where |A| vanishes because it
+  /// With what labels tell. A curve does not end on the boundary that it is itself, nor where |A| vanishes because it
   /// does so all along the curve.
   VertexMarks marks_along(const Group& group, VertexMarks marks, const std::vector<EdgeInMode>& edges) const {
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const ArrangementEdge& edge = arrangement_.edges()[e];
-      const auto mark = [&edge](std::vector<bool>& list) {
-        list[static_cast<std::size_t>(edge.from)] = list[static_cast<std::size_t>(edge.to)] = true;
-      };
-      if (is_box_side(edge.curve)) mark(marks.box);
       const bool is_own = std::binary_search(group.edges.begin(), group.edges.end(), static_cast<int>(e));
       for (const EdgeLabel& label : edges[e].labels) {
-        if (label.kind == LocusKind::workspace_boundary && edge.curve != group.curve) mark(marks.boundary);
-        if (label.kind == LocusKind::direct_singularity && !is_own) mark(marks.direct_singularity);
+        if (label.kind == LocusKind::workspace_boundary && edge.curve != group.curve) mark_ends(edge, marks.boundary);
+        if (label.kind == LocusKind::direct_singularity && !is_own) mark_ends(edge, marks.direct_singularity);
       }
     }
     return marks;
