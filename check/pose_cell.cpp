@@ -68,6 +68,15 @@ class Sum {
   double size_ = 0, terms_ = 0;
 };
 
+/// No longer than 1; zeros where its length is zero or unknown.
+std::vector<double> unit(std::vector<double> way) {
+  double square = 0;
+  for (const double component : way) square += component * component;
+  const double length = std::sqrt(square) * (1 + 8 * ulp);
+  for (double& component : way) component = length > 0 && std::isfinite(length) ? component / length : 0.0;
+  return way;
+}
+
 class Solved {
  public:
   Solved(const PoseEquations& equations, const Jet::Offsets& offsets, const std::vector<LoadBall>& balls)
@@ -78,17 +87,38 @@ class Solved {
     for (const PoseEntry& entry : equations.matrix) entries_.push_back(form_of(entry.value, half_));
   }
 
-  PoseCellProof run(const std::vector<core::TaskDemand>& demands) {
-    proof_.demands.assign(demands.size(), false);
-    if (!solve_middle()) return proof_;
+  /// Whether A is regular all over the cell.
+  bool solve() {
+    if (!solve_middle()) return false;
     enclose();
-    if (!proof_.regular) return proof_;
-    for (std::size_t d = 0; d < demands.size(); ++d)
-      proof_.demands[d] = keeps(equations_.demands[d], std::nextafter(demands[d].least.get_d(), infinite));
+    return proof_.regular;
+  }
+
+  /// The unit vector of its reaction at the middle; zeros where it vanishes there.
+  std::vector<double> way_of(std::size_t demand) {
+    while (demands_.size() <= demand) demands_.push_back(components_of(equations_.demands[demands_.size()]));
+    std::vector<double> way;
+    for (const PoseForm& form : demands_[demand]) way.push_back(form.c);
+    return unit(std::move(way));
+  }
+
+  /// That a reaction is above its least along a way no longer than 1.
+  void look_along(std::size_t demand, const std::vector<double>& way, double least) {
+    Sum along(half_.size());
+    double square = 0;
+    for (std::size_t k = 0; k < way.size(); ++k) {
+      along.add(way[k], demands_[demand][k]);
+      square += demands_[demand][k].c * demands_[demand][k].c;
+    }
+    proof_.demands.push_back(square > 0 && is_above(along.done(), 1 / std::sqrt(square), least));
+  }
+
+  void look_at_bounds() {
     proof_.positive = true;
     for (const auto& positive_step : equations_.positive) look_at(positive_step);
-    return proof_;
   }
+
+  PoseCellProof& proof() { return proof_; }
 
  private:
   bool solve_middle() {
@@ -185,24 +215,17 @@ class Solved {
     return sums;
   }
 
-  bool keeps(const std::vector<PoseEntry>& entries, double least) {
-    // Along its direction at the middle.
+  std::vector<PoseForm> components_of(const std::vector<PoseEntry>& entries) {
     std::vector<PoseForm> components;
-    double square = 0;
     proof_.components.emplace_back();
     for (Sum& sum : sums_of(entries)) {
       components.push_back(sum.done());
       const PoseForm& form = components.back();
-      square += form.c * form.c;
       const double off = (spread(form) + form.r) * (1 + 0x1p-40);
       proof_.components.back().push_back(
           {std::nextafter(form.c - off, -infinite), std::nextafter(form.c + off, infinite)});
     }
-    const double length = std::sqrt(square) * (1 + 8 * ulp);
-    if (!(length > 0) || !std::isfinite(length)) return false;
-    Sum along(half_.size());
-    for (const PoseForm& form : components) along.add(form.c / length, form);
-    return is_above(along.done(), 1 / length, least);
+    return components;
   }
 
   void look_at(const PoseEquations::Positive& positive) {
@@ -245,6 +268,7 @@ class Solved {
   std::size_t n_;
   std::vector<double> half_, w0_, scale_, radius_, rest_;
   std::vector<PoseForm> entries_, right_, rho_;
+  std::vector<std::vector<PoseForm>> demands_;  ///< the components of each
   Dense inverse_;
   PoseCellProof proof_;
 };
@@ -255,9 +279,30 @@ bool PoseCellProof::holds() const {
   return regular && positive && std::all_of(demands.begin(), demands.end(), [](bool demand) { return demand; });
 }
 
-PoseCellProof prove_cell(const PoseEquations& equations, const std::vector<core::TaskDemand>& demands,
+PoseCellProof prove_cell(const std::vector<PoseEquations>& choices, const std::vector<core::TaskDemand>& demands,
                          const Jet::Offsets& offsets, const std::vector<LoadBall>& balls) {
-  return Solved(equations, offsets, balls).run(demands);
+  std::vector<Solved> all;
+  for (const PoseEquations& equations : choices)
+    if (!all.emplace_back(equations, offsets, balls).solve()) return std::move(all.back().proof());
+  for (std::size_t d = 0; d < demands.size(); ++d) {
+    std::vector<double> way = all.front().way_of(d);
+    for (auto other = all.begin() + 1; other != all.end(); ++other) {
+      const std::vector<double> more = other->way_of(d);
+      for (std::size_t k = 0; k < way.size(); ++k) way[k] += more[k];
+    }
+    way = unit(std::move(way));
+    for (Solved& one : all) one.look_along(d, way, std::nextafter(demands[d].least.get_d(), infinite));
+  }
+  for (Solved& one : all) one.look_at_bounds();
+  PoseCellProof proof = std::move(all.front().proof());
+  for (auto other = all.begin() + 1; other != all.end(); ++other) {
+    const PoseCellProof& more = other->proof();
+    for (std::size_t d = 0; d < demands.size(); ++d) proof.demands[d] = proof.demands[d] && more.demands[d];
+    proof.positive = proof.positive && more.positive;
+    proof.broken = proof.broken || more.broken;
+    for (std::size_t c = 0; c < proof.spreads.size(); ++c) proof.spreads[c] += more.spreads[c];
+  }
+  return proof;
 }
 
 }  // namespace clearloci::check

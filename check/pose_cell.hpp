@@ -27,8 +27,10 @@ struct PoseCellProof {
   bool holds() const;
 };
 
+/// Of several choices of efforts, each with its equations: of all that is between these, too, since a reaction that is
+/// above its least along one way under each of them is so under all convex combinations. Components are of the first.
 /// `offsets`: X_c - m_c of the cell. `balls`: by their first coordinates.
-PoseCellProof prove_cell(const PoseEquations& equations, const std::vector<core::TaskDemand>& demands,
+PoseCellProof prove_cell(const std::vector<PoseEquations>& choices, const std::vector<core::TaskDemand>& demands,
                          const Jet::Offsets& offsets, const std::vector<LoadBall>& balls = {});
 
 }  // namespace clearloci::check

@@ -48,7 +48,7 @@ class PoseTaskCheck {
  public:
   using Efforts = PoseTaskClaim::Law::Efforts;
 
-  /// `part`: of a law, poses at which the efforts are any convex combination of some.
+  /// `part`: of a law, poses at which the efforts are some of these, or any between them.
   PoseTaskCheck(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline, GroupPlaces& shown,
                 const Cell* part = nullptr, const std::vector<Efforts>& efforts = {})
       : m_(m),
@@ -65,9 +65,9 @@ class PoseTaskCheck {
     if (!claim.loads_from.empty()) turn_load();
     for (const PoseTaskClaim::LoadWithin& load_range : claim.loads_within) widen_load(load_range);
     fold_constants(m_, Varying(m_, names_));
-    if (part == nullptr) return;
-    std::copy(part->begin(), part->end(), whole_.begin());
-    give_efforts(efforts);
+    if (part != nullptr) std::copy(part->begin(), part->end(), whole_.begin());
+    for (const Efforts& one : efforts) choices_.push_back(with_efforts(one));
+    if (efforts.empty()) choices_.push_back(m_);
   }
 
   std::size_t run(Holding holding = Holding::clear) {
@@ -135,8 +135,8 @@ class PoseTaskCheck {
     posture = posture_over(m_, claim_.sides, variables, places_of(groups));
     if (posture.stopped_by)
       throw FalseClaim("within reach: it is not shown of the pose " + described(whole_, claim_.coordinates));
-    const PoseEquations equations = equations_over(m_, posture, variables, claim_.demands);
-    determinant = determinant_sign(equations);
+    const std::vector<PoseEquations> equations = {equations_over(m_, posture, variables, claim_.demands)};
+    determinant = determinant_sign(equations.front());
     // What the posture is made of points to the offsets.
     for (auto& place : posture.points)
       for (Jet& jet : place) jet = Jet(jet.value());
@@ -172,8 +172,7 @@ class PoseTaskCheck {
  private:
   std::size_t covered_within(const Cell& whole, const GroupSheet::Part* part) {
     return covered(
-        whole, names_,
-        [&](const Cell& cell) { return region_->is_apart(cell) || is_beyond_balls(cell) || is_beyond_shares(cell); },
+        whole, names_, [&](const Cell& cell) { return region_->is_apart(cell) || is_beyond_balls(cell); },
         [&](const Cell& cell, std::vector<double>& spreads) { return holds(cell, part, spreads); }, deadline_);
   }
 
@@ -264,26 +263,19 @@ class PoseTaskCheck {
     load.couple = couple.front();
   }
 
-  /// The first of them, and shares of what the others differ by from it.
-  void give_efforts(const std::vector<Efforts>& efforts) {
-    choose_cables(m_, efforts.front().joints);
-    first_share_ = names_.size();
-    for (std::size_t k = 1; k < efforts.size(); ++k) add_variable(fmt::format("share {} of efforts", k), 0, 1);
-    for (std::size_t j = 0; j < efforts.front().joints.size(); ++j) {
-      const std::string& name = efforts.front().joints[j];
-      const auto joint = std::find_if(m_.joints.begin(), m_.joints.end(),
+  Mechanism with_efforts(const Efforts& efforts) const {
+    Mechanism given = m_;
+    choose_cables(given, efforts.joints);
+    for (std::size_t j = 0; j < efforts.joints.size(); ++j) {
+      const std::string& name = efforts.joints[j];
+      const auto joint = std::find_if(given.joints.begin(), given.joints.end(),
                                       [&](const auto& candidate) { return candidate.name == name; });
-      if (joint == m_.joints.end() || !joint->free_effort || joint->free_effort->given)
+      if (joint == given.joints.end() || !joint->free_effort || joint->free_effort->given)
         throw FalseClaim("law: '" + name.substr(0, 40) + "' has no free effort");
-      const Expression first = effort_of(efforts.front(), j);
-      Expression effort = first;
-      for (std::size_t k = 1; k < efforts.size(); ++k) {
-        const Expression more = sum(effort_of(efforts[k], j), product(Expression::number(-1), first));
-        effort = sum(effort, product(Expression::symbol(names_[first_share_ + k - 1]), more));
-      }
-      joint->effort = effort;
+      joint->effort = effort_of(efforts, j);
       require_bounds(*joint, efforts, j);
     }
+    return given;
   }
 
   /// As it depends on what is known of the load.
@@ -304,19 +296,11 @@ class PoseTaskCheck {
     return effort;
   }
 
-  static void require_bounds(const mechanism::Joint& joint, const std::vector<Efforts>& efforts, std::size_t j) {
+  static void require_bounds(const mechanism::Joint& joint, const Efforts& efforts, std::size_t j) {
     if (!joint.free_effort->within) return;
-    for (const Efforts& effort : efforts)
-      for (const auto& values : effort.at_loads)
-        if (values[j] < joint.free_effort->within->first || values[j] > joint.free_effort->within->second)
-          throw FalseClaim("law: the effort of " + joint.name + " is beyond its bounds");
-  }
-
-  /// The shares of a convex combination are 1 together.
-  bool is_beyond_shares(const Cell& cell) const {
-    double sum = 0;
-    for (std::size_t k = first_share_; k < cell.size(); ++k) sum += cell[k][0];
-    return sum > 1 + 1e-12;
+    for (const auto& values : efforts.at_loads)
+      if (values[j] < joint.free_effort->within->first || values[j] > joint.free_effort->within->second)
+        throw FalseClaim("law: the effort of " + joint.name + " is beyond its bounds");
   }
 
   void add_ball(std::vector<Expression>& parts, const Rational& radius) {
@@ -364,8 +348,10 @@ class PoseTaskCheck {
     }
     if (holding_ == Holding::closure) return true;
     const std::vector<LoadBall> balls = balls_in(cell);
-    PoseCellProof proof =
-        prove_cell(equations_over(m_, posture, variables, claim_.demands), claim_.demands, offsets, balls);
+    std::vector<PoseEquations> equations;
+    for (const Mechanism& choice : choices_)
+      equations.push_back(equations_over(choice, posture, variables, claim_.demands));
+    PoseCellProof proof = prove_cell(equations, claim_.demands, offsets, balls);
     spreads = std::move(proof.spreads);
     // A ball that is cut is no ball any more: poses are cut before.
     constexpr double last = 0.125;
@@ -381,7 +367,7 @@ class PoseTaskCheck {
     const PoseVariables variables = variables_over(names_, cell, offsets);
     const PosePosture posture = posture_over(m_, claim_.sides, variables);
     if (posture.stopped_by) return posture.stopped_by->value().below();
-    const PoseCellProof proof = prove_cell(equations_over(m_, posture, variables, {}), {}, offsets);
+    const PoseCellProof proof = prove_cell({equations_over(m_, posture, variables, {})}, {}, offsets);
     return proof.regular && proof.broken;
   }
 
@@ -401,7 +387,8 @@ class PoseTaskCheck {
       }
   }
 
-  Mechanism m_;  ///< with what its loads vary by
+  Mechanism m_;                     ///< with what its loads vary by
+  std::vector<Mechanism> choices_;  ///< the same with each choice of efforts
   const PoseTaskClaim& claim_;
   const Deadline& deadline_;
   GroupPlaces& shown_;
@@ -412,7 +399,6 @@ class PoseTaskCheck {
   std::vector<LoadBall> balls_;
   std::optional<GroupSheet> groups_;
   Holding holding_ = Holding::clear;
-  std::size_t first_share_ = static_cast<std::size_t>(-1);  ///< of efforts, behind all others
 };
 
 /// The cells at the rim of the task end where it does, but for their roundings.
@@ -426,7 +412,7 @@ std::vector<Cell> up_to_rim(std::vector<Cell> cells, const Cell& whole) {
   return cells;
 }
 
-/// Each cell with its efforts, and each place that several cells hold with all convex combinations of theirs.
+/// Each cell with its efforts, and each place that several cells hold with all that is between theirs.
 std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Deadline& deadline, GroupPlaces& shown,
                       const PoseTaskCheck& task) {
   const PoseTaskClaim::Law& law = *claim.law;
@@ -435,15 +421,13 @@ std::size_t check_law(const Mechanism& m, const PoseTaskClaim& claim, const Dead
   std::size_t count = 0;
   for (std::size_t i = 0; i < cells.size(); ++i)
     count += PoseTaskCheck(m, claim, deadline, shown, &cells[i], {law.efforts[i]}).run();
+  // Bounds of efforts that each of them keeps are kept between them.
+  if (claim.demands.empty()) return count;
   for (const CommonPlace& place : common_places(cells)) {
     std::vector<PoseTaskClaim::Law::Efforts> efforts;
     for (const std::size_t i : place.cells)
       if (std::find(efforts.begin(), efforts.end(), law.efforts[i]) == efforts.end()) efforts.push_back(law.efforts[i]);
-    const bool same = std::all_of(efforts.begin(), efforts.end(),
-                                  [&](const auto& one) { return one.joints == efforts.front().joints; });
-    // Tensions within their bounds are so in any convex combination, whichever are chosen.
-    if (!same && !claim.demands.empty()) throw FalseClaim("law: cells with other cables meet under a demand");
-    if (same && efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, shown, &place.place, efforts).run();
+    if (efforts.size() > 1) count += PoseTaskCheck(m, claim, deadline, shown, &place.place, efforts).run();
   }
   return count;
 }

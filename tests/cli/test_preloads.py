@@ -339,6 +339,23 @@ REFUTED = [
 ]
 
 
+BAR_ON_FOUR_CABLES = """
+format: 1
+workspace: {theta: {angle: [80 deg, 100 deg]}}
+points: {O: [0, 0], P: [cos(theta), sin(theta)], Q: [-cos(theta), -sin(theta)],
+         R1: [9, 1], R2: [9, -1], L1: [-9, 1], L2: [-9, -1]}
+links: {bar: {points: [O, P, Q]}}
+joints:
+  O: {revolute: [ground, bar], at: O, clearance: {radial: 1e-5}}
+  K1: {cable: [ground, bar], at: [R1, P], tension: [2, 90]}
+  K2: {cable: [ground, bar], at: [R2, Q], tension: [2, 90]}
+  K3: {cable: [ground, bar], at: [L1, P], tension: [2, 90]}
+  K4: {cable: [ground, bar], at: [L2, Q], tension: [2, 90]}
+end_effector: {link: bar, at: P}
+loads: [{link: bar, at: P, force: [0, -1]}]
+"""
+
+
 class Certificates(InOwnFolder):
     """What was found, or given, is part of the claim: it is accepted, and rejected with another effort."""
 
@@ -475,6 +492,24 @@ class Certificates(InOwnFolder):
         yield "an empty range", lambda own: own["ranges"].__setitem__(0, own["ranges"][0][::-1])
         yield "no effort of the model", lambda own: own["joints"].__setitem__(0, "A1")
         yield "other efforts are chosen", lambda own: own["patterns"][0].update(joints=[])
+
+    def test_forces_hold_between_cells_that_choose_other_cables(self):
+        """Two cables pull the pin to the right and two to the left: where others are chosen, its force may turn over."""
+        (self.folder / "m.yaml").write_text(BAR_ON_FOUR_CABLES, encoding="utf-8")
+        task = "format: 1\nbox: {theta: [85 deg, 95 deg]}\npreload: controlled\nmin_force: 4\n"
+        (self.folder / "t.yaml").write_text(task, encoding="utf-8")
+        self.run_program("verify", "m.yaml", "t.yaml", "--certificate", "c.cert", "--quiet", "-o", "out")
+        certificate = json.loads((self.folder / "c.cert").read_text(encoding="utf-8"))
+
+        def of(to_right, to_left, later_to_right, later_to_left):
+            first = [["1"], ["3/2"], [[to_right, to_left, to_left]], [], ["K1", "K3", "K4"]]
+            second = [["3/2"], ["2"], [[later_to_right, later_to_right, later_to_left]], [], ["K1", "K2", "K3"]]
+            certificate["pose_task"]["law"] = {"joints": ["K1", "K2", "K3"], "cells": [first, second]}
+            return certificate
+
+        self.expect(of("50", "5", "40", "5"), 0, "m.yaml")
+        self.expect(of("5", "50", "5", "40"), 0, "m.yaml")
+        self.expect(of("50", "5", "5", "40"), 1, "m.yaml")
 
     def test_refutations_are_certified_and_mutations_are_not(self):
         """Multipliers that another program accepts, with statics and intervals of its own."""
