@@ -45,10 +45,6 @@ std::vector<ParameterRange> opened(const Mechanism& mechanism, std::vector<Param
 std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task, std::vector<core::LoadBall>& balls) {
   std::vector<Mechanism> directions;
   for (const core::LoadWithin& within : task.loads_within) {
-    core::LoadBall ball;
-    // Radii are rounded up: more loads than asked for.
-    ball.force = std::nextafter(core::to_double(within.force), within.force > 0 ? 1e300 : 0.0);
-    ball.couple_size = std::nextafter(core::to_double(within.couple), within.couple > 0 ? 1e300 : 0.0);
     const auto add = [&](int fx, int fy, int couple) {
       Mechanism bare = unloaded(open);
       mechanism::Load load = open.loads[within.load];
@@ -59,14 +55,20 @@ std::vector<Mechanism> unit_loads(const Mechanism& open, const core::Task& task,
       load.couple = core::Expression::number(couple);
       bare.loads = {load};
       directions.push_back(std::move(bare));
-      return static_cast<int>(directions.size()) - 1;
+    };
+    // Radii are rounded up: more loads than asked for.
+    const auto add_ball = [&](const core::Rational& radius, std::size_t count) {
+      balls.push_back({directions.size(), count, std::nextafter(core::to_double(radius), 1e300)});
     };
     if (within.force > 0) {
-      ball.fx = add(1, 0, 0);
-      ball.fy = add(0, 1, 0);
+      add_ball(within.force, 2);
+      add(1, 0, 0);
+      add(0, 1, 0);
     }
-    if (within.couple > 0) ball.couple = add(0, 0, 1);
-    if (within.force > 0 || within.couple > 0) balls.push_back(ball);
+    if (within.couple > 0) {
+      add_ball(within.couple, 1);
+      add(0, 0, 1);
+    }
   }
   return directions;
 }

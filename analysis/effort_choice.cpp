@@ -197,7 +197,7 @@ class ChoiceSearch {
   /// What loads add to an effort at most.
   static double beside(const loci::pose::EffortCell& cell, std::size_t k) {
     double sum = 0;
-    for (const loci::pose::EffortStatics::Ball& ball : cell.statics->balls) {
+    for (const core::LoadBall& ball : cell.statics->balls) {
       double square = 0;
       for (std::size_t c = ball.first; c < ball.first + ball.count && !cell.choice.gains.empty(); ++c)
         square += cell.choice.gains[c][k] * cell.choice.gains[c][k];

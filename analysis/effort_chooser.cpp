@@ -47,7 +47,7 @@ std::vector<WantedEffort> wanted_tensions(const Mechanism& mechanism, const std:
 /// Loads around those of the balls: of each ball a polygon about its circle, or the ends of its axes farther out.
 std::vector<std::vector<double>> loads_around(const EffortStatics& statics) {
   std::vector<std::vector<double>> loads = {std::vector<double>(statics.directions(), 0.0)};
-  for (const EffortStatics::Ball& ball : statics.balls) {
+  for (const core::LoadBall& ball : statics.balls) {
     std::vector<std::vector<double>> corners;
     if (ball.count == 2) {
       constexpr int sides = 8;
@@ -116,7 +116,7 @@ struct Proposal {
                                    along.begin() + static_cast<std::ptrdiff_t>(statics.bases + efforts()));
     const std::size_t first = statics.bases + efforts();
     double beside = 0;
-    for (const EffortStatics::Ball& ball : statics.balls) {
+    for (const core::LoadBall& ball : statics.balls) {
       double square = 0;
       for (std::size_t c = ball.first; c < ball.first + ball.count; ++c) square += along[first + c] * along[first + c];
       beside += ball.radius * std::sqrt(square);
@@ -252,7 +252,7 @@ struct Proposal {
         if (ways[d].size() < 2) continue;
         const std::vector<double> along = along_way(designs[i], d, ways[d]);
         double beside = 0;
-        for (const EffortStatics::Ball& ball : statics.balls) {
+        for (const core::LoadBall& ball : statics.balls) {
           double square = 0;
           for (std::size_t c = ball.first; c < ball.first + ball.count; ++c) {
             double part = along[statics.bases + efforts() + c];

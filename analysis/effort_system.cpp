@@ -60,14 +60,17 @@ Mechanism under_unit_load(const Mechanism& bare, const mechanism::Load& load, st
   unit.link = load.link;
   unit.at = load.at;
   const std::size_t dimension = mechanism::dimension(bare);
-  unit.couple = Expression::number(component == dimension ? 1 : 0);
-  for (std::size_t c = 0; c < dimension; ++c) unit.force.push_back(Expression::number(c == component ? 1 : 0));
+  unit.force.assign(dimension, Expression::number(0));
+  unit.couple = Expression::number(0);
+  std::vector<Expression*> parts = unit.couple_parts(bare.space);
+  for (std::size_t c = dimension; c > 0; --c) parts.insert(parts.begin(), &unit.force[c - 1]);
+  *parts[component] = Expression::number(1);
   return under_unit_load;
 }
 
 /// The mechanism under each base load, under a unit of each free effort, and under the unit loads of the balls.
 std::vector<Mechanism> columns_of(const std::vector<Mechanism>& loads, const Task& task, std::size_t efforts,
-                                  std::vector<loci::pose::EffortStatics::Ball>& balls) {
+                                  std::vector<core::LoadBall>& balls) {
   std::vector<Mechanism> columns;
   const std::vector<int> none(efforts, 0);
   for (const Mechanism& base : loads) columns.push_back(with_open_efforts(base, none));
@@ -90,9 +93,7 @@ std::vector<Mechanism> columns_of(const std::vector<Mechanism>& loads, const Tas
       direction += count;
     };
     add(within.force, 0, dimension);
-    if (within.couple > 0 && dimension == 3)
-      throw core::InputError({task.file}, "loads_within varies couples in the plane only", "leave the couple out");
-    add(within.couple, dimension, 1);
+    add(within.couple, dimension, dimension == 3 ? 3 : 1);
   }
   return columns;
 }
@@ -199,7 +200,7 @@ std::optional<EffortSystem::Solved> EffortSystem::solved(const PoseAt& place) co
 std::vector<double> EffortSystem::worst_load(const std::vector<Bounded>& columns, int sign) const {
   std::vector<double> parts(statics_.directions(), 0.0);
   const std::size_t first = statics_.bases + statics_.efforts;
-  for (const loci::pose::EffortStatics::Ball& ball : statics_.balls) {
+  for (const core::LoadBall& ball : statics_.balls) {
     double square = 0;
     for (std::size_t c = ball.first; c < ball.first + ball.count; ++c)
       square += columns[first + c].value * columns[first + c].value;

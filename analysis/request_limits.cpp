@@ -12,6 +12,7 @@
 #include "core/rational.hpp"
 #include "core/task.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/idle.hpp"
 
 namespace clearloci {
 namespace {
@@ -219,6 +220,12 @@ void check_task(const mechanism::Mechanism& mechanism, const core::Task& task) {
       throw InputError({}, "load " + std::to_string(within.load + 1) + " is varied twice", "give one entry a load");
     if (within.force < 0 || within.couple < 0)
       throw InputError({}, "what a load may differ by is negative", "give 0 or more");
+    const mechanism::LinkIndex link = mechanism.loads[within.load].link;
+    if (within.couple > 0 && mechanism::turns_idly(mechanism, link))
+      throw InputError({},
+                       "loads_within has a couple on link " + mechanism.links[static_cast<std::size_t>(link)].name +
+                           ", which nothing holds against it",
+                       "leave the couple out");
   }
 }
 

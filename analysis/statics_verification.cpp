@@ -18,6 +18,7 @@
 #include "loci/tasks/tasks.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/notes.hpp"
+#include "numeric/least_load.hpp"
 #include "numeric/task_witness.hpp"
 #include "symbolic/pose_statics.hpp"
 
@@ -58,34 +59,6 @@ Metrics metrics_of(const Mechanism& mechanism, const Task& task, const WidenedTa
   for (const mechanism::Coordinate& c : mechanism.coordinates) metrics.angles->grows.push_back(c.angle);
   metrics.angles->grows.resize(metrics.asked.grows.size(), false);
   return metrics;
-}
-
-/// The least u with left + sum of ways[i] u[i] = 0: u = -Wt (W Wt)^-1 left, of up to three rows; where the ways do not
-/// reach everywhere, nearly.
-std::vector<double> shares_to_zero(const std::vector<double>& left, const std::vector<std::vector<double>>& ways) {
-  const std::size_t n = left.size();
-  std::vector<std::vector<double>> rows(n, std::vector<double>(n + 1));
-  double trace = 0;
-  for (std::size_t r = 0; r < n; ++r) {
-    for (std::size_t c = 0; c < n; ++c)
-      for (const std::vector<double>& way : ways) rows[r][c] += way[r] * way[c];
-    rows[r][n] = -left[r];
-    trace += rows[r][r];
-  }
-  constexpr double nothing = 1e-12;
-  for (std::size_t r = 0; r < n; ++r) rows[r][r] += nothing * trace;
-  std::vector<double> shares(ways.size());
-  if (!(trace > 0)) return shares;
-  // Positive definite: pivots need no order.
-  for (std::size_t p = 0; p < n; ++p)
-    for (std::size_t r = 0; r < n; ++r) {
-      if (r == p) continue;
-      const double factor = rows[r][p] / rows[p][p];
-      for (std::size_t c = p; c <= n; ++c) rows[r][c] -= factor * rows[p][c];
-    }
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    for (std::size_t r = 0; r < n; ++r) shares[i] += ways[i][r] * rows[r][n] / rows[r][r];
-  return shares;
 }
 
 class StaticsVerifier {
@@ -294,55 +267,46 @@ class StaticsVerifier {
     return confirmed_under_a_load(suspect);
   }
 
+  /// Under the loads in balls that bring a demand nearest to zero, of which its components are affine functions, and
+  /// between these and the loads in the middle.
   std::optional<core::TaskWitness> confirmed_under_a_load(const PoseSuspect& suspect) {
-    for (const bool last : {false, true}) {
-      if (last && models_.size() < 2) continue;
-      if (const auto worst = under_worst_load(suspect, last))
-        if (auto found = confirmed_as_it_is(*worst)) return found;
-    }
-    return std::nullopt;
-  }
-
-  /// The pose under the loads in balls that bring a demand nearest to zero, of which its components are affine
-  /// functions; with the same pose under the loads in the middle. `last`: of loads that go from one to another the last
-  /// one.
-  std::optional<PoseSuspect> under_worst_load(const PoseSuspect& suspect, bool last) {
-    const auto& balls = widened_.beside().balls;
+    const std::vector<core::LoadBall>& balls = widened_.beside().balls;
     const std::size_t poses = mechanism_.coordinates.size();
     PoseAt middle = widened_.settled(suspect.at);
-    for (const loci::pose::PoseBeside::Ball& ball : balls)
+    for (const core::LoadBall& ball : balls)
       std::fill_n(middle.begin() + static_cast<std::ptrdiff_t>(poses + ball.first), ball.count, 0.0);
-    const auto components_at = [&](const PoseAt& pose) -> std::optional<std::vector<double>> {
+    using Loads = std::vector<std::vector<double>>;
+    const auto loads_at = [&](const PoseAt& pose) {
       const auto here = cell_->at(pose);
-      if (!here) return std::nullopt;
-      const auto& loads = here->components[static_cast<std::size_t>(suspect.demand)];
-      const auto& found = last ? loads.back() : loads.front();
-      return std::vector<double>(found.begin(), found.end());
+      return here ? std::optional<Loads>(here->components[static_cast<std::size_t>(suspect.demand)]) : std::nullopt;
     };
-    const auto left = components_at(middle);
-    if (!left) return std::nullopt;
-    std::vector<std::vector<double>> ways;  // of a radius of each part
-    for (const loci::pose::PoseBeside::Ball& ball : balls)
+    const auto ends = loads_at(middle);
+    if (!ends) return std::nullopt;
+    Loads directions;
+    std::vector<core::LoadBall> parts;
+    for (const core::LoadBall& ball : balls) {
+      parts.push_back({directions.size(), ball.count, ball.radius});
       for (std::size_t k = 0; k < ball.count; ++k) {
         PoseAt pose = middle;
         pose[poses + ball.first + k] = ball.radius;
-        auto way = components_at(pose);
-        if (!way) return std::nullopt;
-        for (std::size_t c = 0; c < way->size(); ++c) (*way)[c] -= (*left)[c];
-        ways.push_back(std::move(*way));
+        const auto under = loads_at(pose);
+        if (!under) return std::nullopt;
+        std::vector<double>& direction = directions.emplace_back();
+        for (std::size_t c = 0; c < ends->front().size(); ++c)
+          direction.push_back((under->front()[c] - ends->front()[c]) / ball.radius);
       }
-    PoseAt worst = middle;
-    std::size_t part = 0;
-    const std::vector<double> shares = shares_to_zero(*left, ways);
-    for (const loci::pose::PoseBeside::Ball& ball : balls) {
-      double square = 0;
-      for (std::size_t k = 0; k < ball.count; ++k) square += shares[part + k] * shares[part + k];
-      // A single component is taken as far as it goes: beyond zero, that its sign tells.
-      const bool far = square > 1 || left->size() == 1;
-      const double scale = square > 0 && far ? ball.radius / std::sqrt(square) : ball.radius;
-      for (std::size_t k = 0; k < ball.count; ++k) worst[poses + ball.first + k] = scale * shares[part++];
     }
-    return PoseSuspect{Doubt::demand, suspect.demand, widened_.settled(std::move(worst)), std::move(middle)};
+    const numeric::LeastLoad least = numeric::least_load(*ends, directions, parts);
+    PoseAt worst = middle;
+    for (std::size_t b = 0; b < balls.size(); ++b) {
+      double square = 0;
+      for (std::size_t k = 0; k < parts[b].count; ++k) square += std::pow(least.changes[parts[b].first + k], 2);
+      // A single component is taken as far as it goes: beyond zero, that its sign tells.
+      const double further = ends->front().size() == 1 && square > 0 ? balls[b].radius / std::sqrt(square) : 1;
+      for (std::size_t k = 0; k < parts[b].count; ++k)
+        worst[poses + balls[b].first + k] = further * least.changes[parts[b].first + k];
+    }
+    return confirmed_as_it_is({Doubt::demand, suspect.demand, widened_.settled(std::move(worst)), std::move(middle)});
   }
 
   /// Whether a suspect fails for certain; with another pose, between the two.

@@ -124,10 +124,8 @@ class Tolerant {
     for (const numeric::NumericModel& model : loads_) loads.ends.push_back(&model);
     for (const numeric::NumericModel& model : directions_) loads.directions.push_back(&model);
     loads.balls = task_.balls();
-    for (core::LoadBall& ball : loads.balls) {
-      ball.force = inwards(ball.force);
-      ball.couple_size = inwards(ball.couple_size);
-    }
+    // Radii were rounded up for the proof; a witness is within what was asked.
+    for (core::LoadBall& ball : loads.balls) ball.radius *= 1 - 0x1p-50;
     std::vector<std::vector<double>> usual;
     for (const Point2& pose : task_.region().samples()) {
       std::vector<double>& at = usual.emplace_back();
@@ -136,9 +134,6 @@ class Tolerant {
     return witness_.emplace(std::move(loads), task_.sides(), task_.demands(), usual,
                             numeric::TaskWitness::Rounding::of_plane);
   }
-
-  /// Radii were rounded up for the proof; a witness is within what was asked.
-  static double inwards(double radius) { return radius > 0 ? radius * (1 - 0x1p-50) : 0; }
 
   std::vector<Bounded> bounded(const Point2& pose, const std::vector<double>& parameters) const {
     std::vector<Bounded> at;
@@ -190,17 +185,14 @@ class Tolerant {
     const auto add = [](core::Expression& to, double what) {
       to = core::Expression::apply(core::Expression::Kind::add, {to, core::Expression::number(core::Rational(what))});
     };
-    std::size_t ball = 0;
+    auto factor = factors.begin();
     for (const core::LoadWithin& within : task_.task().loads_within) {
-      if (!(within.force > 0) && !(within.couple > 0)) continue;
-      const core::LoadBall& load_ball = task_.balls()[ball++];
       mechanism::Load& load = open.loads[within.load];
-      if (load_ball.fx >= 0) {
+      if (within.force > 0) {
         if (load.force.size() != 2) return false;
-        add(load.force[0], factors[static_cast<std::size_t>(load_ball.fx)]);
-        add(load.force[1], factors[static_cast<std::size_t>(load_ball.fy)]);
+        for (core::Expression& part : load.force) add(part, *factor++);
       }
-      if (load_ball.couple >= 0) add(load.couple, factors[static_cast<std::size_t>(load_ball.couple)]);
+      if (within.couple > 0) add(load.couple, *factor++);
     }
     return true;
   }
@@ -227,16 +219,14 @@ class Tolerant {
     // The file's loads at this design.
     const numeric::Posture posture =
         numeric::posture(loads_.front(), values({told.at[0], told.at[1]}, parameters), task_.sides());
-    std::size_t ball = 0;
+    auto change = found.changes.begin();
     for (const core::LoadWithin& within : task_.task().loads_within) {
       if (!(within.force > 0) && !(within.couple > 0)) continue;
-      const numeric::LoadChange& change = found.changes[ball++];
       core::WitnessLoad load{within.load, {0, 0}, {0}};
       if (posture.reachable()) load = load_at(posture, within.load, loads_.front().mechanism);
       if (!told.load.empty() && within.load == 0) load.force = told.load;
-      load.force[0] += change.fx;
-      load.force[1] += change.fy;
-      load.couple[0] += change.couple;
+      for (std::size_t c = 0; c < 2 && within.force > 0; ++c) load.force[c] += *change++;
+      if (within.couple > 0) load.couple[0] += *change++;
       told.loads.push_back(load);
     }
   }

@@ -132,10 +132,8 @@ void WidenedTask::add_parts(const core::LoadWithin& within, const core::Task& ta
       return parts;
     });
   }
-  if (!(within.couple > 0)) return;
-  if (loads_.front().space == mechanism::Space::spatial)
-    throw core::InputError({task.file}, "loads_within varies couples in the plane only", "leave the couple out");
-  add(within.couple, [](mechanism::Load& load) { return std::vector<Expression*>{&load.couple}; });
+  if (within.couple > 0)
+    add(within.couple, [&](mechanism::Load& load) { return load.couple_parts(loads_.front().space); });
 }
 
 std::vector<double> WidenedTask::pose_of(const std::vector<double>& at) const {
@@ -157,7 +155,7 @@ std::vector<double> WidenedTask::settled(std::vector<double> at) const {
   for (std::size_t p = 0; p < values.size(); ++p) design[open_.varied[p]] = Interval(values[p]);
   for (std::size_t v = 0; v < open_.variables.size(); ++v)
     at[poses_ + v] = enclosure(open_.variables[v].meaning, design).middle();
-  for (const loci::pose::PoseBeside::Ball& ball : beside_.balls) {
+  for (const core::LoadBall& ball : beside_.balls) {
     double square = 0;
     for (std::size_t k = 0; k < ball.count; ++k) square += std::pow(at[poses_ + ball.first + k], 2);
     const double within = ball.radius * (1 - 0x1p-50), far = std::sqrt(square);

@@ -251,16 +251,14 @@ class PoseTaskCheck {
 
   /// Parts of the force, and of a couple, that are variables in a ball.
   void widen_load(const PoseTaskClaim::LoadWithin& within) {
-    const bool planar = m_.space == mechanism::Space::planar;
     if (within.load >= m_.loads.size() || within.force < 0 || within.couple < 0 ||
-        (within.force > 0 && m_.loads[within.load].force.empty()) || (within.couple > 0 && !planar))
+        (within.force > 0 && m_.loads[within.load].force.empty()))
       throw FalseClaim("loads: the model has no such force");
     mechanism::Load& load = m_.loads[within.load];
-    if (within.force > 0) add_ball(load.force, within.force);
-    if (!(within.couple > 0)) return;
-    std::vector<Expression> couple = {load.couple};
-    add_ball(couple, within.couple);
-    load.couple = couple.front();
+    std::vector<Expression*> force;
+    for (Expression& part : load.force) force.push_back(&part);
+    if (within.force > 0) add_ball(force, within.force);
+    if (within.couple > 0) add_ball(load.couple_parts(m_.space), within.couple);
   }
 
   Mechanism with_efforts(const Efforts& efforts) const {
@@ -303,11 +301,11 @@ class PoseTaskCheck {
         throw FalseClaim("law: the effort of " + joint.name + " is beyond its bounds");
   }
 
-  void add_ball(std::vector<Expression>& parts, const Rational& radius) {
+  void add_ball(const std::vector<Expression*>& parts, const Rational& radius) {
     balls_.push_back({names_.size(), parts.size()});
-    for (Expression& part : parts) {
+    for (Expression* const part : parts) {
       const std::string name = fmt::format("part {} of loads", names_.size());
-      part = sum(part, Expression::symbol(name));
+      *part = sum(*part, Expression::symbol(name));
       add_variable(name, -radius, radius);
     }
   }

@@ -44,12 +44,10 @@ struct TaskCondition {
   std::vector<int> unloaded = {};
 };
 
-/// Loads around every load: directions of TaskConditions, -1 for none, and how far they go, N and N m.
+/// Parts of a load that follow one another, and all that they may be together: how far from the middle, N or N m.
 struct LoadBall {
-  int fx = -1, fy = -1;
-  double force = 0;
-  int couple = -1;
-  double couple_size = 0;
+  std::size_t first = 0, count = 0;
+  double radius = 0;
 };
 
 struct TaskConditions {

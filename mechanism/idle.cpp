@@ -194,6 +194,17 @@ void hold_idle_freedoms(Mechanism& m) {
   }
 }
 
+bool turns_idly(const Mechanism& m, LinkIndex link) {
+  if (std::any_of(m.joints.begin(), m.joints.end(),
+                  [&](const Joint& joint) { return joint.holds_turning && (joint.from == link || joint.to == link); }))
+    return true;
+  const std::vector<Hanging> all = hanging_on_two_balls(m);
+  return std::any_of(all.begin(), all.end(), [&](const Hanging& hanging) {
+    return holds(hanging.links, link) &&
+           (holds_idle_freedom(m.joints[hanging.first]) || holds_idle_freedom(m.joints[hanging.second]));
+  });
+}
+
 std::vector<std::string> idle_notes(const Mechanism& m) {
   std::string lines, balls;
   // Not by the axis that was put in: in another frame it is written in coordinates.

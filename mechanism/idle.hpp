@@ -21,6 +21,10 @@ inline bool holds_idle_freedom(const Joint& joint) {
 /// spin: it is in no balance then.
 void hold_idle_freedoms(Mechanism& mechanism);
 
+/// Whether a link is held so where nothing else balances it: its spin about a line, or the turning of a link without
+/// extent on cables. A couple on it has no equilibrium.
+bool turns_idly(const Mechanism& mechanism, LinkIndex link);
+
 /// What is held and where, in one line; none where nothing is idle.
 std::vector<std::string> idle_notes(const Mechanism& mechanism);
 

@@ -243,6 +243,13 @@ struct Load {
 
   bool has_force() const { return !force.empty() || force_vector.has_value(); }
 
+  /// The components of its couple, to be changed: one in the plane, three in space.
+  std::vector<Expression*> couple_parts(Space space) {
+    if (space == Space::planar) return {&couple};
+    couple_vector.resize(3, Expression::number(0));
+    return {&couple_vector[0], &couple_vector[1], &couple_vector[2]};
+  }
+
   /// visit(expression, power of m in its unit): its numbers but those of `force_vector`.
   template <typename Visit>
   void each_number(const Visit& visit) {

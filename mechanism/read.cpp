@@ -103,7 +103,7 @@ Mechanism read_document(const Value& written, const std::string& file, const std
   check_axes(mechanism);
   check_springs(mechanism);
   check_rigidity(mechanism);
-  check_slots(mechanism);
+  check_joint_marks(mechanism);
   check_gears(mechanism);
   leave_out_ends_out_of_reach(mechanism);
   limit_spring_ends(mechanism);

@@ -178,6 +178,8 @@ void check_springs(const Mechanism& mechanism);
 // --- rigidity.cpp
 /// The points of a link keep their distances in sampled postures, or may on one side of a fold.
 void check_rigidity(const Mechanism& mechanism);
+/// "x = 0.25 m, phi = 30 deg".
+std::string words_of_pose(const Mechanism& mechanism, const std::vector<double>& pose);
 
 // --- read_gears.cpp
 /// Of every gear among the joints: the pitch point, which has the gear's name, and K, `flank_` and its name.
@@ -219,9 +221,9 @@ Joint read_belt(Mechanism& mechanism, const Entry& entry);
 /// postures.
 void check_gears(const Mechanism& mechanism);
 
-// --- slots.cpp
-/// The pin of a slot stays on one line of the link that carries the slot, in sampled postures.
-void check_slots(const Mechanism& mechanism);
+// --- joint_marks.cpp
+/// Pins, balls and crosses stay at one point of their links, and axes on one line, in sampled postures.
+void check_joint_marks(const Mechanism& mechanism);
 
 // --- reachability.cpp
 /// Every dyad can be closed somewhere in the box.

@@ -55,15 +55,18 @@ std::vector<PointIndex> points_held(const Link& link) {
   return list;
 }
 
-/// Whether a vector is the same in every pose as it is written: made of numbers and parameters.
+/// Whether a number or a vector is the same in every pose as it is written: made of numbers and parameters.
+bool is_constant(const Mechanism& mechanism, const Expression& number) {
+  const std::set<std::string> names = symbols(number);
+  return std::none_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
+                      [&](const Coordinate& coordinate) { return names.contains(coordinate.name); });
+}
+
 bool is_constant(const Mechanism& mechanism, const VectorExpression& vector) {
-  if (!points_of(vector).empty()) return false;
   const std::vector<Expression> numbers = numbers_of(vector);
-  return std::none_of(numbers.begin(), numbers.end(), [&](const Expression& number) {
-    const std::set<std::string> names = symbols(number);
-    return std::any_of(mechanism.coordinates.begin(), mechanism.coordinates.end(),
-                       [&](const Coordinate& coordinate) { return names.contains(coordinate.name); });
-  });
+  return points_of(vector).empty() && std::all_of(numbers.begin(), numbers.end(), [&](const Expression& number) {
+           return is_constant(mechanism, number);
+         });
 }
 
 /// Distances that the construction of the points holds, as far as simple rules tell.
@@ -73,16 +76,17 @@ class Construction {
     for (std::size_t i = 0; i < m_.points.size(); ++i) {
       const auto index = static_cast<PointIndex>(i);
       if (const auto* dyad = std::get_if<DyadPoint>(&m_.points[i].form)) {
-        held_.insert(pair_of(index, dyad->from));
-        if (!dyad->right_angle) held_.insert(pair_of(index, dyad->to));
+        if (is_constant(m_, dyad->from_length)) held_.insert(pair_of(index, dyad->from));
+        if (!dyad->right_angle && is_constant(m_, dyad->to_length)) held_.insert(pair_of(index, dyad->to));
       } else if (const auto* slider = std::get_if<SliderPoint>(&m_.points[i].form)) {
-        held_.insert(pair_of(index, slider->from));
+        if (is_constant(m_, slider->length)) held_.insert(pair_of(index, slider->from));
       } else if (const auto* shifted = std::get_if<ShiftedPoint>(&m_.points[i].form)) {
         if (is_constant(m_, shifted->by)) held_.insert(pair_of(index, shifted->from));
       }
     }
     for (const Group& group : m_.groups)
-      for (const Group::Distance& distance : group.distances) held_.insert(pair_of(distance.first, distance.second));
+      for (const Group::Distance& distance : group.distances)
+        if (is_constant(m_, distance.length)) held_.insert(pair_of(distance.first, distance.second));
   }
 
   /// A distance between a point on the way between two points and another one follows from those of the two.
@@ -268,14 +272,6 @@ std::array<std::string, 2> lengths_in_file_units(const Mechanism& mechanism, con
   return {text(first, digits), text(second, digits)};
 }
 
-std::string words_of_pose(const Mechanism& mechanism, const std::vector<double>& pose) {
-  std::string text;
-  for (std::size_t i = 0; i < pose.size() && i < mechanism.coordinates.size(); ++i)
-    text += (i == 0 ? "" : ", ") + mechanism.coordinates[i].name + " = " +
-            in_file_units(mechanism, pose[i], mechanism.coordinates[i].angle);
-  return text;
-}
-
 const std::string& point_name(const Mechanism& mechanism, PointIndex point) {
   return mechanism.points[static_cast<std::size_t>(point)].name;
 }
@@ -339,6 +335,14 @@ void add_turns(const Mechanism& mechanism, LinkIndex index, const std::vector<Sa
 }
 
 }  // namespace
+
+std::string words_of_pose(const Mechanism& mechanism, const std::vector<double>& pose) {
+  std::string text;
+  for (std::size_t i = 0; i < pose.size() && i < mechanism.coordinates.size(); ++i)
+    text += (i == 0 ? "" : ", ") + mechanism.coordinates[i].name + " = " +
+            in_file_units(mechanism, pose[i], mechanism.coordinates[i].angle);
+  return text;
+}
 
 HeldByLinks held_by_links(const Mechanism& mechanism) {
   HeldByLinks result;

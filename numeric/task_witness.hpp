@@ -17,12 +17,6 @@
 
 namespace clearloci::numeric {
 
-/// What comes on top of a load, one a ball.
-struct LoadChange {
-  double fx = 0, fy = 0;  ///< N
-  double couple = 0;      ///< N m
-};
-
 struct TaskFailure {
   enum class Kind {
     unreachable,  ///< the mechanism does not reach the pose
@@ -33,10 +27,10 @@ struct TaskFailure {
     beyond_bound  ///< the effort is not within its bound
   };
   Kind kind = Kind::unreachable;
-  core::TaskDemand demand = {};          ///< of the last two kinds, like what follows
-  double load = 0;                       ///< t, from the first load to the last
-  double size = 0;                       ///< of the reaction there, or the effort, N or N m
-  std::vector<LoadChange> changes = {};  ///< where loads may differ within balls
+  core::TaskDemand demand = {};      ///< of the last two kinds, like what follows
+  double load = 0;                   ///< t, from the first load to the last
+  double size = 0;                   ///< of the reaction there, or the effort, N or N m
+  std::vector<double> changes = {};  ///< where loads may differ within balls: of each direction, N or N m
 };
 
 /// The loads under which a task is asked for. All models must outlive what uses them.

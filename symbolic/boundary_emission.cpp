@@ -159,8 +159,10 @@ void FactorEmission::boundaries() {
   const std::size_t first = d_.result.problem.factors.size();
   for (std::size_t i = 0; i < d_.geometry.roots().size(); ++i) {
     const TowerRoot& root = d_.geometry.roots()[i];
-    if (root.role == core::RootRole::working_mode && !root.value && !add_rims(i))
-      add(FactorRole::workspace_boundary, nullptr, root.square, true, stretched(root));
+    if (root.role != core::RootRole::working_mode || root.value || add_rims(i)) continue;
+    LocusFactor factor = stretched(root);
+    factor.role = FactorRole::workspace_boundary;
+    add_parts(nullptr, d_.elimination.boundary_factors(root.square), factor);
   }
   for (const Fold& fold : d_.geometry.folds()) add_fold(fold);
   add_limits();

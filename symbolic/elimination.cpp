@@ -280,6 +280,15 @@ std::vector<SheetFactor> Elimination::sheet_factors(const Poly& sheet, bool with
   return described(factors_over_tower(strip_denominators(sheet)), with_implicit, without_curves);
 }
 
+std::vector<SheetFactor> Elimination::boundary_factors(const Poly& square) const {
+  std::vector<SheetFactor> factors = sheet_factors(square, true);
+  if (!factors.empty()) return factors;
+  for (const PolyFactor& factor : factors_over_tower(square))
+    if (factor.multiplicity % 2 != 0 && has_free_coordinate(factor.poly))
+      factors.push_back({factor.poly, factor.multiplicity, implicit_of_divisor(factor.poly)});
+  return factors;
+}
+
 std::optional<Poly> Elimination::found_element(const Fold& fold) const {
   const mechanism::PointIndex point = geometry_->roots()[fold.root].point;
   const auto closing = geometry_->closings().find(point);

@@ -49,6 +49,10 @@ class Elimination {
   std::vector<SheetFactor> sheet_factors(const Poly& sheet, bool with_implicit,
                                          std::vector<Poly>* without_curves = nullptr) const;
 
+  /// The same of the square of a root that ends the workspace where it is zero; with those that other things are
+  /// divided by, where nothing else is left: the axis of a guide that is as long as the root.
+  std::vector<SheetFactor> boundary_factors(const Poly& square) const;
+
   /// The same of a natural polynomial that is not zero in every pose. What it holds of the elements of folds is divided
   /// out of it before it is put over the tower, where it has many more terms.
   std::vector<SheetFactor> natural_factors(const Poly& natural, bool with_implicit,

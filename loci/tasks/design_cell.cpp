@@ -48,17 +48,16 @@ TaskCell::State TaskCell::enter(std::span<const Interval> box, std::vector<Inter
 }
 
 Interval TaskCell::reach_of_balls(const TaskCondition& condition, const std::vector<double>& n, bool with_slopes) {
-  const auto along = [&](int direction) {
-    if (direction < 0) return Interval(0);
-    Sum sum;
-    const std::vector<int>& parts = condition.directions[static_cast<std::size_t>(direction)];
-    for (std::size_t i = 0; i < parts.size(); ++i) sum.emplace_back(Interval(n[i]), parts[i]);
-    return combined(sum, with_slopes);
-  };
   Interval reach = 0;
   for (const core::LoadBall& ball : extent_.balls) {
-    if (ball.force > 0) reach = reach + Interval(ball.force) * size_of_vector({along(ball.fx), along(ball.fy)});
-    if (ball.couple_size > 0) reach = reach + Interval(ball.couple_size) * size_of_vector({along(ball.couple)});
+    std::vector<Interval> along;
+    for (std::size_t d = ball.first; d < ball.first + ball.count; ++d) {
+      Sum sum;
+      const std::vector<int>& parts = condition.directions[d];
+      for (std::size_t i = 0; i < parts.size(); ++i) sum.emplace_back(Interval(n[i]), parts[i]);
+      along.push_back(combined(sum, with_slopes));
+    }
+    reach = reach + Interval(ball.radius) * size_of_vector(along);
   }
   return reach;
 }
@@ -68,14 +67,13 @@ bool TaskCell::brought_down(const TaskCondition& condition, const std::vector<in
   if (parts.size() != 2) return false;
   const Interval &w0 = value(parts[0]), &w1 = value(parts[1]);
   for (const core::LoadBall& ball : extent_.balls) {
-    if (!(ball.force > 0)) continue;
-    const std::vector<int>&a = condition.directions[static_cast<std::size_t>(ball.fx)],
-          &b = condition.directions[static_cast<std::size_t>(ball.fy)];
+    if (ball.count != 2) continue;
+    const std::vector<int>&a = condition.directions[ball.first], &b = condition.directions[ball.first + 1];
     const Interval &a0 = value(a[0]), &a1 = value(a[1]), &b0 = value(b[0]), &b1 = value(b[1]);
     // The force that takes it to nothing, by Cramer's rule, lies in the ball.
     const Interval determinant = a0 * b1 - a1 * b0;
     const Interval x = w1 * b0 - w0 * b1, y = w0 * a1 - w1 * a0;
-    const double radius = ball.force * (1 - 0x1p-40);  // within what was asked, rounded up or not
+    const double radius = ball.radius * (1 - 0x1p-40);  // within what was asked, rounded up or not
     if (determinant.sign() != 0 &&
         (squared(x) + squared(y)).upper() < (Interval(radius) * Interval(radius) * squared(determinant)).lower())
       return true;
@@ -113,11 +111,10 @@ int TaskCell::failed() const {
       if (parts.size() != 1) continue;
       double reach = 0;
       for (const core::LoadBall& ball : extent_.balls) {
-        const auto along = [&](int direction) {
-          return direction < 0 ? 0.0 : value(condition.directions[static_cast<std::size_t>(direction)][0]).mignitude();
-        };
-        reach += (ball.force * std::hypot(along(ball.fx), along(ball.fy)) + ball.couple_size * along(ball.couple)) *
-                 (1 - 0x1p-40);  // the roundings of these few operations
+        double along = 0;
+        for (std::size_t d = ball.first; d < ball.first + ball.count; ++d)
+          along = std::hypot(along, value(condition.directions[d][0]).mignitude());
+        reach += ball.radius * along * (1 - 0x1p-40);  // the roundings of these few operations
       }
       if (reach > 0 && size.upper() < reach) return static_cast<int>(i);
     }

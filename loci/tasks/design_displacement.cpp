@@ -126,24 +126,18 @@ Centred TaskCell::squared_displacement(const Loads& loads) {
 
 TaskCell::Loads TaskCell::all_loads() const {
   Loads all{Interval(0.0, conditions_.loads > 1 ? 1.0 : 0.0), std::vector(conditions_.directions, Interval(0.0))};
-  const auto put = [&](int direction, double radius) {
-    if (radius > 0) all.factors[static_cast<std::size_t>(direction)] = around_zero(radius);
-  };
-  for (const core::LoadBall& ball : extent_.balls) {
-    put(ball.fx, ball.force);
-    put(ball.fy, ball.force);
-    put(ball.couple, ball.couple_size);
-  }
+  for (const core::LoadBall& ball : extent_.balls)
+    std::fill_n(all.factors.begin() + static_cast<std::ptrdiff_t>(ball.first), ball.count, around_zero(ball.radius));
   return all;
 }
 
 /// Nothing: outside some ball.
 std::optional<Interval> TaskCell::displacement_under(const Loads& loads) {
   for (const core::LoadBall& ball : extent_.balls) {
-    if (!(ball.force > 0)) continue;
-    const double fx = loads.factors[static_cast<std::size_t>(ball.fx)].mignitude();
-    const double fy = loads.factors[static_cast<std::size_t>(ball.fy)].mignitude();
-    if (std::hypot(fx, fy) > ball.force * (1 + 0x1p-40)) return std::nullopt;
+    double size = 0;
+    for (std::size_t d = ball.first; d < ball.first + ball.count; ++d)
+      size = std::hypot(size, loads.factors[d].mignitude());
+    if (size > ball.radius * (1 + 0x1p-40)) return std::nullopt;
   }
   squared_ = squared_displacement(loads);
   return square_root(Interval(std::max(0.0, squared_.over.lower()), std::max(0.0, squared_.over.upper())));
@@ -242,18 +236,19 @@ std::optional<TaskCell::Loads> TaskCell::displaced_too_far() {
     if (too_far(one)) return one;
   }
   if (extent_.balls.empty()) return std::nullopt;
-  // Every ball at its edge, in the same direction; and its couple to either side.
+  // Every ball at its edge: forces in the same direction, couples to either side.
   constexpr int directions = 16;
   for (int i = 0; i < 2 * directions; ++i) {
     Loads one = middle_of(all);
     const double angle = M_PI * i / directions, inwards = 1 - 0x1p-40;
     for (const core::LoadBall& ball : extent_.balls) {
-      if (ball.force > 0) {
-        one.factors[static_cast<std::size_t>(ball.fx)] = inwards * ball.force * std::cos(angle);
-        one.factors[static_cast<std::size_t>(ball.fy)] = inwards * ball.force * std::sin(angle);
+      const double edge = inwards * ball.radius;
+      if (ball.count == 2) {
+        one.factors[ball.first] = edge * std::cos(angle);
+        one.factors[ball.first + 1] = edge * std::sin(angle);
+      } else {
+        one.factors[ball.first] = (i % 2 == 0 ? 1 : -1) * edge;
       }
-      if (ball.couple_size > 0)
-        one.factors[static_cast<std::size_t>(ball.couple)] = inwards * (i % 2 == 0 ? 1 : -1) * ball.couple_size;
     }
     if (too_far(one)) return one;
   }

@@ -41,15 +41,14 @@ TaskCell::WorstLoad TaskCell::worst_load(const TaskCondition& condition) const {
     WorstLoad to;
     to.t = dot(w, first) <= dot(w, last) ? 0.0 : 1.0;
     to.factors.assign(directions.size(), 0.0);
-    const auto along = [&](int d) { return d < 0 ? 0.0 : dot(w, directions[static_cast<std::size_t>(d)]); };
     for (const core::LoadBall& ball : extent_.balls) {
-      const double gx = along(ball.fx), gy = along(ball.fy), size = std::hypot(gx, gy);
-      if (ball.force > 0 && size > 0) {
-        to.factors[static_cast<std::size_t>(ball.fx)] = -ball.force * gx / size;
-        to.factors[static_cast<std::size_t>(ball.fy)] = -ball.force * gy / size;
+      double size = 0;
+      for (std::size_t d = ball.first; d < ball.first + ball.count; ++d) {
+        to.factors[d] = dot(w, directions[d]);
+        size = std::hypot(size, to.factors[d]);
       }
-      if (ball.couple_size > 0)
-        to.factors[static_cast<std::size_t>(ball.couple)] = -std::copysign(ball.couple_size, along(ball.couple));
+      for (std::size_t d = ball.first; d < ball.first + ball.count && size > 0; ++d)
+        to.factors[d] *= -ball.radius / size;
     }
     to.reaction = to.t > 0 ? last : first;
     for (std::size_t d = 0; d < directions.size(); ++d)

@@ -67,7 +67,7 @@ class EffortCellOf {
     const std::vector<Form> along = along_way(demand, way);
     double beside = 0;
     Spreads moves{};
-    for (const EffortStatics::Ball& ball : statics_->balls) {
+    for (const core::LoadBall& ball : statics_->balls) {
       double square = 0;
       for (std::size_t c = ball.first; c < ball.first + ball.count; ++c) {
         const Form efforts = with_efforts(along, statics_->bases + statics_->efforts + c,

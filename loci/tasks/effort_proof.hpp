@@ -23,16 +23,11 @@ namespace clearloci::loci::pose {
 
 /// The columns of a, B and C.
 struct EffortStatics {
-  core::PoseStatics statics;              ///< without demands; its loads are the columns, in this order
-  std::vector<core::PoseDemand> demands;  ///< bounds of efforts are demands as any other
-  std::vector<double> leasts;             ///< one a demand, N or N m; of a bound side * at
-  std::size_t bases = 1, efforts = 0;     ///< what follows are directions of loads
-  /// Directions that follow one another, from 0.
-  struct Ball {
-    std::size_t first = 0, count = 0;
-    double radius = 0;
-  };
-  std::vector<Ball> balls = {};
+  core::PoseStatics statics;               ///< without demands; its loads are the columns, in this order
+  std::vector<core::PoseDemand> demands;   ///< bounds of efforts are demands as any other
+  std::vector<double> leasts;              ///< one a demand, N or N m; of a bound side * at
+  std::size_t bases = 1, efforts = 0;      ///< what follows are directions of loads
+  std::vector<core::LoadBall> balls = {};  ///< of the directions
 
   std::size_t directions() const { return statics.loads - bases - efforts; }
 };

@@ -122,7 +122,7 @@ PoseRegion::PoseRegion(const core::TaskShape& shape, PoseMetric metric, PoseBesi
 void PoseRegion::clamp_beside(Pose& pose) const {
   if (pose.size() == shaped_) return;  // of the shape alone
   for (std::size_t c = shaped_; c < pose.size(); ++c) pose[c] = std::clamp(pose[c], lower_[c], upper_[c]);
-  for (const PoseBeside::Ball& ball : beside_.balls) {
+  for (const core::LoadBall& ball : beside_.balls) {
     double square = 0;
     const auto each = [&](const auto& act) {
       for (std::size_t c = shaped_ + ball.first; c < shaped_ + ball.first + ball.count; ++c)
@@ -136,7 +136,7 @@ void PoseRegion::clamp_beside(Pose& pose) const {
 }
 
 bool PoseRegion::is_beyond_ball(const PoseBox& box, std::size_t offset) const {
-  for (const PoseBeside::Ball& ball : beside_.balls) {
+  for (const core::LoadBall& ball : beside_.balls) {
     double square = 0;
     for (std::size_t k = ball.first; k < ball.first + ball.count; ++k) {
       const double middle = 0.5 * (lower_[shaped_ + k] + upper_[shaped_ + k]);

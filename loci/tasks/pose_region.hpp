@@ -24,13 +24,8 @@ struct PoseMetric {
 /// Coordinates behind those of the shape, whatever its pose: designs and loads that a task is asked for at once. The
 /// margin does not grow along them.
 struct PoseBeside {
-  Pose lower, upper;  ///< a value each
-  /// Some of them that follow one another are those of a ball about the middle of their ranges.
-  struct Ball {
-    std::size_t first = 0, count = 0;
-    double radius = 0;
-  };
-  std::vector<Ball> balls = {};
+  Pose lower, upper;                       ///< a value each
+  std::vector<core::LoadBall> balls = {};  ///< of some of them, about the middle of their ranges
 };
 
 /// A part of the task and its margin: parameters, poses over them, and how far from the task they are at least.
