@@ -38,6 +38,8 @@ constexpr double beside_a_touch = 1e-5;
 // stands for what is as near to it as one place.
 constexpr double largest_circle = 0.02, smallest_circle = same_place;
 constexpr int agreeing_circles = 1;
+// Nodes whose order is not told are joined with those that edges lead to within this distance.
+constexpr double widest_join = 1e-5, beyond_join = 1.5;
 constexpr double widest_doubt = 1e-4;  // rad; of bearings that are looked for by other means
 constexpr double rounding = 1e-13;     // of points moved onto a curve
 // Tolerances by which chords may cross beside the curves' crossing.
@@ -635,32 +637,111 @@ class Builder {
       g.around[static_cast<std::size_t>(g.edges[e].from)].push_back({static_cast<int>(e), false});
       g.around[static_cast<std::size_t>(g.edges[e].to)].push_back({static_cast<int>(e), true});
     }
-    for (std::size_t n = 0; n < g.nodes.size(); ++n) order_around(n);
+    extents_.assign(g.nodes.size(), 0.0);
+    std::vector<std::size_t> unclear;
+    for (std::size_t n = 0; n < g.nodes.size(); ++n)
+      if (!order_around(n)) unclear.push_back(n);
+    for (const std::size_t n : unclear) {
+      bool is_told = order_around(n);
+      while (!is_told && join_nearest(n)) is_told = order_around(n);
+      if (!is_told) doubt("the order of curves around a crossing is not clear");
+    }
+    for (const auto& [half, lead] : leads_) put_before(half, lead);
+    std::vector<bool> is_within(g.edges.size(), false);
+    for (std::size_t e = 0; e < g.edges.size(); ++e)
+      is_within[e] = !is_among(g.around[static_cast<std::size_t>(g.edges[e].from)], static_cast<int>(e));
+    if (std::find(is_within.begin(), is_within.end(), true) != is_within.end()) g = without_edges(g, is_within);
+    for (std::size_t n = 0; n < g.nodes.size(); ++n)
+      if (extents_[n] > 0) result_.joined.push_back({{g.nodes[n], extents_[n]}, static_cast<int>(n)});
+  }
+
+  using End = std::pair<int, bool>;  ///< edge, reversed
+
+  /// From the node of a half-edge to that at its other end, also where these were joined with others.
+  Polyline whole_way(HalfEdge half) const {
+    Polyline points = result_.graph.edges[static_cast<std::size_t>(half.edge)].points;
+    if (half.reversed) std::reverse(points.begin(), points.end());
+    if (const auto lead = leads_.find({half.edge, half.reversed}); lead != leads_.end())
+      points.insert(points.begin(), lead->second.begin(), lead->second.end() - 1);
+    if (const auto lead = leads_.find({half.edge, !half.reversed}); lead != leads_.end())
+      points.insert(points.end(), lead->second.rbegin() + 1, lead->second.rend());
+    return points;
+  }
+
+  void put_before(const End& end, const Polyline& lead) {
+    Polyline& points = graph().edges[static_cast<std::size_t>(end.first)].points;
+    if (end.second)
+      points.insert(points.end(), lead.rbegin() + 1, lead.rend());
+    else
+      points.insert(points.begin(), lead.begin(), lead.end() - 1);
+  }
+
+  static bool is_among(const std::vector<HalfEdge>& around, int edge) {
+    return std::any_of(around.begin(), around.end(), [&](HalfEdge half) { return half.edge == edge; });
+  }
+
+  /// Shrinks the shortest edge that leads from a node to another one, so that both are one node. Faces stay what they
+  /// are, but for those between edges that are all in the circle about the node: these are left out. False: none is
+  /// near.
+  bool join_nearest(std::size_t n) {
+    PlaneGraph& g = graph();
+    const Point2 centre = g.nodes[n];
+    std::optional<HalfEdge> shortest;
+    double extent = widest_join * size_;
+    for (const HalfEdge half : g.around[n]) {
+      const auto other = static_cast<std::size_t>(head(g, half));
+      if (other == n) continue;
+      const double reach =
+          std::max({extents_[n], reach_of(half, centre), distance(g.nodes[other], centre) + extents_[other]});
+      if (reach > extent) continue;
+      shortest = half;
+      extent = reach;
+    }
+    if (!shortest) return false;
+    const auto nearest = static_cast<std::size_t>(head(g, *shortest));
+    const Polyline way = whole_way(*shortest);
+    for (const HalfEdge half : g.around[nearest]) {
+      Polyline& lead = leads_[{half.edge, half.reversed}];
+      lead.insert(lead.begin(), way.begin(), lead.empty() ? way.end() : way.end() - 1);
+      GraphEdge& edge = g.edges[static_cast<std::size_t>(half.edge)];
+      (half.reversed ? edge.to : edge.from) = static_cast<int>(n);
+      g.around[n].push_back(half);
+    }
+    g.around[nearest].clear();
+    extents_[nearest] = 0;
+    extents_[n] = extent;
+    std::erase_if(g.around[n], [&](HalfEdge half) {
+      const GraphEdge& edge = g.edges[static_cast<std::size_t>(half.edge)];
+      return edge.from == edge.to && reach_of(half, centre) <= extent;
+    });
+    return true;
   }
 
   /// Loci that meet the boundary do so tangentially: chords would lie about their order, points of the curves do not.
   /// No curves meet between the node and the circles, so that any circle would do; two that agree guard against a point
-  /// that was moved onto another branch.
-  void order_around(std::size_t n) {
+  /// that was moved onto another branch. False: rounding hides the order.
+  bool order_around(std::size_t n) {
     auto& around = graph().around[n];
-    if (around.size() < 3) return;
+    if (around.size() < 3) return true;
     double radius = largest_circle * size_;
     for (const HalfEdge half : around) radius = std::min(radius, 0.4 * reach_of(half, graph().nodes[n]));
     for (std::size_t k = 0; k < graph().nodes.size(); ++k) {
-      if (k != n) radius = std::min(radius, 0.5 * distance(graph().nodes[k], graph().nodes[n]));
+      if (k != n && !graph().around[k].empty())
+        radius = std::min(radius, 0.5 * distance(graph().nodes[k], graph().nodes[n]));
     }
     std::vector<HalfEdge> order;
     int agreeing = 0;
+    const double smallest = std::max(smallest_circle * size_, beyond_join * extents_[n]);
     // A curve is followed from the node where no point near it could be moved onto it.
     for (const bool follow : {false, true})
-      for (double r = radius; r > smallest_circle * size_ && agreeing < agreeing_circles; r *= follow ? 0.9 : 0.6) {
+      for (double r = radius; r > smallest && agreeing < agreeing_circles; r *= follow ? 0.9 : 0.6) {
         std::vector<HalfEdge> now = order_on_circle(n, r, follow);
         if (now.empty()) continue;
         agreeing = now == order ? agreeing + 1 : 0;
         order = std::move(now);
       }
-    if (agreeing < agreeing_circles) doubt("the order of curves around a crossing is not clear");
     if (!order.empty()) around = std::move(order);
+    return agreeing >= agreeing_circles;
   }
 
   /// How far from its node a half-edge gets.
@@ -690,7 +771,7 @@ class Builder {
       }
       Bearing bearing = bearing_of_curve(edge.owners.front(), centre, at, radius);
       if (follow && bearing.doubt > widest_doubt)
-        bearing = followed_bearing(edge.owners.front(), centre, points[1], radius).value_or(bearing);
+        bearing = followed_bearing(edge.owners.front(), centre, points, radius).value_or(bearing);
       bearings.emplace_back(bearing, half);
     }
     std::sort(bearings.begin(), bearings.end(),
@@ -769,13 +850,21 @@ class Builder {
     return 0;
   }
 
-  /// The same of a curve that is followed from the node; none where it is not found.
-  std::optional<Bearing> followed_bearing(int owner, const Point2& centre, const Point2& next, double radius) {
+  /// The same of a curve that is followed from the start of its edge, a node or near the centre; none where it is not
+  /// found.
+  std::optional<Bearing> followed_bearing(int owner, const Point2& centre, const Polyline& points, double radius) {
     const CurveProjection* const curve_projection = projection(owner);
-    const std::optional<Point2> at =
-        curve_projection == nullptr ? std::nullopt : curve_projection->at_distance(centre, next, radius);
-    if (!at) return std::nullopt;
-    return Bearing{std::atan2((*at)[1] - centre[1], (*at)[0] - centre[0]), 2 * rounding * size_ / radius};
+    if (curve_projection == nullptr) return std::nullopt;
+    double ahead = radius, off = std::numeric_limits<double>::infinity();
+    Point2 at{};
+    for (int i = 0; i < 6 && std::abs(off) > rounding * size_; ++i) {
+      const std::optional<Point2> found = curve_projection->at_distance(points.front(), points[1], ahead);
+      if (!found) return std::nullopt;
+      at = *found;
+      off = radius - distance(at, centre);
+      ahead += off;
+    }
+    return Bearing{std::atan2(at[1] - centre[1], at[0] - centre[0]), (std::abs(off) + 2 * rounding * size_) / radius};
   }
 
   /// The angle under which a curve crosses the circle: along its tangent to the radius, then back onto the curve.
@@ -845,9 +934,9 @@ class Builder {
   bool close_to_node(int first, int second, const Point2& at) {
     const PlaneGraph& g = graph();
     const GraphEdge &a = g.edges[static_cast<std::size_t>(first)], &b = g.edges[static_cast<std::size_t>(second)];
-    const double close = 3 * map_.tolerance + same_place * size_;
     for (const int n : {a.from, a.to}) {
       if (n != b.from && n != b.to) continue;
+      const double close = 3 * map_.tolerance + same_place * size_ + 2 * extents_[static_cast<std::size_t>(n)];
       // From the node along the first edge, as long as the second is next to it.
       Polyline points = a.points;
       if (n == a.to) std::reverse(points.begin(), points.end());
@@ -868,6 +957,8 @@ class Builder {
   Point2 low_{}, high_{};
   double size_ = 1;
   std::vector<Strand> strands_;
+  std::map<End, Polyline> leads_;  ///< from a node that others are joined with to where an edge begins
+  std::vector<double> extents_;    ///< how far from a node those are that are joined with it; 0: there are none
   std::map<const Strand*, BoxedPolyline> boxed_;
   std::map<int, BoxedPolyline> boxed_edges_;
   CurveProjections& projections_;

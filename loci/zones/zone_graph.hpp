@@ -15,8 +15,16 @@ namespace clearloci::loci {
 
 inline constexpr int box_owner = -1;  ///< in GraphEdge::owners: a side of the box; others index LocusMap::curves
 
+/// Nodes around which the order of curves is not told, joined with all edges between them: the faces around are right,
+/// those within the circle are left out.
+struct JoinedNodes {
+  core::Circle circle;
+  int node = 0;
+};
+
 struct ZoneGraph {
   PlaneGraph graph;
+  std::vector<JoinedNodes> joined;
   bool certified = true;
   std::vector<std::string> notes;  ///< why it is not
   bool finer_may_tell = true;      ///< finer polylines may certify it

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include "core/errors.hpp"
 #include "loci/curves/curves.hpp"
@@ -46,7 +47,8 @@ class ModeZones {
 
   bool finer_may_tell() const { return cut_.finer_may_tell; }
   bool is_cut_certified() const { return cut_.certified; }
-  /// Once zones are found: there are some of which no pose was, since chords are as coarse as they are wide.
+  /// Once zones are found: there are some of which no pose was, since chords are as coarse as they are wide, or what is
+  /// between curves about a node is left out.
   bool has_lost() const { return lost_ > 0; }
 
   /// The mode's zones go to `map`, which holds the loci that this was made from.
@@ -63,6 +65,8 @@ class ModeZones {
     for (Face& face : faces)
       if (!sketch_) refine(face);
     std::erase_if(faces, [&](const Face& face) { return face.area <= 0 && !lies_along_locus(face); });
+    if (!sketch_)
+      for (const JoinedNodes& joined : cut_.joined) lose(joined);
     for (const GraphEdge& edge : graph.edges)
       obstacles_.push_back({&edge.points, curve_of(edge) == nullptr ? nullptr : &projections_.of(edge.owners.front())});
 
@@ -210,6 +214,8 @@ class ModeZones {
         face.error += beside.error;
         const double slack = slack_[static_cast<std::size_t>(half.edge)];
         face.slack += std::max(slack, slack / 2 + std::abs(beside.area) * (slack > 0 ? 1 : 0));
+        for (const JoinedNodes& joined : cut_.joined)
+          if (tail(cut_.graph, half) == joined.node) face.slack += area_of(joined.circle);
       }
       return ring;
     };
@@ -253,6 +259,17 @@ class ModeZones {
     cut_.notes.push_back("a zone at (" + std::to_string(at[0]) + ", " + std::to_string(at[1]) +
                          ") is thinner than the tolerance: it is in doubt");
   }
+
+  void lose(const JoinedNodes& joined) {
+    const Circle& circle = joined.circle;
+    lost_ += area_of(circle);
+    std::ostringstream note;
+    note << "curves meet within " << circle.radius << " m of (" << circle.centre[0] << ", " << circle.centre[1]
+         << "), nearer than their order is told: what is between them there is in doubt";
+    cut_.notes.push_back(note.str());
+  }
+
+  static double area_of(const Circle& circle) { return std::numbers::pi * circle.radius * circle.radius; }
 
   /// More vertices where the area of a small face wants them, or where its chords are too coarse to tell its inside.
   void refine(Face& face) {

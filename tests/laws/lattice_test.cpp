@@ -60,6 +60,13 @@ TEST_P(RandomDesignsOfEveryForm, KeepTheLaws) {
   }));
 }
 
+// A slit of 0.2 deg of a torsion spring is a strip along x, between two rows of the grid in which its area was sampled.
+TEST(RandomDesign, AreaBesideASlitIsSampledRightly) {
+  const Judgement judgement = judge(law_design(LawRun().seed, Family::one_rail, 41), 60);
+  EXPECT_EQ(judgement.outcome, Outcome::held);
+  EXPECT_TRUE(judgement.faults.empty()) << judgement.faults.front();
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, RandomDesignsOfEveryForm, testing::ValuesIn(all_families),
                          [](const auto& test) { return name_of(test.param); });
 
