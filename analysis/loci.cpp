@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "analysis/model.hpp"
 #include "analysis/pose.hpp"
 #include "analysis/request_limits.hpp"
+#include "clearloci/work_limit.hpp"
 #include "core/errors.hpp"
 #include "core/fold.hpp"
 #include "core/shown_units.hpp"
@@ -295,6 +297,9 @@ void name_coordinates(const mechanism::Mechanism& mechanism, core::LocusMap& map
 std::vector<symbolic::DerivedProblem> derived_problems(const mechanism::Mechanism& mechanism,
                                                        const LociRequest& request,
                                                        const symbolic::LocusFamily* family) {
+  // Of algebra single steps are short, and the whole may take minutes.
+  std::optional<core::WorkLimit> limit;
+  if (request.deadline) limit.emplace(*request.deadline, [] { return false; });
   symbolic::Selection selection = selection_of(request);
   selection.working_modes = sides_to_trace(mechanism, request);
   std::vector<symbolic::DerivedProblem> derived =

@@ -196,10 +196,10 @@ class Followed {
   int add_mode(const DyadSides& sides) {
     constexpr std::size_t poses = 24;
     const std::vector<numeric::NumericModel> models{model_};
-    core::PoseStatics statics =
-        symbolic::pose_statics({&mechanism_}, sides,
-                               loaded_demands(models, sides, demands_of(mechanism_, request_),
-                                              mechanism::spread_poses(mechanism_, poses), map_.notes));
+    core::PoseStatics statics = symbolic::pose_statics(
+        {&mechanism_}, sides,
+        loaded_demands(models, sides, demands_of(mechanism_, request_), mechanism::spread_poses(mechanism_, poses),
+                       map_.notes, LeastSizes::are_left_out));
     const auto covered = cover_groups(mechanism_, lower_, upper_, request_.deadline, statics, map_.notes);
     loci::pose::PoseZerosEffort effort;
     effort.deadline = request_.deadline;

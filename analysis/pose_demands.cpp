@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "analysis/idle_efforts.hpp"
+#include "core/unloaded_words.hpp"
 #include "numeric/task_witness.hpp"
 #include "symbolic/unloaded_reactions.hpp"
 
@@ -14,43 +16,72 @@ using core::TaskDemand;
 
 namespace {
 
-/// Of every demand whether it is zero in every pose under all loads.
 std::vector<bool> unloaded_under_all(const std::vector<numeric::NumericModel>& models,
                                      const std::vector<TaskDemand>& demands) {
-  std::vector<bool> unloaded(demands.size(), true);
-  for (const numeric::NumericModel& model : models) {
-    const std::vector<bool> here = symbolic::unloaded_reactions(model.mechanism, demands);
-    for (std::size_t d = 0; d < demands.size(); ++d) unloaded[d] = unloaded[d] && here[d];
-  }
-  return unloaded;
+  std::vector<const mechanism::Mechanism*> loads;
+  for (const numeric::NumericModel& model : models) loads.push_back(&model.mechanism);
+  return symbolic::unloaded_reactions(loads, demands);
 }
+
+/// What is left out: joints by their contacts, the others by the reaction.
+struct LeftOut {
+  std::vector<std::string> joints, reactions;
+
+  void add(const TaskDemand& demand) {
+    const bool effort = demand.quantity == Quantity::M || demand.quantity == Quantity::F;
+    std::vector<std::string>& names = effort ? reactions : joints;
+    const std::string name = effort ? core::to_string(demand.quantity) + "_" + demand.joint : demand.joint;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+
+  /// `known`: behind what is said of joints, and of a reaction.
+  void tell(const std::string& known, std::vector<std::string>& notes) const {
+    if (!joints.empty()) notes.push_back(core::unloaded_note(joints) + known);
+    for (const std::string& name : reactions) notes.push_back(name + core::unloaded_words + known);
+  }
+};
 
 }  // namespace
 
-std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>& models, const std::vector<int>& sides,
-                                       std::vector<TaskDemand> demands, const std::vector<std::vector<double>>& poses,
-                                       std::vector<std::string>& notes) {
+std::vector<Loaded> loads_of_demands(const std::vector<numeric::NumericModel>& models, const std::vector<int>& sides,
+                                     const std::vector<TaskDemand>& demands,
+                                     const std::vector<std::vector<double>>& poses) {
   numeric::WitnessLoads loads;
   for (const numeric::NumericModel& model : models) loads.ends.push_back(&model);
   const numeric::TaskWitness all(loads, sides, demands, poses, numeric::TaskWitness::Rounding::of_coordinates);
-  using Loaded = numeric::TaskWitness::Loaded;
-  std::vector<TaskDemand> loaded;
-  std::string names;
-  std::vector<bool> unloaded;  // asked for where rounding leaves a doubt
+  using Found = numeric::TaskWitness::Loaded;
+  std::vector<Loaded> result;
+  std::optional<std::vector<bool>> unloaded;  // asked for where rounding does not tell
   for (std::size_t d = 0; d < demands.size(); ++d) {
-    const bool may_be_left = demands[d].least == 0 && !demands[d].bound;
-    const Loaded found = may_be_left ? all.is_loaded(static_cast<int>(d), poses) : Loaded::sometimes;
-    if (found == Loaded::perhaps && unloaded.empty()) unloaded = unloaded_under_all(models, all.demands());
-    const std::string name = core::to_string(demands[d].quantity) + "_" + demands[d].joint;
-    if (found == Loaded::never)
-      names += (names.empty() ? "" : ", ") + name;
-    else if (found == Loaded::perhaps && unloaded[d])
-      notes.push_back(name + " is zero in every pose under these loads");
-    else
-      loaded.push_back(std::move(demands[d]));
+    const Found found = demands[d].bound ? Found::sometimes : all.is_loaded(static_cast<int>(d), poses);
+    if (found != Found::sometimes && !unloaded) unloaded = unloaded_under_all(models, demands);
+    result.push_back(found == Found::sometimes ? Loaded::sometimes
+                     : (*unloaded)[d]          ? Loaded::never
+                     : found == Found::never   ? Loaded::never_to_rounding
+                                               : Loaded::perhaps);
   }
-  if (!names.empty())
-    notes.push_back(names + ": zero within rounding errors at every computed pose; treated as unloaded in every pose");
+  return result;
+}
+
+std::vector<TaskDemand> loaded_demands(const std::vector<numeric::NumericModel>& models, const std::vector<int>& sides,
+                                       std::vector<TaskDemand> demands, const std::vector<std::vector<double>>& poses,
+                                       std::vector<std::string>& notes, LeastSizes least) {
+  const std::vector<Loaded> known = loads_of_demands(models, sides, demands, poses);
+  std::vector<TaskDemand> loaded;
+  LeftOut proven, rounded;
+  bool unmet = false;
+  for (std::size_t d = 0; d < demands.size(); ++d) {
+    const bool stays = demands[d].least > 0 && least == LeastSizes::stay;
+    if (stays || !bears_nothing(known[d])) {
+      loaded.push_back(std::move(demands[d]));
+      continue;
+    }
+    unmet = unmet || demands[d].least > 0;
+    (known[d] == Loaded::never ? proven : rounded).add(demands[d]);
+  }
+  const std::string left_out = unmet ? core::no_least_size_words : "";
+  proven.tell(left_out, notes);
+  rounded.tell(" (zero within rounding errors at every computed pose)" + left_out, notes);
   return loaded;
 }
 

@@ -9,6 +9,7 @@
 #include "analysis/verification.hpp"
 #include "numeric/pose_error.hpp"
 #include "symbolic/pose_statics.hpp"
+#include "symbolic/unloaded_reactions.hpp"
 
 namespace clearloci {
 namespace {
@@ -26,6 +27,7 @@ constexpr double rounding_of_pose_errors = 1e-9;
 struct Displaced {
   core::PoseStatics statics;
   std::vector<PoseTakeUp> take_ups;
+  bool has_clearance = false;
 };
 
 Displaced displaced_by(const WidenedTask& widened, const DyadSides& sides) {
@@ -36,7 +38,12 @@ Displaced displaced_by(const WidenedTask& widened, const DyadSides& sides) {
   std::vector<core::TaskDemand> demands;
   for (core::TaskDemand& demand : take_up_demands(widened.loads().front()))
     if (widened.clearance({demand.joint, demand.quantity, 1}).upper() > 0) demands.push_back(std::move(demand));
-  Displaced result{symbolic::pose_statics(list, sides, demands, symbolic::ForceParts::cartesian), {}};
+  // Where a joint bears nothing, its parts are anywhere in its clearance; where it bears nothing of a force on the end
+  // effector either, that does not move the end effector.
+  const std::vector<bool> idle = symbolic::unloaded_reactions(list, demands);
+  std::size_t next = 0;
+  std::erase_if(demands, [&](const core::TaskDemand&) { return idle[next++]; });
+  Displaced result{symbolic::pose_statics(list, sides, demands, symbolic::ForceParts::cartesian), {}, !idle.empty()};
   for (core::PoseDemand& demand : std::exchange(result.statics.demands, {})) {
     const core::Interval clearance = widened.clearance({demand.demand.joint, demand.demand.quantity, 1});
     result.take_ups.push_back({std::move(demand.components), {clearance.lower(), clearance.upper()}});
@@ -73,7 +80,7 @@ void judge_displacement(const mechanism::Mechanism& mechanism, const core::Task&
                         const DyadSides& sides, const loci::pose::PoseRegion& region,
                         std::optional<std::chrono::steady_clock::time_point> deadline, Verification& result) {
   const Displaced displaced = displaced_by(widened, sides);
-  if (displaced.take_ups.empty())
+  if (!displaced.has_clearance)
     throw core::InputError({mechanism.file}, "no joint has a clearance, so there is no pose error",
                            "write such as clearance: {radial: 10e-6} at a joint, or leave pose_error out");
   const double allowed = std::nextafter(core::to_double(*task.pose_error), 0.0);

@@ -42,9 +42,9 @@ class RangeClaims {
     std::vector<std::string> notes;
     const std::vector<core::TaskDemand> asked = demands_of(mechanism_, request_);
     // Where no pose is within reach none tells what is never loaded.
-    added.demands = reached
-                        ? loaded_demands({model}, added.sides, asked, mechanism::spread_poses(mechanism_, poses), notes)
-                        : asked;
+    added.demands = reached ? loaded_demands({model}, added.sides, asked, mechanism::spread_poses(mechanism_, poses),
+                                             notes, LeastSizes::are_left_out)
+                            : asked;
     // Bounds of efforts are the model's.
     std::erase_if(added.demands, [](const core::TaskDemand& demand) { return demand.bound.has_value(); });
     for (const core::IsolatedPoint& point : map_.isolated_points)

@@ -352,10 +352,16 @@ class StaticsVerifier {
     for (const double t : {high, low})
       for (const int demand : {suspect.demand, -1})
         if (auto found = fails_at(at(t), demand)) return found;
-    // Where doubles do not tell that it is zero: its sign is certain a little to both sides.
+    // Where doubles do not tell that it is zero: its sign is certain a little to both sides. Nothing tells so across
+    // poses that are out of reach, at which a reaction may jump: there the boundary is looked for instead.
     for (double apart = 0x1p-50; apart < 1; apart *= 4) {
       const double before = std::max(0.0, low - apart), behind = std::min(1.0, high + apart);
       if (!region_.holds_way(at(before), at(behind), margin_)) break;
+      if (!cell_->at(at(high))) {
+        if (auto found = fails_at(at(behind), -1)) return found;
+        if (auto found = fails_at(at(before), -1)) return found;
+        continue;
+      }
       for (const int demand : {suspect.demand, -1})
         if (witness_->differs(at(before), at(behind), demand)) {
           using Kind = numeric::TaskFailure::Kind;

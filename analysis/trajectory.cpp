@@ -15,6 +15,7 @@
 #include "analysis/singular_modes.hpp"
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
+#include "core/unloaded_words.hpp"
 #include "mechanism/fits.hpp"
 #include "mechanism/handed_files.hpp"
 #include "mechanism/written_unit.hpp"
@@ -191,13 +192,20 @@ void add_sweep(const FlankMotions& motions, const numeric::LossThresholds& thres
     result.loss_curves.push_back({joint_name(motions.motion(), curve.joint), curve.quantity, std::move(curve.lines)});
 }
 
-/// "end_ahead of G2 is zero all along the path: ...".
+/// "S1, S2 bear nothing all along the path ...", "end_ahead of G2 is zero all along the path: ...".
 std::vector<std::string> idle_notes(const numeric::Motion& motion) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, joints;
   for (std::size_t j = 0; j < motion.columns.size(); ++j)
-    for (const core::Quantity quantity : numeric::idle_quantities(motion, j))
-      notes.push_back(core::to_string(quantity) + " of " + motion.model.mechanism.joints[j].name +
-                      " is zero all along the path: its take-up, and with it the pose error, is undefined");
+    for (const core::Quantity quantity : numeric::idle_quantities(motion, j)) {
+      const std::string& name = motion.model.mechanism.joints[j].name;
+      if (quantity == core::Quantity::f)
+        joints.push_back(name);
+      else
+        notes.push_back(core::to_string(quantity) + " of " + name +
+                        " is zero all along the path: its take-up, and with it the pose error, is undefined");
+    }
+  if (!joints.empty())
+    notes.push_back(core::words_of_idle(joints) + " all along the path" + core::undefined_take_up_words);
   return notes;
 }
 

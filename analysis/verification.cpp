@@ -7,16 +7,20 @@
 #include <string>
 
 #include "analysis/flanks.hpp"
+#include "analysis/idle_efforts.hpp"
 #include "analysis/loci.hpp"
 #include "analysis/model.hpp"
+#include "analysis/pose_demands.hpp"
 #include "analysis/preload.hpp"
 #include "analysis/request_limits.hpp"
 #include "analysis/side_names.hpp"
+#include "analysis/task_demands.hpp"
 #include "clearloci/handed_files.hpp"
 #include "core/errors.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/group_closing.hpp"
+#include "mechanism/notes.hpp"
 #include "mechanism/read_task.hpp"
 #include "mechanism/written_unit.hpp"
 
@@ -148,8 +152,57 @@ bool is_better(const Verification& a, const Verification& b, TaskFit fit) {
   return way(a) < way(b);
 }
 
+/// Of a task that asks for a least size of reactions that bear nothing in any pose: it fails at each of its poses.
+std::optional<Verification> refuted_as_unloaded(const Mechanism& mechanism, const Task& task,
+                                                const VerifyRequest& request) {
+  const LociRequest asked = request_of(task, request.loci);
+  std::vector<TaskDemand> demands = demands_of(mechanism, asked);
+  std::erase_if(demands, [](const TaskDemand& demand) { return demand.least == 0; });
+  if (demands.empty()) return std::nullopt;
+  const DyadSides sides = requested_modes(mechanism, asked).front();
+  // One design and one of the loads are enough.
+  Task nominal = task;
+  nominal.tolerances.clear();
+  nominal.loads_within.clear();
+  const WidenedTask widened(mechanism, nominal);
+  const std::vector<std::vector<double>> poses =
+      mechanism::is_plane(mechanism)
+          ? usual_poses(loci::TaskRegion(task.shape))
+          : loci::pose::PoseRegion(task.shape, widened.metric(mechanism, nominal), widened.beside()).samples();
+  std::vector<numeric::NumericModel> models;
+  for (const Mechanism& loaded : widened.loads()) models.push_back(numeric::compile(loaded));
+  const auto at = std::find_if(poses.begin(), poses.end(), [&](const std::vector<double>& pose) {
+    return numeric::reachable(models.front(), pose, sides);
+  });
+  if (at == poses.end()) return std::nullopt;
+  for (numeric::NumericModel& other : models_beside_efforts(widened.loads().front()))
+    models.push_back(std::move(other));
+  const std::vector<Loaded> known = loads_of_demands(models, sides, demands, poses);
+  core::TaskWitness witness;
+  for (std::size_t d = 0; d < demands.size(); ++d) {
+    if (known[d] != Loaded::never || (witness.least && *witness.least != demands[d].least)) continue;
+    witness.least = demands[d].least;
+    witness.too_small.push_back({demands[d].joint, demands[d].quantity, 1});
+  }
+  if (witness.too_small.empty()) return std::nullopt;
+  witness.kind = core::TaskWitness::Kind::too_small;
+  witness.at = *at;
+  if (task.loads) witness.load = load_between(*task.loads, 0);
+  Verification result;
+  result.task = task;
+  result.verdict = core::Verdict::refuted;
+  result.witness = std::move(witness);
+  result.notes = mechanism::notes_of(mechanism);
+  if (!mechanism::is_plane(mechanism)) return result;
+  result.map.loci = empty_map(mechanism);
+  result.mode = mode_of(sides, result.map.loci.tower);
+  return result;
+}
+
 Verification answered(const Mechanism& mechanism, const Task& task, const VerifyRequest& request) {
-  Verification result = is_asked_of_tower(mechanism, task, request.fit)
+  std::optional<Verification> unloaded = refuted_as_unloaded(mechanism, task, request);
+  Verification result = unloaded ? std::move(*unloaded)
+                        : is_asked_of_tower(mechanism, task, request.fit)
                             ? verify_by_tower(mechanism, task, request)
                             : verify_by_statics(mechanism::with_bounded_belts(mechanism), task, request);
   tell_mechanism(mechanism, request, result);

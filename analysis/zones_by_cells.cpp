@@ -381,7 +381,8 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   const std::vector<core::TaskDemand> wanted = demands_of(ground.mechanism, request);
   core::PoseStatics statics = symbolic::pose_statics(
       {&ground.mechanism}, sides,
-      loaded_demands(ground.models, sides, wanted, mechanism::spread_poses(ground.mechanism, poses), map.loci.notes));
+      loaded_demands(ground.models, sides, wanted, mechanism::spread_poses(ground.mechanism, poses), map.loci.notes,
+                     LeastSizes::are_left_out));
   const auto covered =
       cover_groups(ground.mechanism, ground.lower, ground.upper, request.deadline, statics, map.loci.notes);
   loci::pose::CellZoneEffort effort;

@@ -27,9 +27,11 @@ void WorkLimit::check() {
 }
 
 void WorkLimit::check_now() {
-  if (innermost == nullptr) return;
-  if (std::chrono::steady_clock::now() > innermost->deadline_) throw LimitReached("the time limit was reached");
-  if (innermost->abandoned_()) throw LimitReached("a newer request has taken the place of this one");
+  const auto now = std::chrono::steady_clock::now();
+  for (const WorkLimit* limit = innermost; limit != nullptr; limit = limit->outer_) {
+    if (now > limit->deadline_) throw LimitReached("the time limit was reached");
+    if (limit->abandoned_()) throw LimitReached("a newer request has taken the place of this one");
+  }
 }
 
 }  // namespace clearloci::inline core

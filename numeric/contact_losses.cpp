@@ -366,6 +366,7 @@ bool is_idle(const Motion& motion, std::size_t joint, core::Quantity quantity) {
   if (core::is_guide_end(quantity))
     return !motion.idle.ends.empty() && motion.idle.ends[joint][quantity == core::Quantity::end_ahead ? 0 : 1];
   if (quantity != core::Quantity::f) return zero(columns.couple);
+  if (is_idle_across(motion, joint)) return true;
   return columns.fx < 0 ? zero(columns.normal) : zero(columns.fx) && zero(columns.fy) && zero(columns.fz);
 }
 

@@ -11,6 +11,7 @@
 #include "core/shown_units.hpp"
 #include "mechanism/actions.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "numeric/bounded.hpp"
 #include "numeric/group_solution.hpp"
 #include "numeric/instant_equations.hpp"
 #include "numeric/peak.hpp"
@@ -155,6 +156,31 @@ Instant instant(const Motion& motion, std::size_t interval, double tau) {
   return at;
 }
 
+bool bears_across(const Motion& motion, std::size_t joint) {
+  const JointColumns& c = motion.columns[joint];
+  return c.fx >= 0 && c.fy >= 0 && c.fz >= 0 &&
+         mechanism::presses_across_axis(motion.model.mechanism, motion.model.mechanism.joints[joint]);
+}
+
+bool is_idle_across(const Motion& motion, std::size_t joint) {
+  return !motion.idle.ends.empty() && bears_across(motion, joint) && motion.idle.ends[joint][0];
+}
+
+namespace {
+
+/// Whether the part of a joint's force across its axis is zero, to the rounding of the solution and of that part.
+bool is_zero_across(const Motion& motion, const Instant& at, std::size_t joint, const Eigen::VectorXd& values,
+                    const Eigen::VectorXd& bounds) {
+  const JointColumns& c = motion.columns[joint];
+  constexpr double roundings = 16;  // of u (u . f), and of u itself
+  const double whole = Vector3d(values(c.fx), values(c.fy), values(c.fz)).norm();
+  const double bound = Vector3d(bounds(c.fx), bounds(c.fy), bounds(c.fz)).norm() + roundings * unit_roundoff * whole;
+  const auto index = static_cast<mechanism::JointIndex>(joint);
+  return pressing_force(motion, at, index, values, Eigen::VectorXd::Zero(values.size())).value.norm() <= bound;
+}
+
+}  // namespace
+
 Idle idle_parts(const Motion& motion) {
   constexpr std::array shares = {0.2361, 0.5858, 0.8284};  // off the middle, where symmetric designs have zeros
   Idle idle{std::vector<bool>(motion.model.unknowns.size(), true),
@@ -176,6 +202,10 @@ Idle idle_parts(const Motion& motion) {
         }
         for (std::size_t j = 0; j < idle.ends.size(); ++j) {
           const JointColumns& columns = motion.columns[j];
+          if (bears_across(motion, j)) {
+            if (!is_zero_across(motion, at, j, *values, *bounds)) idle.ends[j] = {false, false};
+            continue;
+          }
           const double h = motion.clearances[j].half_length;
           if (columns.normal < 0 || columns.tilt < 0 || !(h > 0)) {
             idle.ends[j] = {false, false};
@@ -200,6 +230,7 @@ std::vector<JointReaction> joint_reactions(const Motion& motion, const Instant& 
   for (std::size_t j = 0; j < all.size(); ++j) {
     Vector3d& whole = mechanism::traits(model.mechanism.joints[j]).slides ? all[j].force : all[j].couple;
     whole -= all[j].actuator * at.axes[j];
+    if (is_idle_across(motion, j)) all[j].force.setZero();
   }
   return all;
 }

@@ -33,7 +33,8 @@ struct BodyDirection {
 /// What is zero all along a path, at rest and in motion. Empty: not known.
 struct Idle {
   std::vector<bool> unknowns = {};
-  /// Of each joint's guide, what its ends bear, N + T/h ahead and N - T/h behind.
+  /// Of each joint's guide, what its ends bear, N + T/h ahead and N - T/h behind; of a pin or sleeve in space, twice,
+  /// what presses its parts together across its axis.
   std::vector<std::array<bool, 2>> ends = {};
 };
 
@@ -94,6 +95,10 @@ Instant instant_of(const Motion& motion, const std::vector<Series>& coordinates)
 /// What is zero, to the rounding of the solution, at some instants of every interval: what the equations ask of it does
 /// not depend on where these are. Instants out of reach or next to a singularity tell nothing.
 Idle idle_parts(const Motion& motion);
+
+/// A pin or sleeve in space whose force may be along its axis alone; whether it is, all along the path.
+bool bears_across(const Motion& motion, std::size_t joint);
+bool is_idle_across(const Motion& motion, std::size_t joint);
 
 /// What joints exert at an instant, of a column of the unknowns: as of reactions.hpp.
 std::vector<JointReaction> joint_reactions(const Motion& motion, const Instant& at, const Eigen::VectorXd& values);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/unloaded_words.hpp"
 #include "report/file_units.hpp"
 #include "report/loci_json.hpp"
 #include "report/pose.hpp"
@@ -171,8 +172,8 @@ std::string jumps_text(const core::Errors& errors, const core::ModeErrors& mode)
 }
 
 std::string never_loaded_words(const std::vector<std::string>& joints) {
-  return fmt::format("No error under the load: {} bear{} nothing in any pose, so the take-up is undefined.\n",
-                     fmt::join(joints, ", "), joints.size() == 1 ? "s" : "");
+  return fmt::format("No error under the load: {} in any pose{}.\n", core::words_of_idle(joints),
+                     core::undefined_take_up_words);
 }
 
 std::string mode_text(const core::Errors& errors, const core::ModeErrors& mode) {

@@ -9,6 +9,7 @@
 
 #include "core/shown_units.hpp"
 #include "core/task.hpp"
+#include "core/unloaded_words.hpp"
 #include "report/file_units.hpp"
 #include "report/loci_json.hpp"
 #include "report/picture.hpp"
@@ -169,6 +170,17 @@ std::vector<double> without_rounding(const core::WitnessLoad& load) {
   return couple;
 }
 
+/// Joints by their contacts, motors by what they exert.
+std::vector<std::string> idle_names(const std::vector<core::Vanishing>& reactions) {
+  std::vector<std::string> names;
+  for (const core::Vanishing& reaction : reactions) {
+    const bool effort = reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::F;
+    std::string name = effort ? reaction_name(reaction) : reaction.joint;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
 /// Two different values by as many digits as tell them apart.
 std::array<std::string, 2> told_apart(double one, double other) {
   std::array<std::string, 2> words;
@@ -209,6 +221,11 @@ std::string witness_words(const core::TaskWitness& witness, const core::Units& u
     case Kind::too_small: {
       const core::Vanishing& reaction = witness.too_small.front();
       const ShownUnit unit = shown_unit(core::unit_of(reaction.quantity), units);
+      if (!witness.size) {
+        words = fmt::format("{} in any pose, less than {} {}", core::words_of_idle(idle_names(witness.too_small)),
+                            engineering(core::to_double(*witness.least) * unit.per_si, size_digits), unit.name);
+        break;
+      }
       const auto [size, least] = told_apart(*witness.size * unit.per_si, core::to_double(*witness.least) * unit.per_si);
       words = fmt::format("|{}| is {} {}, less than {}", reaction_name(reaction), size, unit.name, least);
       break;

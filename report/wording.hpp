@@ -39,9 +39,6 @@ std::string reason_words(core::LocusKind kind, std::span<const core::Vanishing> 
 std::string closed_form_words(const core::ClosedForm& form, std::span<const std::string> coordinates,
                               bool exact = false);
 
-/// What a note says behind the name of a reaction, which says so of the whole mechanism.
-inline constexpr const char* unloaded_words = " is zero in every pose under these loads";
-
 /// Sentences of a map each once; those that say the same of several reactions as one.
 std::vector<std::string> told_once(const std::vector<std::string>& notes);
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/shown_units.hpp"
+#include "core/unloaded_words.hpp"
 #include "report/file_units.hpp"
 #include "report/preload.hpp"
 #include "report/wording.hpp"
@@ -24,7 +25,12 @@ std::string sign_list(const core::Zones& map, const core::Zone& zone) {
   std::string signs;
   for (const auto& [reaction, sign] : zone.signs) {
     const std::string unloaded = core::to_string(reaction.quantity) + reaction.joint + unloaded_words;
-    if (std::find(notes.begin(), notes.end(), unloaded) != notes.end()) continue;
+    const bool effort = reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::F;
+    if (std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
+          const std::vector<std::string> idle = core::joints_of_unloaded_note(note);
+          return note == unloaded || (!effort && std::find(idle.begin(), idle.end(), reaction.joint) != idle.end());
+        }))
+      continue;
     signs += (signs.empty() ? "" : " ") + reaction_name(reaction) + sign_words(sign);
   }
   return signs;

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "core/unloaded_words.hpp"
+
 namespace clearloci::symbolic {
 
 using core::FactorRole;
+using core::Quantity;
 
 namespace {
 
@@ -14,19 +17,44 @@ bool vanishes_everywhere(const FactoredPoly& p, const Elimination& elimination) 
          });
 }
 
+/// A note of the joints of which every part of the contact is zero, and one of each other reaction.
+void tell_unloaded(Derivation& d, const std::vector<const Reaction*>& zero) {
+  // The sheet is one side alone, and the joint may bear something on the other.
+  const bool folds = !d.geometry.folds().empty();
+  const auto is_zero = [&](const std::string& joint, Quantity quantity) {
+    return std::any_of(zero.begin(), zero.end(), [&](const Reaction* reaction) {
+      return reaction->joint == joint && reaction->quantity == quantity;
+    });
+  };
+  std::vector<std::string> idle;
+  for (const Reaction* const reaction : zero) {
+    const std::string& joint = reaction->joint;
+    std::vector<Quantity> contact = core::force_components(d.result.problem, joint);
+    if (core::is_guide_end(reaction->quantity)) contact = {Quantity::end_ahead, Quantity::end_behind};
+    const bool part = std::find(contact.begin(), contact.end(), reaction->quantity) != contact.end();
+    const bool whole = std::all_of(contact.begin(), contact.end(), [&](Quantity q) { return is_zero(joint, q); });
+    if (folds)
+      d.result.notes.push_back(reaction->name +
+                               " is zero in every pose on one side of those in which the mechanism folds, under these "
+                               "loads");
+    else if (!part || !whole)
+      d.result.notes.push_back(reaction->name + core::unloaded_words);
+    else if (std::find(idle.begin(), idle.end(), joint) == idle.end())
+      idle.push_back(joint);
+  }
+  if (idle.empty()) return;
+  d.result.notes.push_back(core::unloaded_note(idle) + (d.selection.min_force ? core::no_least_size_words : ""));
+}
+
 }  // namespace
 
 void collect_factors(Derivation& d) {
+  std::vector<const Reaction*> zero;
   for (const Reaction& reaction : d.reactions) {
     const std::string& joint = reaction.joint;
     const FactoredPoly& numerator = reaction.numerator;
     if (vanishes_everywhere(numerator, d.elimination)) {
-      if (d.selected(joint) && d.is_asked_for(joint, reaction.quantity)) {
-        const bool folds = !d.geometry.folds().empty();  // the sheet is one side alone
-        d.result.notes.push_back(reaction.name + " is zero in every pose " +
-                                 (folds ? "on one side of those in which the mechanism folds, " : "") +
-                                 "under these loads");
-      }
+      if (d.selected(joint) && d.is_asked_for(joint, reaction.quantity)) zero.push_back(&reaction);
       d.result.problem.always_zero.push_back({joint, reaction.quantity});
       continue;
     }
@@ -42,6 +70,7 @@ void collect_factors(Derivation& d) {
       found->vanishing.push_back({joint, reaction.quantity, multiplicity});
     }
   }
+  tell_unloaded(d, zero);
 }
 
 void take_determinant_apart(Derivation& d) {

@@ -15,4 +15,8 @@ namespace clearloci::symbolic {
 std::vector<bool> unloaded_reactions(const mechanism::Mechanism& mechanism,
                                      const std::vector<core::TaskDemand>& demands);
 
+/// The same under the loads of each of some mechanisms.
+std::vector<bool> unloaded_reactions(const std::vector<const mechanism::Mechanism*>& loads,
+                                     const std::vector<core::TaskDemand>& demands);
+
 }  // namespace clearloci::symbolic

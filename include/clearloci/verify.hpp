@@ -127,7 +127,9 @@ struct TaskWitness {
   std::vector<double> load = {};  ///< N; of a range of loads, where it takes one
   std::vector<Vanishing> too_small = {};
   std::vector<Vanishing> beyond_bound = {};
-  std::optional<double> size = {};     ///< of the first of them, N or N m; of the displacement, m
+  /// Of the first of them, N or N m; of the displacement, m. Without one, those of `too_small` bear nothing in any
+  /// pose.
+  std::optional<double> size = {};
   std::optional<Rational> least = {};  ///< that is asked of it, N or N m; of an effort its lower bound
   std::optional<Rational> most = {};   ///< that the displacement may be, m; of an effort its upper bound
   double distance = 0;                 ///< from the task
