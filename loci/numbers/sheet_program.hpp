@@ -19,6 +19,7 @@
 #include "core/root_tower.hpp"
 #include "loci/numbers/batch.hpp"
 #include "loci/numbers/double_double.hpp"
+#include "loci/numbers/form_batch.hpp"
 #include "loci/numbers/interval_batch.hpp"
 #include "loci/numbers/jet.hpp"
 #include "loci/numbers/jet_batch.hpp"
@@ -171,6 +172,9 @@ void SheetProgram::Registers<T>::run(int stage) {
   if constexpr (std::is_same_v<T, IntervalBatch> || std::is_same_v<T, JetBatch> || std::is_same_v<T, JetBatchOver<3>>) {
     interval_batch::run(code.instructions.data() + begin, code.instructions.data() + end, values,
                         values + offset + begin, lanes_);
+  } else if constexpr (std::is_same_v<T, FormBatch<2>> || std::is_same_v<T, FormBatch<3>> ||
+                       std::is_same_v<T, FormBatch<4>>) {
+    form_batch::run(code.instructions.data() + begin, code.instructions.data() + end, values, values + offset + begin);
   } else if constexpr (std::is_same_v<T, Batch>) {
     batch::run(code.instructions.data() + begin, code.instructions.data() + end, values, values + offset + begin);
   } else {

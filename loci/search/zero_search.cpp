@@ -260,14 +260,9 @@ void ZeroSearch::contract(Candidate& candidate, const SheetCell& cell) const {
   };
   for (int sweep = 0; sweep < sweeps && !candidate.excluded; ++sweep) candidate.excluded = !solve_all();
   if (candidate.excluded) return;
-  const double least = thinnest * std::max(places[0].width(), places[1].width());
-  const auto kept = [&](int c) {
-    const double middle = places[c].middle();
-    return meet(hull(places[c], Interval(middle - 0.5 * least, middle + 0.5 * least)), candidate.all[c]);
-  };
-  candidate.all[0] = kept(0);
-  candidate.all[1] = kept(1);
-  candidate.axis = candidate.all[0].width() > candidate.all[1].width() ? 0 : 1;
+  std::vector<Interval> left = candidate.all;
+  std::copy_n(places.begin(), n, left.begin());
+  leave(candidate, left);
 }
 
 void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& next) {
@@ -291,6 +286,10 @@ void ZeroSearch::examine(const Box* first, const Box* last, std::vector<Box>& ne
   });
   for (const std::size_t i : open) candidates_[i].excluded = candidates_[i].excluded || known(candidates_[i]);
   drop_excluded();
+  if (is_smooth_worthwhile_) {
+    contract_by_forms(open);
+    drop_excluded();
+  }
   enclose(those([](const Candidate& candidate) { return !candidate.lifted.empty(); }), Extent::cell, true,
           [&](Candidate& candidate, const SheetCell& cell, bool) { exclude_by_slopes(candidate, cell); });
   drop_excluded();
@@ -345,6 +344,51 @@ bool ZeroSearch::settle_touch(const Box& box, const std::vector<Interval>& roots
   state.settled.push_back({lifted, touch->box, touch->enclosure});
   if (!touch->enclosure.empty() && !is_settled) state.touches.push_back(std::move(*touch));
   return true;
+}
+
+template <std::size_t N>
+void ZeroSearch::contract_by_forms(const Group& group, std::optional<FormCells<N>>& cells) {
+  using Cells = FormCells<N>;
+  Group own;
+  for (const std::size_t i : group)
+    if (candidates_[i].lifted.size() == N - 2) own.push_back(i);
+  if (own.empty()) return;
+  if (!cells) cells.emplace(*program_, mode());
+  for (std::size_t first = 0; first < own.size(); first += Cells::size) {
+    const std::size_t count = std::min(Cells::size, own.size() - first);
+    std::array<typename Cells::Place, Cells::size> places;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const Candidate& candidate = candidates_[own[first + lane]];
+      places[lane] = {&candidate.all, &candidate.lifted};
+    }
+    cells->enter(places, count);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      Candidate& candidate = candidates_[own[first + lane]];
+      std::vector<Interval> left = candidate.all;
+      candidate.excluded = !cells->contract(lane, system_, left);
+      if (!candidate.excluded) leave(candidate, left);
+    }
+  }
+}
+
+/// `left`: enclosures of all variables.
+void ZeroSearch::leave(Candidate& candidate, const std::vector<Interval>& left) {
+  const double least = thinnest * std::max(left[0].width(), left[1].width());
+  for (const std::size_t c : {0u, 1u}) {
+    const double middle = left[c].middle();
+    candidate.all[c] = meet(hull(left[c], Interval(middle - 0.5 * least, middle + 0.5 * least)), candidate.all[c]);
+  }
+  candidate.axis = candidate.all[0].width() > candidate.all[1].width() ? 0 : 1;
+  for (const int root : candidate.lifted) {
+    const auto j = static_cast<std::size_t>(root);
+    candidate.roots[j] = candidate.all[2 + j] = left[2 + j];
+  }
+}
+
+void ZeroSearch::contract_by_forms(const Group& group) {
+  contract_by_forms(group, forms_);
+  contract_by_forms(group, forms_at_rims_);
+  contract_by_forms(group, forms_at_corners_);
 }
 
 void ZeroSearch::exclude_smoothly(const Group& group) {

@@ -112,6 +112,12 @@ class ZeroSearch {
   bool excludes_zero(const Function& enclosure) const;
   /// The cell is next to a place where the curves touch or nearly do, in a box that is settled from now on.
   bool settle_touch(const Box& box, const std::vector<Interval>& roots, const std::vector<int>& lifted);
+  /// Leaves of candidates' cells what forms of all equations together (form_cells.hpp) do not exclude.
+  void contract_by_forms(const Group& group);
+  template <std::size_t N>
+  void contract_by_forms(const Group& group, std::optional<FormCells<N>>& cells);
+  /// Makes the candidate's cell what is left of it, but not too slender.
+  static void leave(Candidate& candidate, const std::vector<Interval>& left);
   /// By second-order enclosures.
   void exclude_smoothly(const Group& group);
   int axis_to_cut(const SheetCell& cell, const PlaneCell& place) const;
@@ -135,6 +141,9 @@ class ZeroSearch {
   bool is_smooth_worthwhile_;
   std::optional<SmoothCell> smooth_;                // once it is asked for
   std::optional<SmoothCells> smooth_side_by_side_;  // likewise
+  std::optional<FormCells<2>> forms_;               // likewise, as the next two
+  std::optional<FormCells<3>> forms_at_rims_;
+  std::optional<FormCells<4>> forms_at_corners_;
   Limits limits_{};
   std::vector<State> states_;          // of the searches
   std::vector<Candidate> candidates_;  // under examination

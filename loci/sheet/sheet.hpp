@@ -10,6 +10,7 @@
 #include "loci/sheet/boundary_curves.hpp"
 #include "loci/sheet/chain_rule.hpp"
 #include "loci/sheet/fine_zero.hpp"
+#include "loci/sheet/form_cells.hpp"
 #include "loci/sheet/krawczyk.hpp"
 #include "loci/sheet/lifted_cell.hpp"
 #include "loci/sheet/patch.hpp"
