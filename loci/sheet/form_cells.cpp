@@ -58,7 +58,7 @@ bool meet_noise(Noise& noise, const Range& range) {
   const double lower = std::fmax(noise.m - noise.d, range.lower), upper = std::fmin(noise.m + noise.d, range.upper);
   if (lower > upper + roundings) return false;
   noise.m = 0.5 * (lower + upper);
-  noise.d = std::fmin(noise.d, std::fmax(upper - noise.m, noise.m - lower) + 0x1p-50);
+  noise.d = std::fmin(noise.d, 0.5 * std::abs(upper - lower) + 0x1p-48);
   return true;
 }
 
