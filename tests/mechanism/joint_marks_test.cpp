@@ -8,7 +8,7 @@
 namespace clearloci::mechanism {
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string refused_for_marks(const std::string& text) {
   try {
     parse_mechanism("format: 1\n" + text, "m.yaml");
   } catch (const core::InputError& error) {
@@ -19,7 +19,9 @@ std::string refusal(const std::string& text) {
 
 std::string block(const std::string& place) {
   return "workspace: {x: [-0.2, 0.3], th: {angle: [10 deg, 80 deg]}}\n"
-         "points: {P: " + place + ", Q: {from: P, by: ['0.3*cos(th)', '0.3*sin(th)']}}\n"
+         "points: {P: " +
+         place +
+         ", Q: {from: P, by: ['0.3*cos(th)', '0.3*sin(th)']}}\n"
          "links: {block: {points: [P]}, rod: {points: [P, Q]}}\n"
          "joints:\n"
          "  G: {prismatic: [ground, block], at: P, axis: [3, 4], actuated: true}\n"
@@ -29,8 +31,8 @@ std::string block(const std::string& place) {
 }
 
 TEST(JointMarks, ABlockStaysOnItsGuide) {
-  EXPECT_EQ(refusal(block("[3*x + 1000000, 4*x]")), "");
-  const std::string told = refusal(block("[3*x, 5*x]"));
+  EXPECT_EQ(refused_for_marks(block("[3*x + 1000000, 4*x]")), "");
+  const std::string told = refused_for_marks(block("[3*x, 5*x]"));
   EXPECT_NE(told.find("joint G leaves its line in the ground"), std::string::npos) << told;
   EXPECT_NE(told.find(" at x = "), std::string::npos) << told;
 }
@@ -40,16 +42,18 @@ std::string arm(const std::string& axis) {
          "workspace: {t: {angle: [10 deg, 80 deg]}}\n"
          "points: {A: [1, 2, 3], P: [1 + cos(t), 2 + 4/5*sin(t), 3 + 3/5*sin(t)]}\n"
          "links: {arm: {points: [A, P]}}\n"
-         "joints: {A: {revolute: [ground, arm], at: A, axis: " + axis + ", actuated: true, clearance: {radial: 1e-5}}}\n"
+         "joints: {A: {revolute: [ground, arm], at: A, axis: " +
+         axis +
+         ", actuated: true, clearance: {radial: 1e-5}}}\n"
          "end_effector: {link: arm, at: P}\n"
          "loads: [{link: arm, at: P, force: [3, -10, 5]}]\n";
 }
 
 TEST(JointMarks, AnAxisKeepsItsPlaceInBothLinks) {
-  EXPECT_EQ(refusal(arm("[0, -3, 4]")), "");
-  const std::string told = refusal(arm("[0, 0, 1]"));
+  EXPECT_EQ(refused_for_marks(arm("[0, -3, 4]")), "");
+  const std::string told = refused_for_marks(arm("[0, 0, 1]"));
   EXPECT_NE(told.find("the axis of joint A turns in link arm"), std::string::npos) << told;
-  const std::string with_arm = refusal(arm("P - A"));
+  const std::string with_arm = refused_for_marks(arm("P - A"));
   EXPECT_NE(with_arm.find("the axis of joint A turns in the ground"), std::string::npos) << with_arm;
 }
 
@@ -59,7 +63,9 @@ std::string slide(const std::string& turn) {
          "points:\n"
          "  O: [0, 0, 0]\n"
          "  Q: ['r*cos(t)', 'r*sin(t)', 0]\n"
-         "  R: {from: Q, by: ['-sin(t)*cos(" + turn + ")', 'cos(t)*cos(" + turn + ")', 'sin(" + turn + ")']}\n"
+         "  R: {from: Q, by: ['-sin(t)*cos(" +
+         turn + ")', 'cos(t)*cos(" + turn + ")', 'sin(" + turn +
+         ")']}\n"
          "links: {arm: {points: [O]}, sleeve: {points: [Q, R]}}\n"
          "joints:\n"
          "  O: {revolute: [ground, arm], at: O, axis: [0, 0, 1], actuated: true, clearance: {radial: 1e-5}}\n"
@@ -69,8 +75,8 @@ std::string slide(const std::string& turn) {
 }
 
 TEST(JointMarks, LinksOfAPrismaticJointDoNotTurnAgainstEachOther) {
-  EXPECT_EQ(refusal(slide("1/3 rad")), "");
-  const std::string told = refusal(slide("t"));
+  EXPECT_EQ(refused_for_marks(slide("1/3 rad")), "");
+  const std::string told = refused_for_marks(slide("t"));
   EXPECT_NE(told.find("link sleeve turns against link arm, which joint Q does not allow"), std::string::npos) << told;
 }
 
