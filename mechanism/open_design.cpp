@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/spring_ends.hpp"
 
 namespace clearloci::mechanism {
 namespace {
@@ -242,7 +243,8 @@ OpenDesign open_design(const Mechanism& mechanism, const std::vector<ParameterRa
     joint.clearance = opened(*joint.clearance, nominal);
   }
   for (Limit& limit : result.mechanism.limits) {
-    limit.lower_out_of_reach = limit.upper_out_of_reach = false;  // of other lengths they may be within
+    // Of other lengths they may be within. What is left to a spring ends on one side whatever its ends stand on.
+    if (!words_of_spring_ends(mechanism, limit)) limit.lower_out_of_reach = limit.upper_out_of_reach = false;
     for (Expression* expression : {&limit.lower, &limit.upper}) {
       if (opening.dependence(*expression).varied)
         throw core::InputError(limit.where, "a limit of the workspace is varied",

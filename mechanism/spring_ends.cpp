@@ -25,7 +25,6 @@ class Ends {
                &b = points[static_cast<std::size_t>(spring_.to_point)];
     if (!a || !b) return NAN;
     const double distance = std::hypot((*b)[0] - (*a)[0], (*b)[1] - (*a)[1], (*b)[2] - (*a)[2]);
-    greatest_ = std::max(greatest_, distance);
     return distance;
   }
 
@@ -38,9 +37,13 @@ class Ends {
     };
     std::vector<double> seen;
     for (int i = 0; i <= looks; ++i) seen.push_back(at(static_cast<double>(i) / looks));
+    std::vector<double> known = seen;
+    std::erase_if(known, [](double distance) { return std::isnan(distance); });
+    if (known.empty()) return INFINITY;
+    seen_.insert(seen_.end(), known.begin(), known.end());
     // Ends that keep their distance, as those of a belt do, are nearest nowhere.
-    const auto [nearest, farthest] = std::minmax_element(seen.begin(), seen.end());
-    if (*farthest - *nearest <= rounding * greatest_) return *nearest;
+    const auto [nearest, farthest] = std::minmax_element(known.begin(), known.end());
+    if (*farthest - *nearest <= rounding * *farthest) return *nearest;
     double least = INFINITY;
     for (int i = 1; i < looks; ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -56,12 +59,20 @@ class Ends {
     return least;
   }
 
-  double greatest() const { return greatest_; }
+  /// The greatest length that was seen. A point where two lines cross goes to infinity where they become parallel: of
+  /// lengths beside such poses nothing is a part.
+  double greatest() {
+    if (seen_.empty()) return 0;
+    constexpr double most_of_usual = 8;
+    const auto middle = seen_.begin() + static_cast<std::ptrdiff_t>(seen_.size() / 2);
+    std::nth_element(seen_.begin(), middle, seen_.end());
+    return std::min(*std::max_element(middle, seen_.end()), most_of_usual * *middle);
+  }
 
  private:
   const Mechanism& m_;
   const Spring& spring_;
-  double greatest_ = 0;
+  std::vector<double> seen_;
 };
 
 bool meet(Ends& ends, const Mechanism& mechanism) {
@@ -76,11 +87,10 @@ bool meet(Ends& ends, const Mechanism& mechanism) {
   constexpr std::size_t ways = 8;
   constexpr int looks = 16;
   const std::vector<SampledPosture> postures = sample_poses(mechanism, working_mode(mechanism), ways + 1);
-  for (std::size_t i = 1; i < postures.size(); ++i) {
-    const double least = ends.least_between(postures[i - 1].pose, postures[i].pose, looks);
-    if (least <= rounding * ends.greatest()) return true;
-  }
-  return false;
+  double least = INFINITY;
+  for (std::size_t i = 1; i < postures.size(); ++i)
+    least = std::min(least, ends.least_between(postures[i - 1].pose, postures[i].pose, looks));
+  return least <= rounding * ends.greatest();
 }
 
 const Spring* spring_of(const Mechanism& mechanism, const Limit& limit) {
@@ -114,8 +124,9 @@ void limit_spring_ends(Mechanism& mechanism) {
     Limit limit;
     limit.points = {spring.from_point, spring.to_point};
     limit.lower_value = power_of_two(std::ilogb(part_of_length * ends.greatest()));
-    // Farther apart than they ever are.
+    // Nothing ends where they are far apart.
     limit.upper_value = power_of_two(std::ilogb(ends.greatest()) + 6);
+    limit.upper_out_of_reach = true;
     limit.lower = Expression::number(limit.lower_value);
     limit.upper = Expression::number(limit.upper_value);
     limit.where = spring.where;

@@ -185,6 +185,26 @@ TEST(ReadSprings, EndTheWorkspaceWhereTheirEndsMeetAlongACurve) {
                   .limits.empty());
 }
 
+// Where two lines that cross become parallel a spring may be of any length: beside that every length is nothing.
+TEST(ReadSprings, EndNothingWhereTheirEndsMeetAtOnePoseAndGoToInfinity) {
+  const std::string folder = source_dir() + "/tests/corpus/springs/";
+  const std::string file = folder + "slotted_levers_that_become_parallel.yaml";
+  EXPECT_EQ(read_mechanism(file).limits.size(), 1U) << "that of the file alone";
+}
+
+// And where they meet along a curve, that is told in lengths that are usual, and no great length is left out.
+TEST(ReadSprings, EndTheWorkspaceWhereTheirEndsMeetAlongACurveAndGoToInfinity) {
+  std::ifstream file(source_dir() + "/tests/corpus/springs/slotted_levers_that_become_parallel.yaml");
+  std::string levers((std::istreambuf_iterator<char>(file)), {});
+  const std::string at = "ground], at: [P, [0.2, 0.3]]";
+  levers.replace(levers.find(at), at.size(), "l1], at: [P, U]");
+  const Mechanism m = parsed(levers);
+  ASSERT_EQ(m.limits.size(), 2U);
+  EXPECT_GT(m.limits[1].lower_value, 0);
+  EXPECT_LT(m.limits[1].lower_value, core::Rational(1, 100));
+  EXPECT_FALSE(m.limits[1].keeps_upper());
+}
+
 TEST(Frames, LeaveForcesAsTheyAre) {
   // In millimetres of a kilometre: lengths over 1/1024, forces the same, couples over it, stiffness times it.
   const std::string pin = "P: {revolute: [B1P, PB2], at: P";
