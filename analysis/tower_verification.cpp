@@ -409,6 +409,7 @@ Verification placed_in_tower(const mechanism::Mechanism& mechanism, const Task& 
                                   core::to_double(task.margin), request.fit, verifier.signature(), accept, pulse);
   Verification result = verifier.verify(fit ? moved(fit->by) : task);
   add_zones(mechanism, verifier, result);
+  result.mode = mode_of(verifier.sides(), result.map.loci.tower);
   if (fit)
     result.moved_by = way(fit->by);
   else

@@ -15,7 +15,7 @@ namespace {
 using form_batch::Instruction;
 using Operation = SheetCode::Operation;
 
-const std::vector<Instruction> code = {
+const std::vector<Instruction> program_of_forms = {
     {Operation::add, 0, 1},     {Operation::subtract, 0, 1}, {Operation::multiply, 0, 1}, {Operation::square, 0, 0},
     {Operation::inverse, 3, 3}, {Operation::multiply, 4, 6}, {Operation::multiply, 7, 5}, {Operation::subtract, 8, 4}};
 
@@ -45,7 +45,8 @@ void expect_values_inside() {
       values[0].set_lane(l, FormBatch<N>::coordinate(x[l], 0));
       values[1].set_lane(l, FormBatch<N>::coordinate(y[l], N - 1));
     }
-    form_batch::run(code.data(), code.data() + code.size(), values.data(), values.data() + 2);
+    form_batch::run(program_of_forms.data(), program_of_forms.data() + program_of_forms.size(), values.data(),
+                    values.data() + 2);
     FormBatch<N> root;
     form_batch::take_root(values[5], root);
     for (std::size_t l = 0; l < FormBatch<N>::size; ++l) {
@@ -70,8 +71,9 @@ void expect_values_inside() {
         ++known;
         ASSERT_LE(std::abs(exact[k] - value_of(form, at)), form.r * (1 + 0x1p-50L)) << k;
       }
-      if (const Form<N> form = root.lane(l); std::isfinite(form.r))
+      if (const Form<N> form = root.lane(l); std::isfinite(form.r)) {
         ASSERT_LE(std::abs(std::abs(p) - value_of(form, at)), form.r);
+      }
     }
   }
   EXPECT_GT(known, 10000);
@@ -92,7 +94,8 @@ TEST(Forms, HaveARestThatShrinksWithTheCube) {
       values[0].set_lane(l, FormBatch<2>::coordinate({1.5 - width, 1.5 + width}, 0));
       values[1].set_lane(l, FormBatch<2>::coordinate({0.5 - width, 0.5 + width}, 1));
     }
-    form_batch::run(code.data(), code.data() + code.size(), values.data(), values.data() + 2);
+    form_batch::run(program_of_forms.data(), program_of_forms.data() + program_of_forms.size(), values.data(),
+                    values.data() + 2);
     FormBatch<2> root;
     form_batch::take_root(values[2], root);
     return std::array{values[9].lane(3).r, root.lane(3).r};
@@ -118,7 +121,9 @@ TEST(Forms, ThatAreNotKnownExcludeNothing) {
   form_batch::take_root(values[0], root);
   for (std::size_t l = 0; l < FormBatch<2>::size; ++l) {
     for (std::size_t k = 2; k < values.size(); ++k) EXPECT_FALSE(std::isfinite(values[k].lane(l).r)) << k << " " << l;
-    if (l % 2 == 0) EXPECT_FALSE(std::isfinite(root.lane(l).r));
+    if (l % 2 == 0) {
+      EXPECT_FALSE(std::isfinite(root.lane(l).r));
+    }
   }
 }
 
