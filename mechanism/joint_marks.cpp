@@ -78,10 +78,12 @@ class JointMarks {
     for (const Joint& joint : m.joints) mark(joint);
   }
 
-  void check() {
-    if (std::none_of(bodies_.begin(), bodies_.end(), [&](const auto& body) { return is_open(body); })) return;
+  /// The first joint that a link does not keep.
+  std::optional<core::InputError> fault() {
+    if (std::none_of(bodies_.begin(), bodies_.end(), [&](const auto& body) { return is_open(body); }))
+      return std::nullopt;
     postures_ = sample_poses(m_, working_mode(m_), enough_postures);
-    if (postures_.size() < 2) return;
+    if (postures_.size() < 2) return std::nullopt;
     for (const SampledPosture& posture : postures_)
       for (const Place& place : posture.points) {
         farthest_ = std::max(farthest_, length(place));
@@ -89,9 +91,12 @@ class JointMarks {
       }
     add_world();
     for (std::size_t body = 0; body < bodies_.size(); ++body)
-      if (is_open(bodies_[body])) check_body(body);
+      if (is_open(bodies_[body]))
+        if (auto found = fault_of_body(body)) return found;
     for (const Joint& joint : m_.joints)
-      if (slides_without_turning(joint)) check_turning(joint);
+      if (slides_without_turning(joint))
+        if (auto found = fault_of_turning(joint)) return found;
+    return std::nullopt;
   }
 
  private:
@@ -194,7 +199,7 @@ class JointMarks {
     return all;
   }
 
-  void check_body(std::size_t index) const {
+  std::optional<core::InputError> fault_of_body(std::size_t index) const {
     const Body& body = bodies_[index];
     std::vector<std::vector<Seen>> all;
     std::vector<const SampledPosture*> shown;
@@ -207,8 +212,10 @@ class JointMarks {
       std::vector<double> values;
       for (const std::vector<Seen>& one : all) values.push_back(measure.of(one));
       const bool angle = measure.kind == Measure::Kind::angle;
-      if (changes(values, angle ? apart : apart * size_ + rounding * farthest_)) refuse(index, measure, values, shown);
+      if (changes(values, angle ? apart : apart * size_ + rounding * farthest_))
+        return told(index, measure, values, shown);
     }
+    return std::nullopt;
   }
 
   /// No two postures agree: on one side of a fold they would.
@@ -220,7 +227,7 @@ class JointMarks {
   }
 
   /// Directions that are fixed in either link keep their angles.
-  void check_turning(const Joint& joint) const {
+  std::optional<core::InputError> fault_of_turning(const Joint& joint) const {
     const auto ways_of = [&](LinkIndex link, const SampledPosture& posture) {
       std::vector<Place> ways;
       const auto one = seen(bodies_[body_of(link)], posture);
@@ -252,15 +259,16 @@ class JointMarks {
       std::vector<double> values;
       for (const std::vector<double>& now : cosines) values.push_back(now[i]);
       if (!changes(values, apart)) continue;
-      throw core::InputError(joint.where,
-                             words_of(joint.to) + " turns against " + words_of(joint.from) + ", which joint " +
-                                 joint.name + " does not allow",
-                             "build both so that they do not turn against each other, or write another type of joint");
+      return core::InputError(joint.where,
+                              words_of(joint.to) + " turns against " + words_of(joint.from) + ", which joint " +
+                                  joint.name + " does not allow",
+                              "build both so that they do not turn against each other, or write another type of joint");
     }
+    return std::nullopt;
   }
 
-  [[noreturn]] void refuse(std::size_t index, const Measure& measure, const std::vector<double>& values,
-                           const std::vector<const SampledPosture*>& shown) const {
+  core::InputError told(std::size_t index, const Measure& measure, const std::vector<double>& values,
+                        const std::vector<const SampledPosture*>& shown) const {
     const Body& body = bodies_[index];
     const Mark &first = body[measure.first], &second = body[measure.second];
     const Joint& joint = first.joint != nullptr ? *first.joint : *second.joint;
@@ -277,26 +285,26 @@ class JointMarks {
         " changes over the workspace, " + range_of(values, measure.kind == Measure::Kind::angle, shown);
     switch (measure.kind) {
       case Measure::Kind::distance:
-        throw core::InputError(
-            joint.where,
-            subject + " moves in " + link + ": its distance from " + name(first.joint == &joint ? second : first) + changes,
-            keep);
+        return core::InputError(joint.where,
+                                subject + " moves in " + link + ": its distance from " +
+                                    name(first.joint == &joint ? second : first) + changes,
+                                keep);
       case Measure::Kind::distance_from_line:
-        throw core::InputError(joint.where,
-                               subject + (slides ? " leaves its line in " : " moves in ") + link +
-                                   ": the distance of its axis from " +
-                                   (second.axis != nullptr ? "that of joint " + second.joint->name : name(second)) + changes,
-                               slides ? "place " + at + " on the line: by a slider, a crossing, or coordinates" : keep);
+        return core::InputError(
+            joint.where,
+            subject + (slides ? " leaves its line in " : " moves in ") + link + ": the distance of its axis from " +
+                (second.axis != nullptr ? "that of joint " + second.joint->name : name(second)) + changes,
+            slides ? "place " + at + " on the line: by a slider, a crossing, or coordinates" : keep);
       case Measure::Kind::angle:
       case Measure::Kind::along:
         break;
     }
-    throw core::InputError(joint.where,
-                           "the axis of " + title + " turns in " + link + ", which carries it" +
-                               (measure.kind == Measure::Kind::angle
-                                    ? ": its angle to the axis of joint " + second.joint->name + changes
-                                    : std::string()),
-                           "build all points and axes of " + link + " so that they move together, or correct the axis");
+    return core::InputError(
+        joint.where,
+        "the axis of " + title + " turns in " + link + ", which carries it" +
+            (measure.kind == Measure::Kind::angle ? ": its angle to the axis of joint " + second.joint->name + changes
+                                                  : std::string()),
+        "build all points and axes of " + link + " so that they move together, or correct the axis");
   }
 
   std::string words_of(LinkIndex link) const {
@@ -323,6 +331,12 @@ class JointMarks {
 
 }  // namespace
 
-void check_joint_marks(const Mechanism& mechanism) { JointMarks(mechanism).check(); }
+void check_joint_marks(Mechanism& mechanism) {
+  const std::optional<core::InputError> fault = JointMarks(mechanism).fault();
+  if (!fault) return;
+  if (mechanism.space == Space::planar) throw core::InputError(*fault);
+  mechanism.notes.push_back(fault->problem() +
+                            ": no rigid links move so, and the answers are those of the points and axes as written");
+}
 
 }  // namespace clearloci::mechanism

@@ -121,7 +121,7 @@ void FormCells<N>::enter(const std::array<Place, size>& places, std::size_t coun
       const std::vector<int>& lifted = *places[lane].lifted;
       if (next[lane] < lifted.size() && lifted[next[lane]] == j) {
         const std::size_t noise = 2 + next[lane];
-        const Form<N> root = FormBatch<N>::coordinate((*places[lane].all)[static_cast<std::size_t>(2 + j)], noise);
+        const Form<N> root = FormBatch<N>::coordinate((*places[lane].all)[2 + static_cast<std::size_t>(j)], noise);
         batch.set_lane(lane, root);
         own.c = root.c * root.c - own.c;
         for (double& a : own.a) a = -a;
@@ -183,7 +183,7 @@ bool FormCells<N>::contract(std::size_t lane, const System& system, std::vector<
       if (!meet_noise(noises[unknowns[i]], range_of(solved[i], noises))) return false;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t c = unknowns[i];
-    Interval& range = all[c < 2 ? c : static_cast<std::size_t>(2 + lifted[c - 2])];
+    Interval& range = all[c < 2 ? c : 2 + static_cast<std::size_t>(lifted[c - 2])];
     range = part_of(range, noises[c]);
   }
   return true;
