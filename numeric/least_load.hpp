@@ -1,4 +1,4 @@
-// The load under which a demanded reaction is least, and whether it fails there, for certain. Private to numeric/.
+// The load under which a demanded reaction is least, and whether it fails there, for certain.
 //
 // Between two loads a reaction is w(t) = (1 - t) a + t b, solved under either of them. |w(t)|^2 is a convex quadratic
 // in t; its least value lies at t = -a.(b - a)/|b - a|^2, or at an end. With loads of balls on top, reactions are
