@@ -23,7 +23,8 @@ std::string sign_words(int sign) { return sign > 0 ? "+" : sign < 0 ? "-" : "?";
 std::string sign_list(const core::Zones& map, const core::Zone& zone) {
   const std::vector<std::string>& notes = map.loci.notes;
   std::string signs;
-  for (const auto& [reaction, sign] : zone.signs) {
+  for (const auto& one : zone.signs) {
+    const auto& reaction = one.first;
     const std::string unloaded = core::to_string(reaction.quantity) + reaction.joint + unloaded_words;
     const bool effort = reaction.quantity == core::Quantity::M || reaction.quantity == core::Quantity::F;
     if (std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
@@ -31,7 +32,7 @@ std::string sign_list(const core::Zones& map, const core::Zone& zone) {
           return note == unloaded || (!effort && std::find(idle.begin(), idle.end(), reaction.joint) != idle.end());
         }))
       continue;
-    signs += (signs.empty() ? "" : " ") + reaction_name(reaction) + sign_words(sign);
+    signs += (signs.empty() ? "" : " ") + reaction_name(reaction) + sign_words(one.second);
   }
   return signs;
 }
