@@ -62,9 +62,9 @@ Mechanism under_unit_load(const Mechanism& bare, const mechanism::Load& load, st
   const std::size_t dimension = mechanism::dimension(bare);
   unit.force.assign(dimension, Expression::number(0));
   unit.couple = Expression::number(0);
-  std::vector<Expression*> parts = unit.couple_parts(bare.space);
-  for (std::size_t c = dimension; c > 0; --c) parts.insert(parts.begin(), &unit.force[c - 1]);
-  *parts[component] = Expression::number(1);
+  Expression& part =
+      component < dimension ? unit.force[component] : *unit.couple_parts(bare.space)[component - dimension];
+  part = Expression::number(1);
   return under_unit_load;
 }
 

@@ -7,26 +7,26 @@
 
 #include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/place_vectors.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/reader.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
-using Place = std::array<double, 3>;
+using place_vectors::cross;
+using place_vectors::distance;
+using place_vectors::dot;
+using place_vectors::length;
+using place_vectors::minus;
+using place_vectors::unit;
+using Place = place_vectors::Vector;
 
 constexpr std::size_t enough_postures = 16;
 /// Of the mechanism's size: what rounding and constructions leave.
 constexpr double apart = 1e-7;
 /// What rounding moves a point by, of its coordinates.
 constexpr double rounding = 1e-13;
-
-Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Place cross(const Place& a, const Place& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double length(const Place& a) { return std::hypot(a[0], a[1], a[2]); }
 
 /// What is fixed in a link: a point, or a line through one.
 struct Mark {
@@ -87,7 +87,7 @@ class JointMarks {
     for (const SampledPosture& posture : postures_)
       for (const Place& place : posture.points) {
         farthest_ = std::max(farthest_, length(place));
-        size_ = std::max(size_, length(minus(place, postures_.front().points.front())));
+        size_ = std::max(size_, distance(place, postures_.front().points.front()));
       }
     add_world();
     for (std::size_t body = 0; body < bodies_.size(); ++body)
@@ -171,7 +171,7 @@ class JointMarks {
       if (mark.axis == nullptr) continue;
       const auto way = sample_vector(m_, *mark.axis, posture.pose);
       if (!way || !(length(*way) > 0)) return std::nullopt;
-      for (std::size_t c = 0; c < 3; ++c) one.way[c] = (*way)[c] / length(*way);
+      one.way = unit(*way);
     }
     return all;
   }

@@ -8,22 +8,17 @@
 #include "mechanism/dependence.hpp"
 #include "mechanism/idle.hpp"
 #include "mechanism/joint_traits.hpp"
+#include "mechanism/place_vectors.hpp"
 #include "mechanism/posture_sample.hpp"
 
 namespace clearloci::mechanism {
 namespace {
 
-using Vector = std::array<double, 3>;
+using place_vectors::cross;
+using place_vectors::distance;
+using place_vectors::unit;
+using place_vectors::Vector;
 using Column = BorneReaction;
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector unit(const Vector& v) {
-  const double length = std::hypot(v[0], v[1], v[2]);
-  return length > 0 ? Vector{v[0] / length, v[1] / length, v[2] / length} : v;
-}
 
 /// Two directions across u.
 std::array<Vector, 2> across(const Vector& u) {
@@ -108,7 +103,7 @@ std::optional<std::vector<BorneReaction>> reactions_at(const Mechanism& m, const
 Matrix balances_of(const Mechanism& m, const std::vector<BorneReaction>& columns, const std::vector<Vector>& places) {
   double size = 0;
   for (const Vector& p : places)
-    for (const Vector& q : places) size = std::max(size, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    for (const Vector& q : places) size = std::max(size, distance(p, q));
   if (!(size > 0)) size = 1;
   const std::size_t rows = equations_per_link(m);
   Matrix matrix(rows * m.links.size(), std::vector<double>(columns.size()));

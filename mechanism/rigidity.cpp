@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "mechanism/place_vectors.hpp"
 #include "mechanism/posture_sample.hpp"
 #include "mechanism/precise_posture.hpp"
 #include "mechanism/reader.hpp"
@@ -16,7 +17,11 @@
 namespace clearloci::mechanism {
 namespace {
 
-using Vector = std::array<double, 3>;
+using place_vectors::cross;
+using place_vectors::distance;
+using place_vectors::dot;
+using place_vectors::minus;
+using place_vectors::Vector;
 using Pair = std::array<PointIndex, 2>;
 
 constexpr std::size_t enough_postures = 24;
@@ -33,16 +38,6 @@ Pair pair_of(PointIndex a, PointIndex b) { return {std::min(a, b), std::max(a, b
 const PointForm& form_of(const Mechanism& mechanism, PointIndex point) {
   return mechanism.points[static_cast<std::size_t>(point)].form;
 }
-
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 /// The points that have to stay where they are in a link: its own, its centre of mass and its masses.
 std::vector<PointIndex> points_held(const Link& link) {
