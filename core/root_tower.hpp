@@ -69,7 +69,7 @@ struct RootTower {
   /// Squared distances that the construction divides by (the D of method.md section 1, cleared of denominators),
   /// in (coordinates..., s1...sm): >= 0 everywhere; where one vanishes the construction is undefined.
   std::vector<Polynomial> denominators;
-  /// Of dyads between points that are not fixed, whose squares are among the denominators, and of telescopic legs.
+  /// Of dyads between points that are not fixed, of lengths (their squares are among the denominators), and of legs.
   std::vector<DyadBase> bases = {};
 
   int variables() const { return static_cast<int>(coordinates.size() + roots.size()); }

@@ -180,6 +180,20 @@ core::RootTower StraightLines::tower() {
       const core::DyadBase leg = {x.plain(variables), y.plain(variables), {}, {}};
       if (!leg.x.is_constant() || !leg.y.is_constant()) tower.bases.push_back(leg);
     }
+  // A force along a way has no direction either where the way has no length. Along a leg |A| vanishes there, too.
+  const auto is_leg = [&](const Polynomial& x, const Polynomial& y) {
+    return std::any_of(tower.bases.begin(), tower.bases.end(),
+                       [&](const core::DyadBase& base) { return base.x_line.empty() && base.x * y == base.y * x; });
+  };
+  for (const InverseLength& length : geometry_->inverse_lengths()) {
+    if (length.root < 0 || geometry_->roots()[static_cast<std::size_t>(length.root)].value) continue;
+    const auto [x, y] = way_over_tower(*geometry_, length.along);
+    if (x.is_constant() || y.is_constant()) continue;  // its zeros, if any, are a curve
+    Polynomial plain_x = x.plain(variables), plain_y = y.plain(variables);
+    if (is_leg(plain_x, plain_y)) continue;
+    const Place v = vector(length.along);
+    tower.bases.push_back({std::move(plain_x), std::move(plain_y), builder_.line(v[0]), builder_.line(v[1])});
+  }
   return tower;
 }
 

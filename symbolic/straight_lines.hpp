@@ -81,6 +81,9 @@ class StraightLines {
   int value(const core::Polynomial& p);
   /// The same, by the ways from point to point where that takes fewer terms.
   int value_by_ways(const Poly& natural, const core::Rational& scale);
+  /// The same of forces along ways, such as those of springs: by the parts of a way over its length, so that the
+  /// direction is seen where the way has no length.
+  std::optional<int> value_by_directions(const Poly& natural, const core::Rational& scale);
   /// Of what is written by arms: as it is, and where that is shorter by the lengths of dyads alone, which do not change
   /// when a dyad turns about its end.
   int value_of_arms(const Poly& p, const std::vector<std::size_t>& arms);

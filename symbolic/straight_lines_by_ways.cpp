@@ -22,6 +22,25 @@ Poly moved(const Poly& p, int v, const Poly& by) {
   return sum;
 }
 
+/// slope (v + rest), v a variable.
+struct LinearIn {
+  int variable;
+  Rational slope;
+  Poly rest;
+};
+
+/// In a variable that is not in `other`.
+std::optional<LinearIn> linear_in(const Poly& p, const std::optional<Poly>& other) {
+  if (p.total_degree() != 1) return std::nullopt;
+  for (int v = p.ring().size() - 1; v >= 0; --v) {
+    if (!p.depends_on(v) || (other && other->depends_on(v))) continue;
+    const std::vector<Poly> sides = p.coefficients(v);
+    const Rational slope = sides[1].constant();
+    return LinearIn{v, slope, sides[0].scaled(1 / slope)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 int StraightLines::scaled_value_by_ways(const Poly& natural, const Polynomial& scaled) {
@@ -29,7 +48,37 @@ int StraightLines::scaled_value_by_ways(const Poly& natural, const Polynomial& s
   return value_by_ways(natural, scaled.terms.front().coefficient / natural.plain().terms.front().coefficient);
 }
 
+std::optional<int> StraightLines::value_by_directions(const Poly& natural, const Rational& scale) {
+  if (geometry_->mechanism().space != mechanism::Space::planar) return std::nullopt;
+  for (const InverseLength& length : geometry_->inverse_lengths()) {
+    if (length.root < 0 || geometry_->roots()[static_cast<std::size_t>(length.root)].value) continue;
+    if (!natural.depends_on(length.variable)) continue;
+    const std::vector<Poly> parts = natural.coefficients(length.variable);
+    if (parts.size() != 2) continue;
+    const std::vector<GiNaC::ex> way = geometry_->vector(length.along);
+    const std::array<Poly, 2> v = {geometry_->poly(way[0].expand()), geometry_->poly(way[1].expand())};
+    const std::optional<LinearIn> x = linear_in(v[0], std::nullopt), y = linear_in(v[1], v[0]);
+    if (!x || !y || v[1].depends_on(x->variable)) continue;
+    // In the way's parts: x / x->slope and y / y->slope in the place of the two variables.
+    const Poly by_way = moved(moved(parts[1], x->variable, -x->rest), y->variable, -y->rest);
+    const Poly without_x = by_way.at(x->variable, 0);
+    if (!without_x.at(y->variable, 0).is_zero()) continue;
+    const auto factor = [&](const Poly& p, const LinearIn& part) {
+      const Poly over = p.exact_quotient(Poly::variable(p.ring(), part.variable));
+      return moved(moved(over, x->variable, x->rest), y->variable, y->rest).scaled(1 / part.slope);
+    };
+    const Poly with_x = by_way - without_x;
+    const Place steps = vector(length.along);
+    const auto value = [&](const Poly& p) { return p.is_zero() ? builder_.constant(0) : value_by_ways(p, scale); };
+    const int along = builder_.add(builder_.multiply(value(factor(with_x, *x)), steps[0]),
+                                   builder_.multiply(value(factor(without_x, *y)), steps[1]));
+    return builder_.add(value(parts[0]), builder_.multiply(along, variable(length.variable)));
+  }
+  return std::nullopt;
+}
+
 int StraightLines::value_by_ways(const Poly& natural, const Rational& scale) {
+  if (const auto value = value_by_directions(natural, scale)) return *value;
   const std::vector<ArmedPoint>& points = armed_points();
   const auto written = [&](const std::vector<std::size_t>& arms) {
     Poly result = natural;

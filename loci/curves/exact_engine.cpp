@@ -264,7 +264,10 @@ class ExactTrace {
     const std::vector<EdgeInMode> edges = label_edges(problem_, mode, arrangement_, list_.of_factor, signs_, sheets_);
     VertexMarks marks = mark_points(mode);
     const std::size_t count_before = map_.isolated_points.size();
-    add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, cones_, map_);
+    std::vector<sheet::Star> stars = cones_;
+    for (sheet::Star& cone : sheet::enclosed_cones(problem_.tower, mode, problem_.lower, problem_.upper))
+      stars.push_back(std::move(cone));
+    add_isolated_curve_points(problem_, mode, arrangement_, list_.of_factor, stars, map_);
     // Where the sheet ends in a point that is a direct singularity too, that is the graver of the two.
     for (std::size_t i = count_before; i < map_.isolated_points.size(); ++i) {
       const core::IsolatedPoint& point = map_.isolated_points[i];

@@ -100,6 +100,13 @@ bool on_direct_singularity(const LocusProblem& problem, const WorkingMode& mode,
          });
 }
 
+/// Whether the construction, or the direction of a force along a way, may be undefined: there numerators vanish
+/// whatever the reaction does.
+bool may_be_undefined(const core::RootTower& tower, const std::vector<MultiInterval>& at) {
+  return std::any_of(tower.denominators.begin(), tower.denominators.end(),
+                     [&](const core::Polynomial& denominator) { return evaluate(denominator, at).sign() == 0; });
+}
+
 /// Whether the components of a joint's force may vanish at a zero though the force does not.
 bool may_be_undirected(const LocusProblem& problem, const WorkingMode& mode, const std::string& joint,
                        const core::Point2& at, double radius) {
@@ -318,8 +325,10 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
         add_without_limit(zero, *vanishes);
         continue;
       }
-      const bool added = add({zero.x, zero.y}, *vanishes);
-      if (added && !*vanishes)
+      const std::vector<MultiInterval> pose = at_zero(problem, mode, zero);
+      const bool is_proven = *vanishes && (pose.empty() || !may_be_undefined(problem.tower, pose));
+      const bool added = add({zero.x, zero.y}, is_proven);
+      if (added && !is_proven)
         leave_point_open(joint, mode,
                          {zero.x - zero.radius, zero.x + zero.radius, zero.y - zero.radius, zero.y + zero.radius}, map);
     }
@@ -445,8 +454,9 @@ void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& m
     const std::vector<MultiInterval> at = on_sheet(problem.tower, mode, point.enclosure);
     if (at.empty()) continue;
     const auto star = std::find_if(stars.begin(), stars.end(), [&](const sheet::Star& candidate) {
-      return point.enclosure.lower[0] <= candidate.x && candidate.x <= point.enclosure.upper[0] &&
-             point.enclosure.lower[1] <= candidate.y && candidate.y <= point.enclosure.upper[1];
+      const core::Rational radius = candidate.apex ? candidate.apex->radius : core::Rational(0);
+      return point.enclosure.lower[0] <= candidate.x + radius && candidate.x - radius <= point.enclosure.upper[0] &&
+             point.enclosure.lower[1] <= candidate.y + radius && candidate.y - radius <= point.enclosure.upper[1];
     });
     std::vector<core::Vanishing> components;
     LocusKind kind = LocusKind::workspace_boundary;
@@ -466,7 +476,10 @@ void add_isolated_curve_points(const LocusProblem& problem, const WorkingMode& m
     const std::vector<core::Vanishing> vanishing = wanted_vanishing(problem, components);
     if (!vanishing.empty()) kind = gravest_kind(vanishing);
     if (kind == LocusKind::workspace_boundary) continue;
-    map.isolated_points.push_back({kind, vanishing, {point.at[0], point.at[1]}, mode, true});
+    // Around an enclosed place only what is recognised is told.
+    const bool is_exact = star != stars.end() && (!star->apex || star->apex->exact);
+    const bool is_proven = is_exact || !may_be_undefined(problem.tower, at);
+    map.isolated_points.push_back({kind, vanishing, {point.at[0], point.at[1]}, mode, is_proven});
   }
 }
 

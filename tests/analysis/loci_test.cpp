@@ -155,6 +155,23 @@ std::vector<double> reach_of(const std::string& name) {
 
 // On one side of the fold C is at A: there a length is a number, or zero, and the limit keeps no pose. Against a
 // separate closure.
+/// The force of a spring has no direction where its ends meet: what vanishes there with the length of the spring is no
+/// reaction.
+TEST(SpringOfAModel, LosesNoContactWhereItsEndsMeetOverOtherCoordinates) {
+  const auto expect_none_at = [](const Point2& place, const std::string& name, Engine engine) {
+    SCOPED_TRACE(name + ", " + to_string(engine));
+    const Model model = Model::read(source_dir() + "/tests/corpus/springs/" + name + ".yaml");
+    const LocusMap map = trace_loci(model, {.engine = engine});
+    EXPECT_TRUE(map.complete);
+    for (const IsolatedPoint& point : map.isolated_points)
+      EXPECT_GT(std::hypot(point.at[0] - place[0], point.at[1] - place[1]), 1e-3) << point.vanishing.front().joint;
+  };
+  const Point2 over_strokes = {1 / std::sqrt(5.0), 0.5}, over_angles = {std::atan2(3, 2), std::atan2(2, -3)};
+  expect_none_at(over_strokes, "ends_meet_over_strokes", Engine::adaptive);
+  expect_none_at(over_strokes, "ends_meet_over_strokes", Engine::exact);
+  expect_none_at(over_angles, "ends_meet_over_angles", Engine::adaptive);
+}
+
 TEST(FoldedFourBar, IsReachedOnTheSideOnWhichItsLimitHolds) {
   const auto near = testing::DoubleNear(1e-4);
   EXPECT_THAT(reach_of("kite_four_bar_with_limit"),
