@@ -76,9 +76,19 @@ class ArcCheck {
   }
 
   void run() {
+    std::vector<KnownArc*> candidates;
+    std::set<const CurveClaim*> mine, others;  // curves with an arc of more than one chord
     for (KnownArc& arc : arcs_) {
       if (arc.curve->mode != curve_.claim.mode || !kind_fits(arc.curve->kind, curve_.claim.role)) continue;
-      if (!is_mine(*arc.curve, *arc.arc)) continue;
+      const bool is_candidate = is_mine(*arc.curve, *arc.arc);
+      if (is_candidate) candidates.push_back(&arc);
+      if (!is_chord(*arc.arc)) (is_candidate ? mine : others).insert(arc.curve);
+    }
+    for (KnownArc* candidate : candidates) {
+      KnownArc& arc = *candidate;
+      // Between two nodes, where several functions vanish, one chord may be near all of them: it belongs to the
+      // function that the other arcs of its curve do.
+      if (is_chord(*arc.arc) && others.contains(arc.curve) && !mine.contains(arc.curve)) continue;
       if (arc.curve->certified)
         match(*arc.arc);
       else
@@ -115,12 +125,14 @@ class ArcCheck {
     return (end ? 10 : 1) * vertex_reach(arc.points[i]);
   }
 
+  static bool is_chord(const core::Arc& arc) { return arc.points.size() == 2; }
+
   /// The arc claims to be one of this function: most of some places lie on it.
   bool is_mine(const CurveClaim& claim, const core::Arc& arc) {
     int on = 0;
     const std::size_t n = arc.points.size();
     // Of a single chord that tells little: then what vanishes on it has to be the function's, too.
-    if (n == 2 && curve_.claim.role == FactorRole::reaction &&
+    if (is_chord(arc) && curve_.claim.role == FactorRole::reaction &&
         std::none_of(claim.vanishing.begin(), claim.vanishing.end(),
                      [&](const Reaction& reaction) { return part_.vanishing.contains(reaction); }))
       return false;

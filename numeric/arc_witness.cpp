@@ -99,7 +99,7 @@ std::vector<Approach> approaches(const NumericModel& model, std::span<const int>
       return bounded_numerators(model, pose, mode);
     };
     for (const double side : {1.0, -1.0}) {
-      Approach way{place.at, {-place.along[1], place.along[0]}, {}};
+      Approach way{place.at, {-place.along[1], place.along[0]}, nearer * distances.front() * size, {}};
       for (const double distance : distances) way.at.push_back(beside(side * nearer * distance * size));
       if (std::all_of(way.at.begin(), way.at.end(), [](const BoundedNumerators& n) { return n.reachable; }))
         ways.push_back(std::move(way));

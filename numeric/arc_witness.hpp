@@ -19,6 +19,7 @@ enum class Tendency { zero, finite, unbounded };
 struct Approach {
   core::Point2 towards{};             ///< on the arc
   core::Point2 across{};              ///< unit vector off the arc
+  double from = 0;                    ///< m: the largest distance
   std::vector<BoundedNumerators> at;  ///< at distances that fall by `approach_step`
 };
 

@@ -197,21 +197,26 @@ class ModeValidation {
         const std::vector<Approach> ways = approaches(model_, signs_, curve, arc, diagonal_);
         const bool context = curve.kind == LocusKind::direct_singularity || curve.kind == LocusKind::workspace_boundary;
         for (std::size_t r = 0; r < reactions_.size(); ++r)
-          if (!zero_[r]) judge_arc(c, ways, reactions_[r], context, report);
+          if (!zero_[r]) judge_arc(c, ways, r, context, report);
         if (curve.kind == LocusKind::direct_singularity && !curve.excited) judge_idle(c, ways, report);
       }
     }
   }
 
   /// A claim is disputed where most of the ways say otherwise: some may end near a zero of another curve.
-  void judge_arc(std::size_t c, const std::vector<Approach>& ways, const CheckedReaction& checked, bool context,
+  void judge_arc(std::size_t c, const std::vector<Approach>& ways, std::size_t reaction, bool context,
                  ValidationReport& report) const {
+    const CheckedReaction& checked = reactions_[reaction];
     const bool claimed = checked.weights[c] != 0;
     if (ways.empty() && claimed) ++report.arcs_undecided;
     if (ways.empty() || (!claimed && !context)) return;
     const TendencyTally tally = tally_of(ways, checked.columns);
     const auto most = [&](std::size_t count) { return 2 * count > ways.size(); };
     const auto dispute = [&](const core::Point2& at) {
+      if (is_open(reaction, pose_of(at), pose_of(at))) {
+        if (claimed) ++report.arcs_undecided;
+        return;
+      }
       ++report.disputed;
       report.disputed_arcs.push_back({map_.curves[c].id, pose_of(at), mode_, checked.reaction, claimed, false});
     };
@@ -220,7 +225,14 @@ class ModeValidation {
       const auto stands_for_a_zero = [&](const Approach& way) {
         return turns_round(model_, signs_, way, checked.columns, reach_);
       };
-      if (!std::all_of(ways.begin(), ways.end(), stands_for_a_zero)) return dispute(ways.front().towards);
+      const auto is_beside_another = [&](const Approach& way) {
+        for (std::size_t k = 0; k < map_.curves.size(); ++k)
+          if (k != c && map_.curves[k].mode == mode_ && passes_near(map_.curves[k], way.towards, way.from)) return true;
+        return false;
+      };
+      // What other curves pass nearer than the way is long, the arc tells nothing of.
+      const bool is_alone = !std::all_of(ways.begin(), ways.end(), is_beside_another);
+      if (is_alone && !std::all_of(ways.begin(), ways.end(), stands_for_a_zero)) return dispute(ways.front().towards);
       ++report.arcs_undecided;
     } else if (claimed) {
       ++(most(tally.zero) ? report.arcs_held : report.arcs_undecided);

@@ -150,6 +150,12 @@ constexpr double off_middle = 0.0391;
 
 core::Polyline points_in_face(const std::vector<core::Polyline>& rings) {
   const Span heights = heights_of(rings);
+  // Chords there and back along one line cross a horizontal one so far apart at most.
+  double rounding = 0;
+  for (const core::Polyline& ring : rings)
+    for (const core::Point2& p : ring)
+      rounding =
+          std::max(rounding, 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(p[0]), std::abs(p[1])));
   constexpr std::array<double, 7> shares = {0.4713, 0.3271, 0.6397, 0.1709, 0.8233, 0.0617, 0.9361};
   std::vector<std::pair<double, core::Point2>> found;  // room, point
   for (const double share : shares) {
@@ -157,7 +163,7 @@ core::Polyline points_in_face(const std::vector<core::Polyline>& rings) {
     Span widest;
     for (const Span& span : spans_at(rings, y))
       if (span.width() > widest.width()) widest = span;
-    if (widest.width() > 0)
+    if (widest.width() > rounding)
       found.push_back({std::min(widest.width(), std::min(share, 1 - share) * heights.width()),
                        {widest.from + (0.5 + off_middle) * widest.width(), y}});
   }

@@ -349,18 +349,21 @@ class ModeZones {
     std::vector<Polyline> rings = zone.holes;
     rings.push_back(zone.outer);
     const Polyline inner = points_in_face(rings);
+    // A zone may be so thin that rounding takes a point out of its chords.
+    const auto found = std::find_if(inner.begin(), inner.end(), inside);
+    const Point2& within = found != inner.end() ? *found : inner.front();
     const std::optional<Circle> circle = largest_circle(face.walks, zone, inside);
-    const Circle inscribed = circle ? *circle : Circle{inner.front(), 0};
+    const Circle inscribed = circle && inside(circle->centre) ? *circle : Circle{within, 0};
     zone.ball = {{inscribed.centre[0], inscribed.centre[1]}, inscribed.radius};
     // The ends of a leg may meet amid the circle, where the mechanism is not defined.
-    const Point2 sample = workspace_.holds(inscribed.centre).value_or(false) ? inscribed.centre : inner.front();
+    const Point2 sample = workspace_.holds(inscribed.centre).value_or(false) ? inscribed.centre : within;
     zone.sample = {sample[0], sample[1]};
     put_box_around(zone);
     zone.borders = borders(face.walks);
     for (const int i : points_) {
       if (inside(place(i))) zone.isolated_points.push_back(i);
     }
-    zone.certified = cut_.certified && !holds_open_point(inside) && is_one(rings, zone.size);
+    zone.certified = cut_.certified && inside(sample) && !holds_open_point(inside) && is_one(rings, zone.size);
     return zone;
   }
 

@@ -38,8 +38,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Once{"legs_that_never_align", {core::Quantity::f}, {.joints = {"B2"}}},
                     Once{"components_at_a_cone", {core::Quantity::fy}},
                     Once{"margins_at_a_cone", {core::Quantity::f}, {.joints = {"A1"}, .min_force = 10}},
-                    Once{"two_boundaries_along_one_line"}, Once{"guide_unloaded_along_the_boundary"}),
+                    Once{"chords_between_two_nodes", {}, {.min_force = 50}}, Once{"two_boundaries_along_one_line"},
+                    Once{"guide_unloaded_along_the_boundary"}),
     [](const auto& candidate) { return std::string(candidate.param.name); });
+
+// Its chords lead there and back along one line: no point is inside of them.
+TEST(ZonesOnceRejected, AZoneThinnerThanItsChords) {
+  const std::string model = example("../tests/corpus/certificates/zone_thinner_than_its_chords.yaml");
+  const check::Examination examination = examination_of(model, certificate_of(model, {}, true));
+  EXPECT_TRUE(examination.accepted) << summary(examination).substr(0, 2000);
+  EXPECT_GT(examination.zones, 4u);
+}
 
 TEST(Kinds, FollowFromWhatVanishes) {
   const std::string model = example("../tests/corpus/certificates/kinds.yaml");

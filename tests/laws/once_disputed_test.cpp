@@ -58,6 +58,16 @@ TEST(OnceDisputed, ALegOfHardlyAnyLength) {
   for (const core::IsolatedPoint& point : validation.map.isolated_points) EXPECT_TRUE(point.certified);
 }
 
+// Other curves pass 1e-8 m beside the arcs, nearer than the ways towards them are long.
+TEST(OnceDisputed, CurvesNearerThanTheWaysTowardsThem) {
+  hold("witness/rails_nearly_one_line", true, {.working_modes = {{-1, 1}}});
+}
+
+// A moment vanishes along the workspace boundary, where its curve is open.
+TEST(OnceDisputed, AnOpenCurveAlongTheBoundary) {
+  hold("witness/open_beside_the_boundary", false, {.working_modes = {{1, -1}}});
+}
+
 // A root forty times as large as the box, whose rounding was taken for no convergence: a chord was accepted unmeasured.
 TEST(OnceDisputed, AChordBesideABend) {
   LociRequest request;
