@@ -313,16 +313,29 @@ void FactorEmission::force_probes() {
     if (!d_.selected(joint.name) || components != std::vector{Quantity::fx, Quantity::fy}) continue;
     if (!has_own(joint.name, Quantity::fx) || !has_own(joint.name, Quantity::fy)) continue;
     core::ForceProbe probe{joint.name, {}, {}};
+    std::vector<FactoredPoly> own;
     bool known = true;
     for (std::size_t c = 0; c < components.size() && known; ++c) {
-      const FactoredPoly* const own = numerator(d_.reactions, joint.name, components[c]);
+      const FactoredPoly* const part = numerator(d_.reactions, joint.name, components[c]);
       const FactoredPoly* const other = numerator(margin_nodes_.probed(), joint.name, components[c]);
-      known = own != nullptr && !own->is_zero() && other != nullptr && !other->is_zero();
+      known = part != nullptr && !part->is_zero() && other != nullptr && !other->is_zero();
       if (!known) break;
-      probe.numerators[c] = d_.lines.of(own->constant, own->factors);
+      own.push_back(*part);
       probe.probes[c] = d_.lines.of(other->constant, other->factors);
     }
-    if (known) problem.force_probes.push_back(std::move(probe));
+    if (!known) continue;
+    // What both and |A| have in common and is no singularity, such as the square of a leg's length, hides where they
+    // cross each other.
+    FactoredPoly common = shared_factors({own[0], own[1], d_.determinants.determinant});
+    std::erase_if(common.factors, [&](const PolyFactor& factor) {
+      return std::any_of(d_.determinant_parts.begin(), d_.determinant_parts.end(),
+                         [&](const DeterminantPart& part) { return part.natural->poly == factor.poly; });
+    });
+    for (std::size_t c = 0; c < own.size(); ++c) {
+      multiply(own[c], common, -1);
+      probe.numerators[c] = d_.lines.of(own[c].constant, own[c].factors);
+    }
+    problem.force_probes.push_back(std::move(probe));
   }
 }
 

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "loci/search/exact_zero.hpp"
 #include "loci/sheet/sheet.hpp"
+#include "loci/sheet/subtower.hpp"
 
 namespace clearloci::loci {
 namespace {
@@ -103,21 +105,38 @@ double size_of(const core::LocusProblem& problem) {
   return size;
 }
 
-/// Whether |A| is proven to be zero at a zero of the system, as it holds a factor of |A| itself, which a numerator
-/// crosses there: that zero is a simple one of both, so that their quotient has more than one limit around.
+/// Whether a factor of |A| is proven to be zero at a zero of the system: it is of the system itself, or all of them
+/// vanish at a rational point.
+bool is_zero_there(const core::LocusProblem& problem, const core::WorkingMode& mode, const LocusFactor& singular,
+                   const ForceZeros& zeros, const sheet::SheetZero& zero) {
+  std::vector<core::Polynomial> functions = {singular.sheet};
+  for (const LocusFactor* const function : zeros.system) {
+    if (function->sheet == singular.sheet) return true;
+    functions.push_back(function->sheet);
+  }
+  // Of a zero of the program alone nothing tells exactly.
+  if (std::any_of(functions.begin(), functions.end(), [](const core::Polynomial& p) { return p.is_zero(); }))
+    return false;
+  const sheet::Subtower own = sheet::subtower(problem.tower, mode, functions);
+  for (core::Polynomial& function : functions) function = sheet::narrowed(function, own);
+  const core::Interval around(-zero.radius, zero.radius);
+  return sheet::vanish_exactly(own.tower, own.mode, functions,
+                               {core::Interval(zero.x) + around, core::Interval(zero.y) + around});
+}
+
+/// Whether |A| is proven to be zero at a zero of the system, as it holds a factor that is, which a numerator crosses
+/// there: that zero is a simple one of both, so that their quotient has more than one limit around.
 bool crosses_singularity(const core::LocusProblem& problem, const core::WorkingMode& mode,
                          const core::ForceProbe& probe, const ForceZeros& zeros, const sheet::SheetZero& zero,
                          double reach) {
-  const auto singular = std::find_if(zeros.system.begin(), zeros.system.end(), [&](const LocusFactor* function) {
-    return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
-      return factor.role == core::FactorRole::direct_singularity && factor.sheet == function->sheet;
-    });
-  });
-  if (singular == zeros.system.end()) return false;
   const core::Polynomial none{problem.tower.variables(), {}};
-  return std::any_of(probe.numerators.begin(), probe.numerators.end(), [&](const core::StraightLine& numerator) {
-    Neighbourhood around(problem, mode, zero, reach);
-    return around.narrow({(*singular)->sheet, (*singular)->line}, {none, numerator});
+  return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& singular) {
+    return singular.role == core::FactorRole::direct_singularity &&
+           is_zero_there(problem, mode, singular, zeros, zero) &&
+           std::any_of(probe.numerators.begin(), probe.numerators.end(), [&](const core::StraightLine& numerator) {
+             Neighbourhood around(problem, mode, zero, reach);
+             return around.narrow({singular.sheet, singular.line}, {none, numerator});
+           });
   });
 }
 
@@ -137,11 +156,10 @@ NoLimit no_limit(const core::LocusProblem& problem, const core::WorkingMode& mod
   if (components.empty())
     for (const std::size_t c : {0, 1}) components.emplace_back(c, SheetFunction{none, probe->numerators[c]});
   constexpr std::array shares = {1e-9, 1e-7};  // of the box
+  const auto reach_of = [&](double share) { return std::max(share * size_of(problem), 16 * zero.radius); };
   for (const double share : shares) {
-    const double reach = std::max(share * size_of(problem), 16 * zero.radius);
-    if (crosses_singularity(problem, mode, *probe, zeros, zero, reach)) return NoLimit::of_joint;
-    if (zeros.third != nullptr) continue;
-    const Neighbourhood whole(problem, mode, zero, reach);
+    if (zeros.third != nullptr) break;
+    const Neighbourhood whole(problem, mode, zero, reach_of(share));
     for (const auto& [own, component] : components) {
       Neighbourhood around = whole;
       if (!around.narrow(component, {none, probe->numerators[1 - own]})) continue;
@@ -151,6 +169,8 @@ NoLimit no_limit(const core::LocusProblem& problem, const core::WorkingMode& mod
           return NoLimit::of_all;
     }
   }
+  for (const double share : shares)
+    if (crosses_singularity(problem, mode, *probe, zeros, zero, reach_of(share))) return NoLimit::of_joint;
   return NoLimit::unknown;
 }
 

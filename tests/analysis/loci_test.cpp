@@ -172,6 +172,21 @@ TEST(SpringOfAModel, LosesNoContactWhereItsEndsMeetOverOtherCoordinates) {
   expect_none_at(over_angles, "ends_meet_over_angles", Engine::adaptive);
 }
 
+// Next to a leg of no length its force has the direction of the leg, and |A| vanishes along a line through that place.
+TEST(Loci, HaveNoLimitWhereALegHasNoLengthOnALineOfSingularities) {
+  LociRequest request;
+  request.joints = {"A1", "P"};
+  const LocusMap map =
+      trace_loci(Model::read(source_dir() + "/tests/corpus/loci/leg_without_length_at_a_crossing.yaml"), request);
+  EXPECT_TRUE(map.complete);
+  ASSERT_EQ(map.isolated_points.size(), 1U);
+  const IsolatedPoint& point = map.isolated_points.front();
+  EXPECT_EQ(point.kind, LocusKind::no_limit);
+  EXPECT_EQ(point.vanishing.size(), 2U);
+  EXPECT_TRUE(point.certified);
+  EXPECT_LT(std::hypot(point.at[0], point.at[1]), 1e-12);
+}
+
 TEST(FoldedFourBar, IsReachedOnTheSideOnWhichItsLimitHolds) {
   const auto near = testing::DoubleNear(1e-4);
   EXPECT_THAT(reach_of("kite_four_bar_with_limit"),

@@ -71,6 +71,18 @@ TEST(NoLimit, IsNotProvenWhereTheOtherLoadTellsNothing) {
   EXPECT_FALSE(singular.has_no_limit_at(0, 0));
 }
 
+// The force (x + y, x - y)/x: each component crosses |A| = 0 at (0, 0), exactly there, and no other load tells of it.
+TEST(NoLimit, IsProvenAtARationalPoint) {
+  const Polynomial none = number(0);
+  Mechanism singular(x + y, x - y, none, none);
+  EXPECT_FALSE(singular.has_no_limit_at(0, 0));
+  const ForceZeros zeros = {{&singular.problem.factors[0], &singular.problem.factors[1]}};
+  EXPECT_EQ(no_limit(singular.problem, {}, "B", zeros, {3e-14, -5e-14, {}, 1e-13}), NoLimit::of_joint);
+  Mechanism off(x + y + number(core::Rational(1, 1000000000000)), x - y, none, none);
+  const ForceZeros off_zeros = {{&off.problem.factors[0], &off.problem.factors[1]}};
+  EXPECT_EQ(no_limit(off.problem, {}, "B", off_zeros, {-5e-13, -5e-13, {}, 1e-13}), NoLimit::unknown);
+}
+
 // The force (y, x^2 - e x)/x vanishes at (e, 0), where |A| is not zero, and has no limit at (0, 0).
 TEST(NoLimit, IsNotProvenNextToAContactLoss) {
   const core::Rational e(1, 1000000000000);
