@@ -99,6 +99,18 @@ TEST(Verify, HoldsTheLeastForceBetweenTheEndsOfARangeOfLoads) {
       core::Verdict::refuted);
 }
 
+// A load 2 N off takes a drive's force below the least one.
+TEST(Verify, TriesTheWorstLoadsOfABall) {
+  const Verification result =
+      decided(kept("tests/corpus/verify/two_blocks_on_one_line.yaml"), "two_blocks_on_one_line_task.yaml");
+  ASSERT_EQ(result.verdict, core::Verdict::refuted);
+  ASSERT_TRUE(result.witness && result.witness->size && result.witness->loads.size() == 1);
+  EXPECT_LT(*result.witness->size, 3.25);
+  const double x = result.witness->at[0];
+  const std::vector<double>& force = result.witness->loads.front().force;
+  EXPECT_LE(std::hypot(force[0] + 20 * x, force[1] + 10), 2 * (1 + 1e-12));
+}
+
 TEST(Verify, DrawsWhatLociTracesWhereNothingIsDoubtful) {
   // Pictures and names come from a sketch: of these all is proven within its small budget, and it is the full map.
   for (const char* name : {"five_bar", "five_bar_generic", "three_rpr"}) {
