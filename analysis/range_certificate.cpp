@@ -61,10 +61,11 @@ class RangeClaims {
     if (free.from < free.to) mode.free.push_back(std::move(free));
   }
 
-  /// Where no mode is within reach, the claim is that the whole range is out of reach in each.
+  /// Where no mode is within reach, the claim is that the whole range is out of reach in each; out of time nothing is
+  /// claimed.
   RangeCertificate done() {
     std::vector<std::string> notes;
-    if (result_.modes.empty())
+    if (result_.modes.empty() && !map_.out_of_time)
       for (const DyadSides& sides : regular_modes(mechanism_, requested_modes(mechanism_, request_), notes))
         mode(mode_of(sides, map_.tower), false);
     for (const RangeCertificate::Mode& mode : result_.modes)

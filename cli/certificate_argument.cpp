@@ -1,6 +1,9 @@
 #include "cli/certificate_argument.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 
@@ -21,6 +24,10 @@ report::CertificateSource source_of(const std::string& command, const CommonArgu
     source.overrides.emplace_back(pair.substr(0, sign), sign == std::string::npos ? "" : pair.substr(sign + 1));
   }
   return source;
+}
+
+void tell_that_nothing_is_claimed(const std::string& file) {
+  fmt::print(stderr, "clearloci: {} is not written: nothing was proven within the time limit\n", core::printable(file));
 }
 
 }  // namespace
@@ -56,6 +63,7 @@ void require_certifiable(const mechanism::Mechanism& mechanism) {
 
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::Certificate& certificate, const core::Task* task) {
+  if (certificate.problem.tower.coordinates.empty()) return tell_that_nothing_is_claimed(file);
   staged.add(file, report::certificate_text(source_of(command, arguments), certificate, task));
 }
 
@@ -73,6 +81,7 @@ void stage_certificate(report::StagedFiles& staged, const std::string& file, con
 
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::RangeCertificate& certificate) {
+  if (certificate.modes.empty()) return tell_that_nothing_is_claimed(file);
   staged.add(file, report::certificate_text(source_of(command, arguments), certificate));
 }
 

@@ -296,6 +296,13 @@ class TimeLimits(InOwnFolder):
         subprocess.run(["rm", "-rf", self.folder / "out"], check=True)
         return process
 
+    def test_a_certificate_of_nothing_is_not_written(self):
+        for model in ("klann_leg.yaml", "five_bar_weights.yaml"):
+            words = ("loci", EXAMPLES / model, "--certificate", "t.cert", "--time-limit", "0.001", "-o", "out")
+            process = self.run_program(*words, status=3)
+            self.assertIn("t.cert is not written: nothing was proven", process.stderr)
+            self.assertFalse((self.folder / "t.cert").exists())
+
     def verify_limited(self, limit):
         """A task that is not decided in time is an answer, `undecided`, that says what stays open and why."""
         start = time.monotonic()
