@@ -70,7 +70,7 @@ Reactions reactions(const Model& model, std::span<const double> poses, const Dya
   if (width == 0 || poses.size() % width != 0)
     require_values(mechanism, width == 0 ? poses.size() : poses.size() % width);
   if (!std::all_of(poses.begin(), poses.end(), [](double value) { return std::isfinite(value); }))
-    throw core::InputError({mechanism.file}, "a value of a pose is no number", "give finite numbers");
+    throw core::InputError({}, "a value of a pose is no number", "give finite numbers");
   const DyadSides sides = sides_of(mechanism, working_mode);
   require_regular(mechanism, sides);
   return mechanism.space == mechanism::Space::spatial ? reactions_in_space(mechanism, poses, sides)
