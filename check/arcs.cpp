@@ -144,7 +144,7 @@ class ArcCheck {
         // A chord alone: its middle may lie near another curve too, its ends do not.
         const Point2 &a = arc.points[0], &b = arc.points[1];
         const Point2 at = quarter == 1 ? a : quarter == 3 ? b : Point2{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-        on += may_be_on(at, quarter == 2 ? 1.5 * c_.tolerance : same_place * curve_.size) ? 1 : 0;
+        on += may_be_on(at, quarter == 2 ? 1.5 * c_.tolerance : 10 * vertex_reach(at)) ? 1 : 0;
       }
     }
     return on >= (n > 2 ? 2 : 3);

@@ -39,6 +39,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Once{"components_at_a_cone", {core::Quantity::fy}},
                     Once{"margins_at_a_cone", {core::Quantity::f}, {.joints = {"A1"}, .min_force = 10}},
                     Once{"chords_between_two_nodes", {}, {.min_force = 50}}, Once{"two_boundaries_along_one_line"},
+                    Once{"rails_nearly_one_line", {core::Quantity::F}, {.working_modes = {{-1, 1}}}},
                     Once{"guide_unloaded_along_the_boundary"}),
     [](const auto& candidate) { return std::string(candidate.param.name); });
 

@@ -60,7 +60,7 @@ TEST(OnceDisputed, ALegOfHardlyAnyLength) {
 
 // Other curves pass 1e-8 m beside the arcs, nearer than the ways towards them are long.
 TEST(OnceDisputed, CurvesNearerThanTheWaysTowardsThem) {
-  hold("witness/rails_nearly_one_line", true, {.working_modes = {{-1, 1}}});
+  hold("certificates/rails_nearly_one_line", true, {.working_modes = {{-1, 1}}});
 }
 
 // A moment vanishes along the workspace boundary, where its curve is open.
