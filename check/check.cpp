@@ -188,11 +188,11 @@ class Check {
     need_reactions(orders, need);
     check_points(m_, c_, mode, orders, examination_);
     for (SheetCells& sheet : sheets) {
+      const std::vector<int>& made_of = makers(sheet.function);
+      if (made_of.empty()) sheet.at_zero.clear();  // what the closure divides by: no zeros of it are known
       for (const int j : sheet.at_zero) {
-        const auto root = std::find(roots.begin(), roots.end(), j) - roots.begin();
-        if (root == static_cast<std::ptrdiff_t>(roots.size()) ||
-            !std::all_of(makers(sheet.function).begin(), makers(sheet.function).end(),
-                         [&](int maker) { return has_zeros(orders.squares[static_cast<std::size_t>(root)], maker); }))
+        if (!std::all_of(made_of.begin(), made_of.end(),
+                         [&](int maker) { return has_zeros(orders.roots.at(static_cast<std::size_t>(j)), maker); }))
           throw FalseClaim(name(sheet.function) + ": it does not vanish with the root that is said to be zero");
       }
       check_sheet(sheet, {0, singular, vanishing_with(orders, makers(sheet.function))});
