@@ -186,13 +186,15 @@ class Check {
         throw FalseClaim("functions: the boundary made by " + c_.root_points[static_cast<std::size_t>(roots[j])] +
                          " is not among them");
     need_reactions(orders, need);
+    for (const OpenClaim& claim : c_.open)
+      if (claim.mode == mode) open_[mode].merge(vanishing_with(orders, makers(claim.function)));
     check_points(m_, c_, mode, orders, examination_);
     for (SheetCells& sheet : sheets) {
+      const std::vector<int>& made_of = makers(sheet.function);
+      if (made_of.empty()) sheet.at_zero.clear();  // what the closure divides by: no zeros of it are known
       for (const int j : sheet.at_zero) {
-        const auto root = std::find(roots.begin(), roots.end(), j) - roots.begin();
-        if (root == static_cast<std::ptrdiff_t>(roots.size()) ||
-            !std::all_of(makers(sheet.function).begin(), makers(sheet.function).end(),
-                         [&](int maker) { return has_zeros(orders.squares[static_cast<std::size_t>(root)], maker); }))
+        if (!std::all_of(made_of.begin(), made_of.end(),
+                         [&](int maker) { return has_zeros(orders.roots.at(static_cast<std::size_t>(j)), maker); }))
           throw FalseClaim(name(sheet.function) + ": it does not vanish with the root that is said to be zero");
       }
       check_sheet(sheet, {0, singular, vanishing_with(orders, makers(sheet.function))});
@@ -311,10 +313,15 @@ class Check {
     const std::string place = fmt::format("near ({}, {})", at[0], at[1]);
     told = label.has_value();
     if (!label) return {};
-    if (curve.kind > core::LocusKind::component)
-      return label->empty() || has_reaction_arc(curve.mode, at)
-                 ? ""
-                 : names(*label) + " vanish " + place + ", but no arc says so";
+    if (curve.kind > core::LocusKind::component) {
+      if (label->empty() || has_reaction_arc(curve.mode, at)) return {};
+      // Where the curve of a reaction is open nothing is claimed of it.
+      const auto open = open_.find(curve.mode);
+      const bool claimed =
+          open == open_.end() || !std::includes(open->second.begin(), open->second.end(), label->begin(), label->end());
+      if (!claimed) told = false;
+      return claimed ? names(*label) + " vanish " + place + ", but no arc says so" : "";
+    }
     if (*label == said) return {};
     return fmt::format("an arc {} is said to make {} vanish; it is {}", place, names(said), names(*label));
   }
@@ -355,8 +362,9 @@ class Check {
   const mechanism::Mechanism& m_;
   CertificateFile c_;
   std::vector<KnownArc> arcs_;
-  std::vector<SheetCells> sheets_;   // looked at so far
-  double area_ = 0, open_area_ = 0;  // of all sheets, and of the cells of which nothing is known
+  std::map<int, std::set<Reaction>> open_;  ///< by mode: reactions of which a function is left open
+  std::vector<SheetCells> sheets_;          // looked at so far
+  double area_ = 0, open_area_ = 0;         // of all sheets, and of the cells of which nothing is known
   Examination examination_;
 };
 

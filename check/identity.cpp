@@ -78,17 +78,21 @@ class Fit {
         mode_(mode),
         unknowns_(reactions_of(m)),
         dyads_(mechanism::dyad_points(m).size() + limit_ends(m)) {
-    // First those that cells tell of, the boundary's before all: others are made up of them.
-    std::vector<int> rank(c.functions.size(), 2);
+    // First those that cells tell of, the boundary's with zeros before all: others are made up of them.
+    std::vector<int> rank(c.functions.size(), 3);
+    const auto told = [&](int function, bool has_zeros) {
+      const auto f = static_cast<std::size_t>(function);
+      const bool bounds = c.functions[f].role == core::FactorRole::workspace_boundary;
+      rank[f] = std::min(rank[f], !bounds ? 2 : has_zeros ? 0 : 1);
+    };
     for (const SheetCells& sheet : c.sheets)
-      if (sheet.mode == mode) rank[static_cast<std::size_t>(sheet.function)] = 1;
+      if (sheet.mode == mode)
+        told(sheet.function, sheet.cells.size() != 1 || sheet.cells.front().kind != core::CellNode::Kind::free);
     for (const OpenClaim& open : c.open)
-      if (open.mode == mode) rank[static_cast<std::size_t>(open.function)] = 1;
-    for (std::size_t f = 0; f < rank.size(); ++f) {
-      if (rank[f] == 1 && c.functions[f].role == core::FactorRole::workspace_boundary) rank[f] = 0;
-      order_.push_back(f);
-    }
+      if (open.mode == mode) told(open.function, true);
+    for (std::size_t f = 0; f < rank.size(); ++f) order_.push_back(f);
     std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return rank[a] < rank[b]; });
+    boundaries_ = static_cast<std::size_t>(std::count(rank.begin(), rank.end(), 0));
   }
 
   Orders run() {
@@ -114,19 +118,37 @@ class Fit {
       else
         (void)exponents_of(column);
     }
-    for (std::size_t j = 0; j < dyads_; ++j) {
-      const std::size_t column = first_ + order_.size() + j;
-      orders.squares.push_back(system_.is_pivot(column) ? std::nullopt : exponents_of(column));
-    }
+    const std::size_t squares = 1 + divisors_ + order_.size();
+    for (std::size_t j = 0; j < dyads_; ++j)
+      orders.squares.push_back(is_made(squares + j) ? exponents_of(squares + j) : std::nullopt);
+    for (std::size_t j = 0; j < c_.squares.size(); ++j)
+      orders.roots.push_back(is_made(squares + dyads_ + j) ? of_functions(squares + dyads_ + j) : std::nullopt);
     for (std::size_t i = 0; i < order_.size(); ++i)
-      if (system_.is_pivot(first_ + i) && !used_[order_[i]] && c_.functions[order_[i]].role != core::FactorRole::margin)
+      if (system_.is_pivot(column_of(i)) && !used_[order_[i]] &&
+          c_.functions[order_[i]].role != core::FactorRole::margin)
         throw FalseClaim("functions: " + c_.functions[order_[i]].name + " (" + std::to_string(order_[i]) +
                          ") is part of no reaction and not of |A|");
     return orders;
   }
 
  private:
-  /// Rows of logarithms: 1, the model's divisors, the functions, the model's squares, then |A| and the reactions.
+  /// Of a function, by its place in order_.
+  std::size_t column_of(std::size_t place) const { return 1 + place + (place < boundaries_ ? 0 : divisors_); }
+
+  /// Functions make up a square. What the closure divides by, which has zeros at points, does not do so alone.
+  bool is_made(std::size_t square) const {
+    if (system_.is_pivot(square)) return false;
+    const auto all = system_.exponents(square);
+    if (!all) return false;
+    bool functions = false, divisors = false;
+    for (std::size_t i = 0; i < order_.size(); ++i) functions = functions || (*all)[column_of(i)] > 0;
+    for (std::size_t d = 0; d < divisors_; ++d) divisors = divisors || (*all)[1 + boundaries_ + d] > 0;
+    return functions || !divisors;
+  }
+
+  /// Rows of logarithms: 1, the functions of boundaries, the model's divisors, the other functions, the model's squares
+  /// and the certificate's, then |A| and the reactions. A divisor may vanish all along a boundary, such as the axis of
+  /// a guide from a foot to the pin: what it is in is the boundary's, then.
   bool sample() {
     std::vector<const core::StraightLine*> programs;
     for (const Function& f : c_.functions) programs.push_back(&f.program);
@@ -151,12 +173,16 @@ class Fit {
       if (!sheet.enter(x, y)) throw FalseClaim("roots: one of them is imaginary where the model has a pose");
       const std::optional<Solution> solved = solve(m_, *here, x, y);
       if (!solved) continue;
-      std::vector<Interval> row = {Interval(1.0, identity_bits)};
-      for (const Interval& d : here->divisors) row.push_back(log_of(d));
-      std::vector<Interval> root_row = row;
+      const auto log_of_function = [&](std::size_t place) {
+        return log_of(sheet.value(static_cast<int>(order_[place])));
+      };
+      std::vector<Interval> row = {Interval(1.0, identity_bits)}, root_row = row;
+      for (const Interval& d : here->divisors) root_row.push_back(log_of(d));
       roots_.columns = root_row.size();
-      first_ = row.size();
-      for (const std::size_t f : order_) row.push_back(log_of(sheet.value(static_cast<int>(f))));
+      divisors_ = here->divisors.size();
+      for (std::size_t i = 0; i < boundaries_; ++i) row.push_back(log_of_function(i));
+      row.insert(row.end(), root_row.begin() + 1, root_row.end());
+      for (std::size_t i = boundaries_; i < order_.size(); ++i) row.push_back(log_of_function(i));
       for (const Interval& q : here->squares) row.push_back(log_of(q));
       std::size_t root = 0, limit = dyads_ - c_.limit_roots.size();
       for (std::size_t j = 0; j < c_.squares.size(); ++j) {
@@ -193,15 +219,18 @@ class Fit {
                                              among(mechanism::contact_components(m_, joint), unknown.quantity)));
   }
 
-  /// Of the functions alone; those are used, then.
-  std::optional<Exponents> exponents_of(std::size_t column) {
+  std::optional<Exponents> of_functions(std::size_t column) const {
     const auto all = system_.exponents(column);
     if (!all) return std::nullopt;
     Exponents result(order_.size(), 0);
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      result[order_[i]] = (*all)[first_ + i];
-      used_[order_[i]] = used_[order_[i]] || (*all)[first_ + i] != 0;
-    }
+    for (std::size_t i = 0; i < order_.size(); ++i) result[order_[i]] = (*all)[column_of(i)];
+    return result;
+  }
+
+  /// The same; the functions are used, then.
+  std::optional<Exponents> exponents_of(std::size_t column) {
+    std::optional<Exponents> result = of_functions(column);
+    for (std::size_t f = 0; result && f < used_.size(); ++f) used_[f] = used_[f] || (*result)[f] != 0;
     return result;
   }
 
@@ -216,9 +245,9 @@ class Fit {
   std::vector<std::vector<int>> makers() const {
     std::vector<std::vector<int>> result(order_.size());
     for (std::size_t place = 0; place < order_.size(); ++place) {
-      const auto exponents = system_.exponents(first_ + place);
+      const auto exponents = system_.exponents(column_of(place));
       for (std::size_t i = 0; exponents && i < order_.size(); ++i)
-        if ((*exponents)[first_ + i] > 0) result[order_[place]].push_back(static_cast<int>(order_[i]));
+        if ((*exponents)[column_of(i)] > 0) result[order_[place]].push_back(static_cast<int>(order_[i]));
     }
     return result;
   }
@@ -228,8 +257,9 @@ class Fit {
   int mode_;
   std::vector<mechanism::Unknown> unknowns_;
   std::size_t dyads_;               // with the ends of limits
-  std::vector<std::size_t> order_;  // of the functions among the columns, from first_ on
-  std::size_t first_ = 0;
+  std::vector<std::size_t> order_;  // of the functions among the columns
+  std::size_t boundaries_ = 0;      // how many of them come first
+  std::size_t divisors_ = 0;        // of the model, after these
   LogSystem system_, roots_;
   std::vector<bool> always_zero_, used_;
 };

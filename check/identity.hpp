@@ -34,6 +34,7 @@ struct Orders {
   Exponents determinant;
   std::vector<std::optional<Exponents>>
       squares;  ///< of every dyad, slider and limit's end; none: no functions make it up
+  std::vector<std::optional<Exponents>> roots;  ///< of the squares of the certificate's roots; likewise
 };
 
 /// Throws FalseClaim where no exponents fit, and where a function is part of nothing.

@@ -43,6 +43,9 @@ struct Seen {
 
 bool same(const Mark& a, const Mark& b) { return !a.fixed && !b.fixed && !a.axis && !b.axis && a.point == b.point; }
 
+/// Of two lines; 0 of a direction that is none.
+double angle_between(const Place& a, const Place& b) { return std::atan2(length(cross(a, b)), std::abs(dot(a, b))); }
+
 /// What has to be the same in all postures, of two or three marks.
 struct Measure {
   enum class Kind { distance, distance_from_line, angle, along };
@@ -62,7 +65,7 @@ struct Measure {
         return sine > parallel ? std::abs(dot(way, across)) / sine : length(cross(way, a.way));
       }
       case Kind::angle:
-        return std::atan2(length(cross(a.way, b.way)), std::abs(dot(a.way, b.way)));
+        return angle_between(a.way, b.way);
       case Kind::along:
         return std::abs(dot(a.way, minus(seen[third].place, b.place)));
     }
@@ -247,21 +250,26 @@ class JointMarks {
       }
       return ways;
     };
-    std::vector<std::vector<double>> cosines;
+    std::vector<std::vector<double>> angles;
+    std::vector<const SampledPosture*> shown;
     for (const SampledPosture& posture : postures_) {
       const std::vector<Place> from = ways_of(joint.from, posture), to = ways_of(joint.to, posture);
       std::vector<double> now;
       for (const Place& a : from)
-        for (const Place& b : to) now.push_back(std::abs(dot(a, b)));
-      if (!now.empty()) cosines.push_back(std::move(now));
+        for (const Place& b : to) now.push_back(angle_between(a, b));
+      if (now.empty()) continue;
+      angles.push_back(std::move(now));
+      shown.push_back(&posture);
     }
-    for (std::size_t i = 0; !cosines.empty() && i < cosines.front().size(); ++i) {
+    for (std::size_t i = 0; !angles.empty() && i < angles.front().size(); ++i) {
       std::vector<double> values;
-      for (const std::vector<double>& now : cosines) values.push_back(now[i]);
+      for (const std::vector<double>& now : angles) values.push_back(now[i]);
       if (!changes(values, apart)) continue;
       return core::InputError(joint.where,
                               words_of(joint.to) + " turns against " + words_of(joint.from) + ", which joint " +
-                                  joint.name + " does not allow",
+                                  joint.name +
+                                  " does not allow: an angle between lines of the two changes over the workspace, " +
+                                  range_of(values, true, shown),
                               "build both so that they do not turn against each other, or write another type of joint");
     }
     return std::nullopt;
@@ -301,9 +309,11 @@ class JointMarks {
     }
     return core::InputError(
         joint.where,
-        "the axis of " + title + " turns in " + link + ", which carries it" +
-            (measure.kind == Measure::Kind::angle ? ": its angle to the axis of joint " + second.joint->name + changes
-                                                  : std::string()),
+        "the axis of " + title + " turns in " + link + ", which carries it: " +
+            (measure.kind == Measure::Kind::angle
+                 ? "its angle to the axis of joint " + second.joint->name
+                 : "the distance of " + name(body[measure.third]) + " from " + name(second) + " along it") +
+            changes,
         "build all points and axes of " + link + " so that they move together, or correct the axis");
   }
 
@@ -331,12 +341,8 @@ class JointMarks {
 
 }  // namespace
 
-void check_joint_marks(Mechanism& mechanism) {
-  const std::optional<core::InputError> fault = JointMarks(mechanism).fault();
-  if (!fault) return;
-  if (mechanism.space == Space::planar) throw core::InputError(*fault);
-  mechanism.notes.push_back(fault->problem() +
-                            ": no rigid links move so, and the answers are those of the points and axes as written");
+void check_joint_marks(const Mechanism& mechanism) {
+  if (const std::optional<core::InputError> fault = JointMarks(mechanism).fault()) throw core::InputError(*fault);
 }
 
 }  // namespace clearloci::mechanism

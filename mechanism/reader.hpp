@@ -222,9 +222,8 @@ Joint read_belt(Mechanism& mechanism, const Entry& entry);
 void check_gears(const Mechanism& mechanism);
 
 // --- joint_marks.cpp
-/// Pins, balls and crosses stay at one point of their links, and axes on one line, in sampled postures. In space a note
-/// says where they do not.
-void check_joint_marks(Mechanism& mechanism);
+/// Pins, balls and crosses stay at one point of their links, and axes on one line, in sampled postures.
+void check_joint_marks(const Mechanism& mechanism);
 
 // --- reachability.cpp
 /// Every dyad can be closed somewhere in the box.

@@ -81,6 +81,7 @@ void take_determinant_apart(Derivation& d) {
     const bool alone = sheets.size() == 1 && sheets.front().multiplicity == 1;
     const bool chosen = is_singular_by_choice(d.preload, d.mechanism, factor.poly, d.selection.controlled);
     for (SheetFactor& sheet : sheets) {
+      if (sheet.of_divided) continue;
       const int times = sheet.multiplicity;
       DeterminantPart part{&factor, std::move(sheet), factor.multiplicity * times, alone, {}};
       part.chosen = chosen;

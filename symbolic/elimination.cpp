@@ -53,6 +53,7 @@ Elimination::Elimination(const Geometry& geometry, KnownEliminations* known)
   known_denominators_.insert(known_denominators_.end(), units.begin(), units.end());
   for (const TowerRoot& root : geometry.roots())
     if (!root.is_angle() && (!root.value || root.square.constant() != 1)) independent_roots_.push_back(root);
+  find_divided_roots();
   know_stretched();
   if (known != nullptr && known->is_for(geometry.ring(), common_sources())) known_ = known;
 }
@@ -289,6 +290,53 @@ std::vector<SheetFactor> Elimination::boundary_factors(const Poly& square) const
   return factors;
 }
 
+void Elimination::find_divided_roots() {
+  for (std::size_t i = 0; i < geometry_->roots().size(); ++i) {
+    const TowerRoot& root = geometry_->roots()[i];
+    if (root.role != core::RootRole::working_mode || root.value || root.square.is_constant()) continue;
+    if (!strip_denominators(root.square).is_constant()) continue;
+    Rational constant;
+    for (const PolyFactor& factor : root.square.factors(constant))
+      if (factor.multiplicity % 2 != 0 && has_free_coordinate(factor.poly))
+        divided_roots_.push_back({i, factor.poly, factor.multiplicity});
+  }
+}
+
+int Elimination::order_over_tower(const Poly& sheet, const DividedRoot& divided) const {
+  const auto [even, odd] = split(sheet, geometry_->roots()[divided.root].variable);
+  const auto twice_in = [&](Poly part) {
+    int times = 0;
+    while (std::optional<Poly> rest = quotient_over_tower(part, divided.divisor, independent_roots_)) {
+      part = std::move(*rest);
+      times += 2;
+    }
+    return times;
+  };
+  core::ensure(!sheet.is_zero(), "what is not zero in every pose has an order");
+  // One is even and the other odd: they do not cancel.
+  if (odd.is_zero()) return twice_in(even);
+  if (even.is_zero()) return twice_in(odd) + divided.multiplicity;
+  return std::min(twice_in(even), twice_in(odd) + divided.multiplicity);
+}
+
+int Elimination::order_along(const Poly& natural, const DividedRoot& divided) const {
+  Poly p = natural;
+  int order = 0;
+  for (const Substitution& pair : substitutions_) {
+    const int degree = Geometry::degree_in(p, pair);
+    if (degree == 0) continue;
+    order -= degree * order_over_tower(pair.place.w, divided);
+    p = geometry_->substituted(p, pair, degree);
+    // As elsewhere, but for what holds the divisor.
+    Poly quotient(p.ring());
+    for (const std::vector<Poly>* const list : {&stripped_, &known_denominators_})
+      for (const Poly& denominator : *list)
+        if (!denominator.is_constant() && order_over_tower(denominator, divided) == 0)
+          while (p.divides(denominator, quotient)) p = quotient;
+  }
+  return order + order_over_tower(p, divided);
+}
+
 std::optional<Poly> Elimination::found_element(const Fold& fold) const {
   const mechanism::PointIndex point = geometry_->roots()[fold.root].point;
   const auto closing = geometry_->closings().find(point);
@@ -359,6 +407,13 @@ std::vector<SheetFactor> Elimination::described(const std::vector<PolyFactor>& f
   for (const PolyFactor& factor : factors) {
     if (!has_free_coordinate(factor.poly) || is_denominator(factor.poly)) continue;
     SheetFactor entry{factor.poly, factor.multiplicity, {}};
+    entry.of_divided = std::any_of(divided_roots_.begin(), divided_roots_.end(), [&](const DividedRoot& divided) {
+      return factor.poly == Poly::variable(factor.poly.ring(), geometry_->roots()[divided.root].variable);
+    });
+    if (entry.of_divided) {
+      result.push_back(std::move(entry));
+      continue;
+    }
     if (with_implicit && is_too_heavy(factor.poly)) {
       entry.too_heavy = true;
     } else if (with_implicit) {

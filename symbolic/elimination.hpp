@@ -21,6 +21,16 @@ struct SheetFactor {
   int multiplicity = 1;
   std::vector<Poly> implicit;  ///< irreducible, primitive, distinct; together they contain its zeros in every mode
   bool too_heavy = false;      ///< `implicit` was wanted but would be too large to be of use
+  bool of_divided = false;     ///< the variable of one of Elimination::divided_roots, without `implicit`
+};
+
+/// A root of a dyad or slider along whose zeros a way has no length that something is divided by: the axis of a guide
+/// from a foot to the pin, or a spring whose ends meet there. What is divided out of polynomials is divided out of the
+/// root's square, too, and their factors do not tell what vanishes there: Elimination::order_along does.
+struct DividedRoot {
+  std::size_t root = 0;  ///< by its place in Geometry::roots
+  Poly divisor;          ///< an irreducible factor of its square
+  int multiplicity = 1;  ///< there; odd
 };
 
 class Elimination {
@@ -52,6 +62,11 @@ class Elimination {
   /// The same of the square of a root that ends the workspace where it is zero; with those that other things are
   /// divided by, where nothing else is left: the axis of a guide that is as long as the root.
   std::vector<SheetFactor> boundary_factors(const Poly& square) const;
+
+  const std::vector<DividedRoot>& divided_roots() const { return divided_roots_; }
+  /// How often the square root of such a divisor divides a natural polynomial that is not zero in every pose, as a
+  /// function of the pose; less than 0 where that grows without bound.
+  int order_along(const Poly& natural, const DividedRoot& divided) const;
 
   /// The same of a natural polynomial that is not zero in every pose. What it holds of the elements of folds is divided
   /// out of it before it is put over the tower, where it has many more terms.
@@ -113,6 +128,8 @@ class Elimination {
   /// A sheet polynomial a + b s divided by s, where it holds s at all and s^2 divides a.
   static std::optional<Poly> without_root(const Poly& sheet, const TowerRoot& root);
   bool is_denominator(const Poly& irreducible) const;
+  void find_divided_roots();
+  int order_over_tower(const Poly& sheet, const DividedRoot& divided) const;
   bool has_free_coordinate(const Poly& p) const;
   Poly strip_denominators(Poly p) const;
 
@@ -144,7 +161,8 @@ class Elimination {
   std::vector<TowerRoot> independent_roots_;
   std::vector<Poly> known_denominators_;   ///< over the tower
   std::vector<Poly> denominator_factors_;  ///< irreducible, in the free coordinates
-  std::vector<Poly> stripped_;             ///< of these, or their squares, so that what is left keeps its sign
+  std::vector<DividedRoot> divided_roots_;
+  std::vector<Poly> stripped_;  ///< of these, or their squares, so that what is left keeps its sign
 };
 
 }  // namespace clearloci::symbolic

@@ -73,6 +73,7 @@ void FactorEmission::add_parts(const Poly* natural, const std::vector<SheetFacto
   const std::vector<int> variables = d_.geometry.tower_variables();
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const SheetFactor& part = parts[p];
+    if (part.of_divided) continue;
     LocusFactor factor = common;
     if (natural != nullptr) factor.line = line_of(*natural, parts, p);
     for (Vanishing& v : factor.vanishing) v.multiplicity *= part.multiplicity;
@@ -135,8 +136,7 @@ void FactorEmission::reactions() {
       });
       if (!asked_for || d_.result.problem.tower.coordinates.size() != 2) continue;
       factor.expression = d_.words.of(shared.natural);
-      factor.line = d_.lines.of(shared.natural);
-      d_.result.rest.push_back(std::move(factor));
+      add_rest(shared.natural, std::move(factor));
       continue;
     }
     factor.expression = d_.words.of(shared.natural);
@@ -150,6 +150,22 @@ void FactorEmission::reactions() {
     add_parts(&shared.natural, parts, factor);
     ranges_.back()[1] = d_.result.problem.factors.size();
     if (is_cut_) cut_.insert(ranges_.size() - 1);
+  }
+}
+
+void FactorEmission::add_rest(const Poly& natural, LocusFactor factor) {
+  const std::vector<SheetFactor> parts = d_.elimination.divided_roots().empty()
+                                             ? std::vector<SheetFactor>{}
+                                             : d_.elimination.natural_factors(natural, false);
+  if (std::none_of(parts.begin(), parts.end(), [](const SheetFactor& part) { return part.of_divided; })) {
+    factor.line = d_.lines.of(natural);
+    d_.result.rest.push_back(std::move(factor));
+    return;
+  }
+  for (const SheetFactor& part : parts) {
+    if (part.of_divided) continue;
+    factor.line = d_.lines.over_roots(part.sheet);
+    d_.result.rest.push_back(factor);
   }
 }
 
@@ -249,6 +265,74 @@ void FactorEmission::direct_singularities() {
     factor.cancelled = part.cancelled;
     factor.may_be_idle = part.may_be_idle;
     d_.result.problem.factors.push_back(std::move(factor));
+  }
+}
+
+int FactorEmission::order_along(const FactoredPoly& product, const DividedRoot& divided) const {
+  int order = 0;
+  for (const PolyFactor& factor : product.factors)
+    order += factor.multiplicity * d_.elimination.order_along(factor.poly, divided);
+  return order;
+}
+
+int FactorEmission::order_of_axis(const mechanism::Joint& joint, const DividedRoot& divided) const {
+  if (joint.axes.empty()) return 0;
+  return d_.elimination.order_along(squared_axis(d_.geometry, joint), divided) / 2;
+}
+
+int FactorEmission::order_along(const Reaction& reaction, const DividedRoot& divided) const {
+  const int order = order_along(reaction.numerator, divided);
+  const auto joint = std::find_if(d_.mechanism.joints.begin(), d_.mechanism.joints.end(),
+                                  [&](const mechanism::Joint& candidate) { return candidate.name == reaction.joint; });
+  const auto guide = std::find_if(d_.guides.begin(), d_.guides.end(),
+                                  [&](const Guide& candidate) { return candidate.joint == reaction.joint; });
+  if (core::is_guide_end(reaction.quantity) && guide != d_.guides.end()) {
+    if (guide->length || guide->bears.is_zero()) return order;
+    const int axis = order_of_axis(*joint, divided);
+    if (guide->turns.is_zero()) return order + axis;
+    // What the two summands do not share is no factor of the numerator.
+    return order + std::min(d_.elimination.order_along(guide->bears, divided) + axis,
+                            d_.elimination.order_along(guide->turns, divided));
+  }
+  const bool actuator = joint->actuated && reaction.quantity == mechanism::actuator_quantity(*joint);
+  if (is_force_over_axis(d_.mechanism, *joint))
+    return reaction.quantity == Quantity::N || reaction.quantity == Quantity::F ? order + order_of_axis(*joint, divided)
+                                                                                : order;
+  // In space the force or couple of an actuator is what the joint bears, times the axis as it is written.
+  return actuator ? order - order_of_axis(*joint, divided) : order;
+}
+
+void FactorEmission::along_divided_roots() {
+  for (const DividedRoot& divided : d_.elimination.divided_roots()) {
+    const TowerRoot& root = d_.geometry.roots()[divided.root];
+    LocusFactor singular = stretched(root);
+    singular.sheet = core::scaled_for_doubles(
+        Poly::variable(d_.geometry.ring(), root.variable).plain(d_.geometry.tower_variables()));
+    put_implicit({divided.divisor, 1, d_.elimination.implicit_of_divisor(divided.divisor)}, singular);
+    LocusFactor reaction = singular;
+    const int below = order_along(d_.determinants.determinant, divided);
+    int with_axes = below;  // columns of |A| are written over the lengths of their axes
+    for (const mechanism::Unknown& unknown : d_.determinants.equations.unknowns) {
+      const mechanism::Joint& joint = d_.mechanism.joints[static_cast<std::size_t>(unknown.joint)];
+      if (is_force_over_axis(d_.mechanism, joint) &&
+          (unknown.quantity == Quantity::N || unknown.quantity == Quantity::F))
+        with_axes -= order_of_axis(joint, divided);
+    }
+    for (const Reaction& one : d_.reactions) {
+      if (d_.is_always_zero(one.joint, one.quantity)) continue;
+      const int order = order_along(one, divided) - below;
+      if (order > 0) reaction.vanishing.push_back({one.joint, one.quantity, order});
+      if (const int shared = std::min(order + with_axes, with_axes); shared > 0)
+        singular.cancelled.push_back({one.joint, one.quantity, shared});
+    }
+    const bool wanted = std::any_of(reaction.vanishing.begin(), reaction.vanishing.end(), [&](const Vanishing& v) {
+      return d_.selected(v.joint) && d_.is_asked_for(v.joint, v.quantity);
+    });
+    reaction.role = FactorRole::reaction;
+    if (wanted) d_.result.problem.factors.push_back(std::move(reaction));
+    singular.role = FactorRole::direct_singularity;
+    singular.multiplicity = with_axes;
+    if (with_axes > 0) d_.result.problem.factors.push_back(std::move(singular));
   }
 }
 

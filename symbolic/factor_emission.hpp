@@ -35,6 +35,8 @@ class FactorEmission {
   /// effort are there already.
   void preload();
   void direct_singularities();
+  /// Where a root is zero that other things are divided by: what vanishes there is told by orders.
+  void along_divided_roots();
   void boundaries();
   /// Where f1 and f2 of a joint say nothing of its force.
   void undirected();
@@ -66,8 +68,15 @@ class FactorEmission {
   std::vector<std::size_t> parts_of(std::size_t factor, const std::string& joint, core::Quantity component) const;
   /// Takes what divides |A| too out of what vanishes on a factor over the tower: reactions are quotients.
   std::vector<core::Vanishing> without_determinant(const Poly& sheet, std::vector<core::Vanishing> vanishing);
+  int order_along(const FactoredPoly& product, const DividedRoot& divided) const;
+  /// Of the numerator of what the joint bears, where the equations' unknown is a part of it over the length of its
+  /// axis.
+  int order_along(const Reaction& reaction, const DividedRoot& divided) const;
+  int order_of_axis(const mechanism::Joint& joint, const DividedRoot& divided) const;
   /// Of the factors from `first` on those with the curves of |A| or of a reaction before.
   void drop_known(std::size_t first);
+  /// Of a reaction and not wanted: without the roots along whose zeros it vanishes on boundaries alone.
+  void add_rest(const Poly& natural, core::LocusFactor factor);
   /// Which has no zeros.
   bool is_inverse_length(const Poly& p) const;
   /// Bounds of all tensions hold them on either side.
@@ -96,6 +105,8 @@ class FactorEmission {
   /// Of what is left to the cut of a spring's angle: sin(angle - end) for both ends of its range, times a positive
   /// factor. Empty where no root of the tower is the angle.
   std::vector<core::Rim> sides_of_cut(const std::string& spring) const;
+  /// Of what holds along curves inside the workspace.
+  std::vector<SheetFactor> parts_of_margin(const Poly& squared) const;
   /// False: the squared margin is not a single curve, or |w| is constant.
   bool add_senses(const TwoSenses& senses, const Poly& squared, core::LocusFactor common);
   /// How often `divisor` divides p.

@@ -31,6 +31,7 @@ const std::vector<std::size_t>* FactorEmission::pair_functions(const Poly& natur
   std::vector<std::size_t> places;
   const std::vector<SheetFactor> parts = d_.elimination.natural_factors(natural, false);
   for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p].of_divided) continue;
     LocusFactor function;
     function.sheet = core::scaled_for_doubles(parts[p].sheet.plain(d_.geometry.tower_variables()));
     function.line = line_of(natural, parts, p);

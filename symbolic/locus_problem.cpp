@@ -73,6 +73,7 @@ void emit_factors(Derivation& d) {
   if (!efforts_free && (d.selection.min_force || d.selection.min_couple)) emission.margins();
   if (efforts_free || mechanism::has_effort_bounds(d.mechanism)) emission.preload();
   emission.direct_singularities();
+  emission.along_divided_roots();
   emission.boundaries();
   emission.undirected();
   emission.force_planes();

@@ -69,8 +69,14 @@ std::optional<Poly> FactorEmission::add_both_senses(const TwoSenses& senses, std
   return shared;
 }
 
+std::vector<SheetFactor> FactorEmission::parts_of_margin(const Poly& squared) const {
+  std::vector<SheetFactor> parts = d_.elimination.sheet_factors(squared, true);
+  std::erase_if(parts, [](const SheetFactor& part) { return part.of_divided; });
+  return parts;
+}
+
 bool FactorEmission::add_senses(const TwoSenses& senses, const Poly& squared, LocusFactor common) {
-  const std::vector<SheetFactor> parts = d_.elimination.sheet_factors(squared, true);
+  const std::vector<SheetFactor> parts = parts_of_margin(squared);
   if (parts.size() != 1 || parts.front().multiplicity != 1) return false;
   common.role = FactorRole::margin;
   for (auto& [sheet, times] : common.cleared) times /= 2;  // unsquared
@@ -82,7 +88,7 @@ void FactorEmission::add_ends(const TwoSenses& senses, const std::array<LocusFac
   const Poly squared =
       d_.elimination.over_tower(senses.size * senses.size * senses.square - senses.bound * senses.bound);
   const std::optional<Poly> shared =
-      squared.is_zero() ? std::nullopt : add_both_senses(senses, d_.elimination.sheet_factors(squared, true), ends);
+      squared.is_zero() ? std::nullopt : add_both_senses(senses, parts_of_margin(squared), ends);
   if (!shared) {
     d_.result.notes.push_back("where the ends of the guide " + joint + " lift is not traced in full");
     return;

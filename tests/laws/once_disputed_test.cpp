@@ -65,7 +65,7 @@ TEST(OnceDisputed, CurvesNearerThanTheWaysTowardsThem) {
 
 // A moment vanishes along the workspace boundary, where its curve is open.
 TEST(OnceDisputed, AnOpenCurveAlongTheBoundary) {
-  hold("witness/open_beside_the_boundary", false, {.working_modes = {{1, -1}}});
+  hold("certificates/open_beside_the_boundary", false, {.working_modes = {{1, -1}}});
 }
 
 // A root forty times as large as the box, whose rounding was taken for no convergence: a chord was accepted unmeasured.

@@ -112,31 +112,59 @@ std::string random_three_upu(std::mt19937& random) {
 std::string random_three_leg(std::mt19937& random) {
   Numbers n(random);
   const bool cylinders = n.in(0, 1) == 0;
-  std::string text = head(cylinders ? "random 3-RCU" : "random 3-RPU", n.near(0.5, 0.1)), links, joints;
+  // The legs turn about parallel axes, and their ends move in planes across these: cosine and sine of how those lie.
+  constexpr std::array<std::array<const char*, 2>, 3> turns = {{{"1", "0"}, {"4/5", "3/5"}, {"12/13", "-5/13"}}};
+  const auto [c, s] = turns[static_cast<std::size_t>(n.in(0, 2))];
+  const auto turned = [c = c, s = s](const std::string& x, const std::string& y, const std::string& z) {
+    const std::string cosine = c, sine = s;
+    return triple(x, cosine + "*(" + y + ") - " + sine + "*(" + z + ")",
+                  sine + "*(" + y + ") + " + cosine + "*(" + z + ")");
+  };
+  std::string text =
+      "format: 1\nname: random " + std::string(cylinders ? "3-RCU" : "3-RPS") +
+      "\nspace: spatial\nparameters: {z: " + n.near(0.5, 0.1) +
+      ", th: 0}\nworkspace:\n  x: [-2/5, 2/5]\n  y: [-2/5, 2/5]\npoints:\n  P: " + turned("x", "y", "z") + "\n";
+  std::string links, joints, loads;
+  const std::string u = turned("0", "0", "1");
   const std::array<double, 3> angles = {0.1, 2.2, 4.3};
   for (int i = 0; i < 3; ++i) {
     const std::string k = std::to_string(i + 1);
     const double a = angles[static_cast<std::size_t>(i)];
-    text += "  A" + k + ": " + triple(n.near(0.5 * std::cos(a), 0.1), n.near(0.5 * std::sin(a), 0.1), "0") + "\n";
+    const std::string x = n.near(1.1 * std::cos(a), 0.1), y = n.near(1.1 * std::sin(a), 0.1), up = n.near(0, 0.04);
+    text += "  A" + k + ": " + turned(x, y, n.near(0, 0.1)) + "\n  D" + k + ": " + turned(x, y, "z + " + up) + "\n";
+    const std::string bx = n.near(0.2 * std::cos(a), 0.04), by = n.near(0.2 * std::sin(a), 0.04);
     text += "  B" + k + ": " +
-            triple("x + " + n.near(0.2 * std::cos(a), 0.04), "y + " + n.near(0.2 * std::sin(a), 0.04),
-                   "z + " + n.near(0, 0.04)) +
+            turned("x + " + bx + "*cos(th) - " + by + "*sin(th)", "y + " + bx + "*sin(th) + " + by + "*cos(th)",
+                   "z + " + up) +
             "\n";
-    links += "  crank" + k + ": {points: [A" + k + "]}\n  rod" + k + ": {points: [B" + k + "]}\n";
-    const std::string u = triple(n.near(-std::sin(a), 0.3), n.near(std::cos(a), 0.3), n.near(0.1, 0.2));
-    const std::string along = "axis: B" + k + " - A" + k;
+    links += "  crank" + k + ": {points: [A" + k + ", D" + k + "]}\n  rod" + k + ": {points: [B" + k + "]}\n";
     joints += "  R" + k + ": {revolute: [ground, crank" + k + "], at: A" + k + ", axis: " + u + ", " +
               (cylinders ? "actuated: true, clearance: {radial: 20e-6, angular: 1e-4}" : "clearance: {radial: 20e-6}") +
               "}\n  C" + k + ": {" + (cylinders ? "cylindrical" : "prismatic") + ": [crank" + k + ", rod" + k +
-              "], at: B" + k + ", " + along +
+              "], at: B" + k + ", axis: B" + k + " - D" + k +
               (cylinders ? ", clearance: {radial: 15e-6}" : ", actuated: true, clearance: {axial: 5e-6}") + "}\n";
-    const std::string v = triple(n.near(0.2, 0.2), n.near(0.9, 0.2), n.near(0, 0.2));
-    joints += cylinders
-                  ? "  V" + k + ": {universal: [rod" + k + ", platform], at: B" + k + ", axes: [" + v +
-                        ", [1, 0, 1/5]], clearance: {radial: 10e-6}}\n"
-                  : "  V" + k + ": {spherical: [rod" + k + ", platform], at: B" + k + ", clearance: {radial: 10e-6}}\n";
+    // Across the cylinder: along it the rod would be free to turn.
+    const std::string px = n.near(-std::sin(a), 0.2), py = n.near(std::cos(a), 0.2);
+    joints +=
+        cylinders
+            ? "  V" + k + ": {universal: [rod" + k + ", platform], at: B" + k + ", axes: [" + u + ", " +
+                  turned(px + "*cos(th) - " + py + "*sin(th)", px + "*sin(th) + " + py + "*cos(th)", n.near(0, 0.2)) +
+                  "], clearance: {radial: 10e-6}}\n"
+            : "  V" + k + ": {spherical: [rod" + k + ", platform], at: B" + k + ", clearance: {radial: 10e-6}}\n";
+    const auto component = [&] { return std::to_string(n.in(-10, 10) * 10); };
+    const std::string fx = component(), fy = component();
+    loads += "  - {link: crank" + k + ", at: A" + k + ", force: " + triple(fx, fy, component()) + "}\n";
+    // Else nothing would turn a rod about its cylinder.
+    if (cylinders) {
+      const auto couple = [&] { return std::to_string(n.in(-9, 9)); };
+      const std::string mx = couple(), my = couple();
+      loads += "  - {link: rod" + k + ", couple: " + triple(mx, my, couple()) + "}\n";
+    }
   }
-  return text + "links:\n" + platform_points(3) + "}\n" + links + "joints:\n" + joints + load(n);
+  std::string of_platform = load(n);
+  const std::size_t end = of_platform.find("end_effector");
+  of_platform.insert(end, loads);
+  return text + "links:\n" + platform_points(3) + "}\n" + links + "joints:\n" + joints + of_platform;
 }
 
 std::string random_delta(std::mt19937& random, bool sliders, bool with_weights) {

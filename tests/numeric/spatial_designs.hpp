@@ -14,8 +14,9 @@ std::string random_gough_stewart(std::mt19937& random, bool with_weights);
 /// Tsai's translational 3-UPU with unequal legs.
 std::string random_three_upu(std::mt19937& random);
 
-/// 3-RCU with actuated revolute joints on the ground, or (one in two) with a passive revolute and an actuated prismatic
-/// joint in its legs: axes that move, forces and couples across them.
+/// 3-RCU with actuated revolute joints on the ground, or (one in two) 3-RPS with passive revolute and actuated
+/// prismatic joints in the legs: axes that move, forces and couples across them. The platform moves across the legs'
+/// first axes, and `th`, a parameter, is its turn about them. The cranks are loaded at their bases.
 std::string random_three_leg(std::mt19937& random);
 
 /// 3-RUU and 3-PUU: elbows built as dyads, carriages as sliders, unequal legs whose planes stand anywhere.
