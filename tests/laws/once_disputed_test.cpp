@@ -372,6 +372,20 @@ TEST(OnceDisputed, NothingIsOpenAtABaseBeyondALimit) { all_is_certified("loci/rr
 // rounding left loci of one cylinder open in all of the box.
 TEST(OnceDisputed, GuidesThatPassTheirPinsClosely) { all_is_certified("loci/rprpr_guides_beside_pins"); }
 
+// |A| vanishes all along the boundary, and the force's numerators at one place of it: both branches of the margin curve
+// leave there along the tangent. 6421 arcs were found, and 4 places stayed open.
+TEST(OnceDisputed, AMarginsNodeOnASingularBoundary) {
+  LociRequest request;
+  request.min_force = 4;
+  const core::LocusMap map = trace_loci(corpus("loci/coaxial_margin_node_on_a_singular_boundary"), request);
+  EXPECT_TRUE(map.complete);
+  EXPECT_TRUE(map.open.empty());
+  for (const core::LocusCurve& curve : map.curves) {
+    EXPECT_TRUE(curve.certified) << curve.id;
+    EXPECT_LE(curve.arcs.size(), 10u) << curve.id;
+  }
+}
+
 // N = |A| = 0 within the least distance between a base and the end effector: no pose is there, and margin points were
 // listed, for their curves know nothing of that limit.
 TEST(OnceDisputed, NoMarginPointIsBeyondALimit) {
