@@ -136,18 +136,21 @@ SheetTrace Tracer::trace(double tolerance) const {
   std::vector<PlaneCell> undecided = graph_.undecided;
   for (const Chain& chain : pieces_) trace.arcs.push_back(place(chain, tolerance, undecided));
   std::erase_if(undecided, [&](const PlaneCell& cell) { return !meets_box(cell); });
-  if (!undecided.empty() && !own_.dropped.empty()) {
-    const SheetProgram whole(tower_, std::vector<core::Polynomial>{});
-    SheetCell look(whole, mode_);
-    std::erase_if(undecided, [&](const PlaneCell& cell) { return is_free(look, cell, most_halvings_of_open); });
-  }
-  for (const PlaneCell& cell : open_places(undecided, size_))
+  for (const PlaneCell& cell : open_places(within_workspace(std::move(undecided)), size_))
     trace.undecided.push_back({cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()});
   trace.certified = trace.undecided.empty();
   // A budget of cells that runs out leaves undecided cells; only time leaves the work incomplete.
   trace.stopped = options_.stop && options_.stop();
   if (options_.certificate) trace.claims.push_back(claim());
   return trace;
+}
+
+std::vector<PlaneCell> Tracer::within_workspace(std::vector<PlaneCell> places) const {
+  if (places.empty() || own_.dropped.empty()) return places;
+  const SheetProgram whole(tower_, std::vector<core::Polynomial>{});
+  SheetCell look(whole, mode_);
+  std::erase_if(places, [&](const PlaneCell& cell) { return is_free(look, cell, most_halvings_of_open); });
+  return places;
 }
 
 SheetTrace Tracer::left_open() const {
@@ -224,7 +227,8 @@ void Tracer::settle_clusters() {
     const bool is_known = std::any_of(isolated_points_.begin(), isolated_points_.end(), [&](const core::Point2& other) {
       return std::hypot(other[0] - at[0], other[1] - at[1]) <= same_place * size_;
     });
-    if (cluster.lonely && !is_known && meets_box({at[0], at[1]})) isolated_points_.push_back(at);
+    if (!cluster.lonely || is_known || !meets_box({at[0], at[1]})) continue;
+    if (!within_workspace({patch.chart.to_plane(cluster.cell)}).empty()) isolated_points_.push_back(at);
   }
 }
 

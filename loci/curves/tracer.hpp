@@ -53,6 +53,9 @@ class Tracer {
 
   SheetTrace left_open() const;
 
+  /// Places but for those that are proven to hold no pose of the whole tower, of which the curve's own may be a part.
+  std::vector<PlaneCell> within_workspace(std::vector<PlaneCell> places) const;
+
   std::size_t cut_cells() const { return options_.sketch ? most_cut_cells_of_a_sketch : most_cut_cells; }
 
   Partition parts_of(const Subtower& part) const {

@@ -48,19 +48,56 @@ struct Surroundings {
   }
 };
 
-/// The nodes that forms have in common, where part `first` of one of them and the last part vanish.
+/// The rim of a root of a part, as a part itself: the plane below the root.
+Subtower below(const Subtower& part, int root) {
+  Subtower rim = part;
+  rim.tower = on_rim(part.tower, root);
+  rim.mode.erase(rim.mode.begin() + root);
+  rim.kept.erase(rim.kept.begin() + root);
+  return rim;
+}
+
+/// The nodes that forms have in common, where part `first` of one of them and the last part vanish; or, where the last
+/// part vanishes all along the rim of a root, those on that rim.
 class Nodes {
  public:
+  /// `rim`: of the tower's roots; -1: none.
   Nodes(const core::RootTower& tower, const core::WorkingMode& mode, const std::vector<const core::NodeForm*>& forms,
-        const core::NodeForm& form, std::size_t first)
-      : tower_(tower), forms_(forms), part_(part_of(tower, mode, forms)) {
+        const core::NodeForm& form, std::size_t first, int rim)
+      : tower_(tower), forms_(forms), part_(part_of(tower, mode, forms)), rim_(rim) {
+    const Subtower whole = part_;
+    const auto place = std::find(whole.kept.begin(), whole.kept.end(), rim);
+    const int root = static_cast<int>(place - whole.kept.begin());
+    if (rim >= 0) part_ = below(whole, root);
+    const auto add_function = [&](const SheetFunction& function) {
+      functions_.push_back(rim < 0 ? function : without_variable(function, 2 + root));
+    };
     const auto add = [&](const core::NodeForm::Part& part) {
-      functions_.push_back({narrowed(part.sheet, part_), narrowed(part.line, part_)});
+      add_function({narrowed(part.sheet, whole), narrowed(part.line, whole)});
     };
     add(form.parts[first]);
-    add(form.parts.back());
+    if (rim < 0)
+      add(form.parts.back());
+    else
+      add_function({whole.tower.roots[static_cast<std::size_t>(root)].square,
+                    line_of(whole.tower.roots[static_cast<std::size_t>(root)].square)});
     for (const core::NodeForm* other : forms) std::for_each(other->parts.begin(), other->parts.end(), add);
-    functions_.push_back({core::Polynomial{part_.tower.variables(), {}}, narrowed(form.probes[first], part_)});
+    add_function({core::Polynomial{whole.tower.variables(), {}}, narrowed(form.probes[first], whole)});
+  }
+
+  /// The roots along whose rims the last part vanishes; of those that stand on no other root.
+  static std::vector<int> rims(const core::RootTower& tower, const core::NodeForm& form) {
+    const core::Polynomial& last = form.parts.back().sheet;
+    std::vector<int> roots;
+    for (int j = 0; j < static_cast<int>(tower.roots.size()); ++j) {
+      const core::Root& root = tower.roots[static_cast<std::size_t>(j)];
+      if (root.is_angle() || !without_variable(last, 2 + j).is_zero()) continue;
+      bool stands = false;
+      for (int other = 0; other < static_cast<int>(tower.roots.size()); ++other)
+        stands = stands || core::depends_on(root.square, 2 + other);
+      if (!stands) roots.push_back(j);
+    }
+    return roots;
   }
 
   void add_to(std::vector<Star>& stars, const Surroundings& box, ZeroOptions options) const {
@@ -76,6 +113,7 @@ class Nodes {
       std::optional<Star> star = enclosed_star(zero, tower_, part_, program);
       if (!star || !all_vanish(program, *star)) continue;
       star->singular = true;
+      if (rim_ >= 0 && !put_on_rim(*star)) continue;
       star->room = room_around(program, zero, box);
       for (const core::NodeForm* form : forms_)
         for (const core::NodeForm::Part& part : form->parts) star->apex->vanishing.push_back(part.line);
@@ -84,6 +122,33 @@ class Nodes {
   }
 
  private:
+  static core::StraightLine line_of(const core::Polynomial& p) {
+    core::StraightLineBuilder builder;
+    std::vector<int> variables;
+    for (int v = 0; v < p.variables; ++v) variables.push_back(builder.variable(v));
+    return builder.line(builder.polynomial(p, variables));
+  }
+
+  /// Sheared along the tangent of the rim. False: it is not known well enough.
+  bool put_on_rim(Star& star) const {
+    std::vector<MultiInterval> at(static_cast<std::size_t>(tower_.variables()), MultiInterval(Rational(0)));
+    at[0] = {star.x - star.apex->radius, star.x + star.apex->radius};
+    at[1] = {star.y - star.apex->radius, star.y + star.apex->radius};
+    const core::Polynomial& square = tower_.roots[static_cast<std::size_t>(rim_)].square;
+    const MultiInterval dx = evaluate(core::derivative(square, 0), at), dy = evaluate(core::derivative(square, 1), at);
+    const auto size = [](const MultiInterval& d) -> Rational { return abs(Rational(d.lower_end() + d.upper_end())); };
+    star.shape = Star::Shape::touch;
+    star.along_y = size(dx) > size(dy);
+    const MultiInterval &off = star.along_y ? dx : dy, &along = star.along_y ? dy : dx;
+    if (off.sign() == 0) return false;
+    const MultiInterval slope = -along * inverse(off);
+    const Rational lower = slope.lower_end(), upper = slope.upper_end();
+    star.slope = (lower + upper) / 2;
+    star.apex->slope_radius = (upper - lower) / 2;
+    star.roots = {rim_};
+    return true;
+  }
+
   static Subtower part_of(const core::RootTower& tower, const core::WorkingMode& mode,
                           const std::vector<const core::NodeForm*>& forms) {
     std::vector<core::Polynomial> all;
@@ -157,6 +222,7 @@ class Nodes {
   const core::RootTower& tower_;
   const std::vector<const core::NodeForm*>& forms_;
   Subtower part_;
+  int rim_ = -1;
   std::vector<SheetFunction> functions_;  ///< the two that are looked for, all parts, the probe
 };
 
@@ -204,8 +270,11 @@ std::vector<Star> enclosed_nodes(const core::RootTower& tower, const core::Worki
   const Surroundings box(lower, upper);
   std::vector<Star> stars;
   for (const core::NodeForm* form : forms)
-    for (std::size_t first = 0; first < form->probes.size(); ++first)
-      Nodes(tower, mode, forms, *form, first).add_to(stars, box, options);
+    for (std::size_t first = 0; first < form->probes.size(); ++first) {
+      Nodes(tower, mode, forms, *form, first, -1).add_to(stars, box, options);
+      for (const int rim : Nodes::rims(tower, *form))
+        Nodes(tower, mode, forms, *form, first, rim).add_to(stars, box, options);
+    }
   return stars;
 }
 

@@ -16,7 +16,8 @@ std::vector<Star> enclosed_cones(const core::RootTower& tower, const core::Worki
                                  const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper);
 
 /// The nodes that forms of one problem with the same last part have in common, in the box and a little around it, each
-/// proven to be one. Those at which roots vanish or are angles, or of which no proof is had, are left out.
+/// proven to be one. Those at which roots are angles, or of which no proof is had, are left out, and where roots vanish
+/// all but those on a rim along which all of the last part vanishes.
 std::vector<Star> enclosed_nodes(const core::RootTower& tower, const core::WorkingMode& mode,
                                  const std::vector<const core::NodeForm*>& forms,
                                  const std::vector<core::Rational>& lower, const std::vector<core::Rational>& upper,

@@ -37,7 +37,7 @@ KnownSearches::Key KnownSearches::key(Key::Kind kind, const core::RootTower& tow
       result.numbers.insert(result.numbers.end(), along.roots.begin(), along.roots.end());
     }
     if (!star.apex) continue;
-    result.box.push_back(star.apex->radius);
+    result.box.insert(result.box.end(), {star.apex->radius, star.apex->slope_radius});
     for (const Apex::Value& root : star.apex->roots) {
       result.box.insert(result.box.end(), {root.middle, root.radius});
       result.numbers.push_back(root.known ? 1 : 0);

@@ -103,7 +103,7 @@ class AroundApex {
   Expansion variable(int index) {
     if (index < 2) {
       const Rational& value = index == 0 ? star_.x : star_.y;
-      const int slope = builder_.variable(1 + index);
+      const int slope = way_of(index);
       const int regular = builder_.add(builder_.constant(value, star_.apex->radius), builder_.multiply(u_, slope));
       return {0, regular, false, enclosed_as(value, star_.apex->radius, static_cast<DoubleDouble*>(nullptr)), slope};
     }
@@ -111,6 +111,14 @@ class AroundApex {
     const auto [place, fresh] = roots_.try_emplace(root);
     if (fresh) place->second = root_expansion(root);
     return roots_.at(root);
+  }
+
+  /// (x - x0) / u or (y - y0) / u.
+  int way_of(int index) {
+    const int own = builder_.variable(1 + index), along = star_.along_y ? 1 : 0;
+    if (!star_.is_sheared() || index == along) return own;
+    const int slope = builder_.constant(star_.slope, star_.apex->slope_radius);
+    return builder_.add(builder_.multiply(slope, builder_.variable(1 + along)), builder_.multiply(u_, own));
   }
 
   Expansion root_expansion(int root) {
@@ -237,6 +245,43 @@ StraightLine polar_line(const Star& star, const core::RootTower& tower, const Sh
   if (!expansion) expansion = around_apex.of(AroundApex::form_of(function.polynomial));
   core::ensure(expansion.has_value(), "a polynomial has an expansion");
   return power && *power <= expansion->power ? around_apex.divided(*expansion, *power) : around_apex.line(*expansion);
+}
+
+StraightLine boundary_line(const Star& star, const core::Polynomial& square) {
+  // Q = sum of c_ij X^i Y^j; of the first order nothing is left but what is off the tangent.
+  const MultiInterval at[2] = {{star.x - star.apex->radius, star.x + star.apex->radius},
+                               {star.y - star.apex->radius, star.y + star.apex->radius}};
+  std::map<std::array<int, 2>, MultiInterval> taylor;
+  for (const core::Term& term : square.terms) {
+    const int m = term.exponents[0], n = term.exponents[1];
+    MultiInterval by_x(term.coefficient);
+    for (int i = m; i >= 0; --i) {  // coefficient * binomial(m, i) x^(m - i)
+      MultiInterval by_y = by_x;
+      for (int j = n; j >= 0; --j) {
+        MultiInterval& sum = taylor.try_emplace({i, j}, Rational(0)).first->second;
+        sum = sum + by_y;
+        if (j > 0) by_y = by_y * at[1] * MultiInterval(Rational(j, n - j + 1));
+      }
+      if (i > 0) by_x = by_x * at[0] * MultiInterval(Rational(i, m - i + 1));
+    }
+  }
+  StraightLineBuilder builder;
+  const std::size_t along = star.along_y ? 1 : 0, off = 1 - along;
+  const int u = builder.variable(0), on_tangent = builder.variable(1 + static_cast<int>(along)),
+            off_tangent = builder.variable(1 + static_cast<int>(off));
+  const int slope = builder.constant(star.slope, star.apex->slope_radius);
+  const int way_off = builder.add(builder.multiply(slope, on_tangent), builder.multiply(u, off_tangent));
+  int sum = builder.constant(0);
+  for (const auto& [powers, coefficient] : taylor) {
+    const int order = powers[0] + powers[1];
+    const Rational lower = coefficient.lower_end(), upper = coefficient.upper_end();
+    const int factor = builder.constant((lower + upper) / 2, (upper - lower) / 2);
+    if (order == 1 && powers[off] == 1) sum = builder.add(sum, builder.multiply(factor, off_tangent));
+    if (order < 2) continue;
+    const int ways = builder.multiply(builder.power(on_tangent, powers[along]), builder.power(way_off, powers[off]));
+    sum = builder.add(sum, builder.multiply(builder.power(u, order - 2), builder.multiply(factor, ways)));
+  }
+  return builder.line(sum);
 }
 
 StraightLine polar_angle(const Star& star, const core::RootTower& tower, const core::Root& root) {

@@ -22,6 +22,10 @@ int power_at(const Star& star, const core::RootTower& tower, const core::Straigh
 core::StraightLine polar_line(const Star& star, const core::RootTower& tower, const SheetFunction& function,
                               std::optional<int> power = std::nullopt);
 
+/// The square of a root on a star that is a touch, without its two powers of u. Required: star.apex, and a polynomial
+/// in (x, y) that vanishes there with a gradient across the star's tangent.
+core::StraightLine boundary_line(const Star& star, const core::Polynomial& square);
+
 /// The square of an angle's root likewise, which has no power of u.
 core::StraightLine polar_angle(const Star& star, const core::RootTower& tower, const core::Root& root);
 

@@ -37,7 +37,7 @@ Chart::Chart(Side own_side, int own_star, const Star& at, const std::array<Ratio
   exact_half_ = (x ? y1 - y0 : x1 - x0) / 2;
   exact_slope_ = at.slope;
   deep_is_along_ = x != at.along_y;
-  if (at.apex) radius_ = at.apex->radius;
+  if (at.apex) radius_ = at.apex->radius, slope_radius_ = at.apex->slope_radius;
   take_numbers();
 }
 
@@ -45,8 +45,12 @@ void Chart::take_numbers() {
   const Rational &a = along_x() ? origin_x : origin_y, &b = along_x() ? origin_y : origin_x;
   // What is counted from the apex is known as well as the apex is.
   const auto near = [&](const Rational& value) { return enclosed_as(value, radius_, static_cast<Interval*>(nullptr)); };
-  interval_ = {
-      near(a), near(b), near(exact_depth_), near(exact_middle_), enclosed(exact_half_), enclosed(exact_slope_)};
+  interval_ = {near(a),
+               near(b),
+               near(exact_depth_),
+               near(exact_middle_),
+               enclosed(exact_half_),
+               enclosed_as(exact_slope_, slope_radius_, static_cast<Interval*>(nullptr))};
   double_ = {core::to_double(a),
              core::to_double(b),
              core::to_double(exact_depth_),
@@ -89,7 +93,7 @@ std::vector<Chart> Chart::parts(const Star& at) const {
 bool Chart::operator==(const Chart& other) const {
   const auto key = [](const Chart& c) {
     return std::tie(c.side, c.part, c.origin_x, c.origin_y, c.sheared_, c.doubled_, c.deep_is_along_, c.radius_,
-                    c.exact_depth_, c.exact_middle_, c.exact_half_, c.exact_slope_);
+                    c.slope_radius_, c.exact_depth_, c.exact_middle_, c.exact_half_, c.exact_slope_);
   };
   return key(*this) == key(other);
 }
@@ -236,7 +240,7 @@ core::StraightLine Chart::in_chart(const core::StraightLine& polar) const {
     line.steps.push_back({Operation::multiply, first + 1, first + 2});
     rho = first + 3;
   } else if (sheared_) {  // the one off the tangent is counted from it
-    line.steps.push_back(core::constant_step(exact_slope_));
+    line.steps.push_back(core::constant_step(exact_slope_, slope_radius_));
     line.steps.push_back({Operation::multiply, 6, deep_is_along_ ? deep : wide});
     line.steps.push_back({Operation::subtract, deep_is_along_ ? wide : deep, 7});
     (deep_is_along_ ? wide : deep) = 8;

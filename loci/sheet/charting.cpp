@@ -102,9 +102,11 @@ const Charting::AtStar& Charting::at_star(const Chart& chart) {
   if (star.apex && !star.apex->exact) {
     for (std::size_t j = 0; j < tower_.roots.size(); ++j) {
       const core::Root& root = tower_.roots[j];
+      const int power = star.power_of_root(static_cast<int>(j));
       at_star.squares.push_back(root.is_angle() ? polar_angle(star, tower_, root)
-                                                : polar_line(star, tower_, SheetFunction{root.square, root.line},
-                                                             2 * star.power_of_root(static_cast<int>(j))));
+                                : star.is_sheared() && power > 0
+                                    ? boundary_line(star, root.square)
+                                    : polar_line(star, tower_, SheetFunction{root.square, root.line}, 2 * power));
     }
     for (const SheetFunction& f : functions_) at_star.functions.push_back(polar_line(star, tower_, f));
     known_.push_back(at_star);

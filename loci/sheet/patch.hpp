@@ -82,7 +82,7 @@ struct Chart {
 
   bool sheared_ = false, doubled_ = false;
   bool deep_is_along_ = true;  ///< where it is sheared: the way across the side is the one along the tangent
-  core::Rational radius_;      ///< of the star's coordinates
+  core::Rational radius_, slope_radius_ = 0;  ///< of the star's coordinates, of the tangent's slope
   core::Rational exact_depth_, exact_middle_, exact_half_, exact_slope_;
   Frame<Interval> interval_{};
   Frame<double> double_{};

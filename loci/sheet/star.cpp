@@ -323,7 +323,7 @@ std::vector<Star> with_what_vanishes(std::vector<Star> stars) {
 std::vector<Star> narrowed(std::vector<Star> stars, const Subtower& part) {
   for (Star& star : stars) {
     if (star.apex) {
-      Apex apex{star.apex->radius, {}, {}, star.apex->exact};
+      Apex apex{star.apex->radius, star.apex->slope_radius, {}, {}, star.apex->exact};
       for (const core::StraightLine& line : star.apex->vanishing) apex.vanishing.push_back(narrowed(line, part));
       for (const int root : part.kept) apex.roots.push_back(star.apex->roots[static_cast<std::size_t>(root)]);
       star.apex = std::move(apex);

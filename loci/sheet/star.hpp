@@ -6,7 +6,9 @@
 // directions in which branches reach the star.
 //     cone    (1, 1)  a dyad's ends meet and its lengths are equal: Q = 4 a^2 D - k^2 has a factor D = |P - A|^2;
 //                     or the function has a node there, and no root vanishes
-//     touch   (1, 2)  two workspace boundaries touch: X along the common tangent, Y off it, both roots vanish as u does
+//     touch   (1, 2)  two workspace boundaries touch: X along the common tangent, Y off it, both roots vanish as u
+//     does;
+//                     or the function has a node on one boundary, so that branches leave along its tangent
 //     corner  (2, 2)  two boundaries cross where the curve passes, both roots vanish as u; or one runs through a cone
 //     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2 does: X along
 //     it;
@@ -36,7 +38,8 @@ struct AlgebraicPoint {
 
 /// What is known of a star with irrational coordinates: an enclosure.
 struct Apex {
-  core::Rational radius;  ///< of x and y around those of the star
+  core::Rational radius;            ///< of x and y around those of the star
+  core::Rational slope_radius = 0;  ///< of a touch: of its slope around that of the star
   struct Value {
     core::Rational middle, radius;
     bool known = false;
@@ -64,7 +67,7 @@ struct Star {
   core::Rational slope;
   /// Of a touch or a corner: a branch of a direct singularity reaches it on the working mode's sheet.
   bool singular = false;
-  std::optional<Apex> apex = {};  ///< of a cone at no rational point
+  std::optional<Apex> apex = {};  ///< of a cone at no rational point, or of a touch that is a node
   /// A telescopic leg has no length there, and no direction, whether or not a root of the tower vanishes with it:
   /// numerators and |A| vanish since the equations hold the leg's way as it is.
   bool no_length = false;

@@ -372,6 +372,34 @@ TEST(OnceDisputed, NothingIsOpenAtABaseBeyondALimit) { all_is_certified("loci/rr
 // rounding left loci of one cylinder open in all of the box.
 TEST(OnceDisputed, GuidesThatPassTheirPinsClosely) { all_is_certified("loci/rprpr_guides_beside_pins"); }
 
+// |A| vanishes all along the boundary, and the force's numerators at one place of it: both branches of the margin curve
+// leave there along the tangent. 6421 arcs were found, and 4 places stayed open.
+TEST(OnceDisputed, AMarginsNodeOnASingularBoundary) {
+  LociRequest request;
+  request.min_force = 4;
+  const core::LocusMap map = trace_loci(corpus("loci/coaxial_margin_node_on_a_singular_boundary"), request);
+  EXPECT_TRUE(map.complete);
+  EXPECT_TRUE(map.open.empty());
+  for (const core::LocusCurve& curve : map.curves) {
+    EXPECT_TRUE(curve.certified) << curve.id;
+    EXPECT_LE(curve.arcs.size(), 10u) << curve.id;
+  }
+}
+
+// N = |A| = 0 within the least distance between a base and the end effector: no pose is there, and margin points were
+// listed, for their curves know nothing of that limit.
+TEST(OnceDisputed, NoMarginPointIsBeyondALimit) {
+  LociRequest request;
+  request.min_force = 10;
+  request.working_modes = {{-1, 1}};  // right, left
+  const core::LocusMap map = trace_loci(corpus("loci/five_bar_margin_node_beyond_a_limit"), request);
+  EXPECT_TRUE(map.complete);
+  EXPECT_TRUE(map.isolated_points.empty());
+  const auto is_margin = [](const core::LocusCurve& curve) { return curve.kind == core::LocusKind::margin; };
+  EXPECT_EQ(std::count_if(map.curves.begin(), map.curves.end(), is_margin), 2);
+  for (const core::LocusCurve& curve : map.curves) EXPECT_TRUE(curve.certified) << curve.id;
+}
+
 // Over motor angles the elbows meet at irrational half tangents: no chart was made around these places.
 TEST(OnceDisputed, ElbowsThatMeetOverMotorAngles) { all_is_certified("loci/five_bar_angles_elbows_meet"); }
 
