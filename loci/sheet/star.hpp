@@ -6,12 +6,10 @@
 // directions in which branches reach the star.
 //     cone    (1, 1)  a dyad's ends meet and its lengths are equal: Q = 4 a^2 D - k^2 has a factor D = |P - A|^2;
 //                     or the function has a node there, and no root vanishes
-//     touch   (1, 2)  two workspace boundaries touch: X along the common tangent, Y off it, both roots vanish as u
-//     does;
-//                     or the function has a node on one boundary, so that branches leave along its tangent
+//     touch   (1, 2)  two workspace boundaries touch: X along the common tangent, Y off it, both roots vanish as u;
+//                     or the function has a node on one boundary, and its branches leave along the tangent
 //     corner  (2, 2)  two boundaries cross where the curve passes, both roots vanish as u; or one runs through a cone
-//     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2 does: X along
-//     it;
+//     bend    (2, 4)  the same where the curve touches the second boundary, whose root vanishes as u^2: X along it;
 //                     or where the second one is that of a dyad, and the first one that of a dyad on it
 // Where a boundary runs through a cone, both are needed: a corner's weights in all directions but the boundary's, a
 // touch's along that.
