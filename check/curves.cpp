@@ -114,24 +114,6 @@ bool Curve::is_free(const Rectangle& cell, int cuts) {
   return true;
 }
 
-/// Over a cell in which the function may be zero: not where all roots of the mode are real.
-bool Curve::is_free_of_poses(const Rectangle& cell) {
-  const SheetParts parts = parts_of(c, claim.mode, claim.at_zero);
-  std::vector<core::StraightLine> roots;
-  for (int j = 0; j < static_cast<int>(c.squares.size()); ++j) {
-    if (c.root_roles[static_cast<std::size_t>(j)] != core::RootRole::working_mode) continue;
-    core::StraightLineBuilder builder;
-    roots.push_back(builder.line(builder.variable(2 + j)));
-  }
-  std::vector<const core::StraightLine*> functions = {&program};
-  for (const core::StraightLine& root : roots) functions.push_back(&root);
-  Sheet with_all(parts, functions);
-  std::swap(sheet, with_all);
-  const bool free = is_free(cell, most_cuts);
-  std::swap(sheet, with_all);
-  return free;
-}
-
 /// Over the cell that the sheet has entered; its slopes are known.
 bool Curve::is_graph_here(int variable) const {
   int axis = variable < 2 ? variable : -1;
@@ -158,8 +140,7 @@ void Curve::check_leaf(std::size_t node) {
   if (leaf.claim.kind == CellNode::Kind::open) return;
   ++cells;
   if (leaf.claim.kind == CellNode::Kind::free) {
-    if (!is_free(leaf.cell, most_cuts) && !is_free_of_poses(leaf.cell))
-      fail("it may be zero in " + describe(leaf.cell) + ", said to be free of zeros");
+    if (!is_free(leaf.cell, most_cuts)) fail("it may be zero in " + describe(leaf.cell) + ", said to be free of zeros");
     return;
   }
   ++graphs;

@@ -103,7 +103,6 @@ class Curve {
   void cut_open(std::vector<std::size_t> nodes);
   std::array<std::size_t, 2> cut(std::size_t node);
   bool is_free(const Rectangle& cell, int cuts);
-  bool is_free_of_poses(const Rectangle& cell);
   bool is_graph(const Rectangle& cell, int variable);
   bool is_graph_here(int variable) const;
   void find_ends();
