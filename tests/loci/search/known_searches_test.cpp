@@ -114,8 +114,11 @@ TEST(KnownSearches, TellStarsApart) {
   star.singular = true;
   EXPECT_FALSE(key({star}) == one);
   star.singular = false;
-  star.apex = Apex{core::Rational(1, 100), {{core::Rational(1), core::Rational(0), true}}};
-  EXPECT_FALSE(key({star}) == one);
+  star.apex = Apex{core::Rational(1, 100), 0, {{core::Rational(1), core::Rational(0), true}}};
+  const Key enclosed = key({star});
+  EXPECT_FALSE(enclosed == one);
+  star.apex->slope_radius = core::Rational(1, 1000);
+  EXPECT_FALSE(key({star}) == enclosed);
 }
 
 }  // namespace
