@@ -176,7 +176,7 @@ class Fit {
       const auto log_of_function = [&](std::size_t place) {
         return log_of(sheet.value(static_cast<int>(order_[place])));
       };
-      std::vector<Interval> row = {Interval(1.0, identity_bits)}, root_row = row;
+      std::vector<Interval> row = {Interval(1.0, identity_bits)}, root_row = {Interval(1.0, identity_bits)};
       for (const Interval& d : here->divisors) root_row.push_back(log_of(d));
       roots_.columns = root_row.size();
       divisors_ = here->divisors.size();

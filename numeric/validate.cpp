@@ -226,9 +226,10 @@ class ModeValidation {
         return turns_round(model_, signs_, way, checked.columns, reach_);
       };
       const auto is_beside_another = [&](const Approach& way) {
-        for (std::size_t k = 0; k < map_.curves.size(); ++k)
-          if (k != c && map_.curves[k].mode == mode_ && passes_near(map_.curves[k], way.towards, way.from)) return true;
-        return false;
+        return std::any_of(map_.curves.begin(), map_.curves.end(), [&](const LocusCurve& other) {
+          return other.mode == mode_ && !runs_along(other, map_.curves[c], way.towards) &&
+                 passes_near(other, way.towards, way.from);
+        });
       };
       // What other curves pass nearer than the way is long, the arc tells nothing of.
       const bool is_alone = !std::all_of(ways.begin(), ways.end(), is_beside_another);
@@ -259,6 +260,13 @@ class ModeValidation {
   }
 
   static std::vector<double> pose_of(const core::Point2& at) { return {at[0], at[1]}; }
+
+  /// Whether two curves are one in the plane.
+  bool runs_along(const LocusCurve& other, const LocusCurve& curve, const core::Point2& at) const {
+    constexpr double same_place = 1e-11;  // of the box: vertices are on their curves to a tenth of it
+    if (&other == &curve || (!curve.implicit.is_zero() && other.implicit == curve.implicit)) return true;
+    return passes_near(other, at, same_place * diagonal_);
+  }
 
   static bool passes_near(const LocusCurve& curve, const core::Point2& at, double reach) {
     for (const core::Arc& arc : curve.arcs)

@@ -6,9 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "loci/search/exact_zero.hpp"
 #include "loci/sheet/sheet.hpp"
-#include "loci/sheet/subtower.hpp"
 
 namespace clearloci::loci {
 namespace {
