@@ -99,7 +99,7 @@ std::vector<Approach> approaches(const NumericModel& model, std::span<const int>
       return bounded_numerators(model, pose, mode);
     };
     for (const double side : {1.0, -1.0}) {
-      Approach way{place.at, {-place.along[1], place.along[0]}, nearer * distances.front() * size, {}};
+      Approach way{place.at, {-place.along[1], place.along[0]}, side * nearer * distances.front() * size, {}};
       for (const double distance : distances) way.at.push_back(beside(side * nearer * distance * size));
       if (std::all_of(way.at.begin(), way.at.end(), [](const BoundedNumerators& n) { return n.reachable; }))
         ways.push_back(std::move(way));
@@ -109,6 +109,16 @@ std::vector<Approach> approaches(const NumericModel& model, std::span<const int>
   }
   if (near_boundary) ways.clear();
   return ways;
+}
+
+std::optional<Approach> brought_nearer(const NumericModel& model, std::span<const int> mode, const Approach& way) {
+  Approach nearer = way;
+  nearer.from *= approach_step;
+  nearer.at.erase(nearer.at.begin());
+  const double t = nearer.from * approach_step * approach_step;
+  const std::array pose = {way.towards[0] + t * way.across[0], way.towards[1] + t * way.across[1]};
+  nearer.at.push_back(bounded_numerators(model, pose, mode));
+  return nearer.at.back().reachable ? std::optional(std::move(nearer)) : std::nullopt;
 }
 
 bool turns_round(const NumericModel& model, std::span<const int> mode, const Approach& way,

@@ -19,7 +19,7 @@ enum class Tendency { zero, finite, unbounded };
 struct Approach {
   core::Point2 towards{};             ///< on the arc
   core::Point2 across{};              ///< unit vector off the arc
-  double from = 0;                    ///< m: the largest distance
+  double from = 0;                    ///< m: the largest distance, with its sign
   std::vector<BoundedNumerators> at;  ///< at distances that fall by `approach_step`
 };
 
@@ -29,6 +29,9 @@ inline constexpr double approach_step = 1e-2;
 /// chord of which no point is known to be on the curve. `size`: of the box, m.
 std::vector<Approach> approaches(const NumericModel& model, std::span<const int> mode, const core::LocusCurve& curve,
                                  const core::Arc& arc, double size);
+
+/// The same way, `approach_step` nearer; nothing where the mechanism does not reach it.
+std::optional<Approach> brought_nearer(const NumericModel& model, std::span<const int> mode, const Approach& way);
 
 /// The reaction turns round between the two sides of the arc, `reach` away from it: the arc stands for a zero near by.
 bool turns_round(const NumericModel& model, std::span<const int> mode, const Approach& way,

@@ -225,15 +225,12 @@ class ModeValidation {
       const auto stands_for_a_zero = [&](const Approach& way) {
         return turns_round(model_, signs_, way, checked.columns, reach_);
       };
-      const auto is_beside_another = [&](const Approach& way) {
-        return std::any_of(map_.curves.begin(), map_.curves.end(), [&](const LocusCurve& other) {
-          return other.mode == mode_ && !runs_along(other, map_.curves[c], way.towards) &&
-                 passes_near(other, way.towards, way.from);
-        });
-      };
-      // What other curves pass nearer than the way is long, the arc tells nothing of.
-      const bool is_alone = !std::all_of(ways.begin(), ways.end(), is_beside_another);
-      if (is_alone && !std::all_of(ways.begin(), ways.end(), stands_for_a_zero)) return dispute(ways.front().towards);
+      // Other curves, or a boundary beyond that of the workspace, may be nearer than the ways' ends.
+      std::vector<Approach> nearer;
+      for (const Approach& way : ways)
+        if (auto one = brought_nearer(model_, signs_, way)) nearer.push_back(std::move(*one));
+      const bool is_sure = most(tally_of(nearer, checked.columns).other);
+      if (is_sure && !std::all_of(ways.begin(), ways.end(), stands_for_a_zero)) return dispute(ways.front().towards);
       ++report.arcs_undecided;
     } else if (claimed) {
       ++(most(tally.zero) ? report.arcs_held : report.arcs_undecided);
@@ -260,13 +257,6 @@ class ModeValidation {
   }
 
   static std::vector<double> pose_of(const core::Point2& at) { return {at[0], at[1]}; }
-
-  /// Whether two curves are one in the plane.
-  bool runs_along(const LocusCurve& other, const LocusCurve& curve, const core::Point2& at) const {
-    constexpr double same_place = 1e-11;  // of the box: vertices are on their curves to a tenth of it
-    if (&other == &curve || (!curve.implicit.is_zero() && other.implicit == curve.implicit)) return true;
-    return passes_near(other, at, same_place * diagonal_);
-  }
 
   static bool passes_near(const LocusCurve& curve, const core::Point2& at, double reach) {
     for (const core::Arc& arc : curve.arcs)
