@@ -24,8 +24,8 @@ bool has_certified_range(const mechanism::Mechanism& mechanism);
 /// Throws core::InputError where loci and zones have none.
 void require_certifiable(const mechanism::Mechanism& mechanism);
 
-/// Adds `file`, which appears with the files of the answer that it certifies. Of loci and zones that claim nothing, as at
-/// a time limit, none is written, and that is told.
+/// Adds `file`, which appears with the files of the answer that it certifies. Of loci and zones that claim nothing, as
+/// at a time limit, none is written, and that is told.
 void stage_certificate(report::StagedFiles& staged, const std::string& file, const std::string& command,
                        const CommonArguments& arguments, const core::Certificate& certificate,
                        const core::Task* task = nullptr);
