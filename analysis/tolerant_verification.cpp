@@ -122,8 +122,8 @@ class Tolerant {
     return std::nullopt;
   }
 
-  /// A pose among samples of the task at which the design in the middle fails, under the loads that are worst there: the
-  /// proof refutes with loads that it comes upon, and does not look for these.
+  /// A pose among samples of the task at which the design in the middle fails, under the loads that are worst there:
+  /// the proof refutes with loads that it comes upon, and does not look for these.
   std::optional<core::TaskWitness> at_a_sample(const loci::DesignBox& designs) {
     std::vector<double> middle;
     for (const core::Interval& parameter : designs) middle.push_back(parameter.middle());
