@@ -157,15 +157,4 @@ bool inside(const core::Zone& zone, const Point2& at) {
                                                 [&](const core::Polyline& hole) { return inside(hole, at); });
 }
 
-double distance_to(const core::Polyline& line, const Point2& at) {
-  double least = 1e300;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const Point2 &a = line[i - 1], &b = line[i];
-    const double dx = b[0] - a[0], dy = b[1] - a[1], l2 = dx * dx + dy * dy;
-    const double t = l2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / l2, 0.0, 1.0) : 0;
-    least = std::min(least, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]));
-  }
-  return least;
-}
-
 }  // namespace clearloci::test

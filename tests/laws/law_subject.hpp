@@ -11,6 +11,7 @@
 #include "clearloci/zones.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_forms.hpp"
+#include "tests/laws/distance_to.hpp"
 #include "tests/laws/law_report.hpp"
 
 namespace clearloci::test {
@@ -88,8 +89,6 @@ void is_rightly_refused(Subject& subject, const std::string& message);
 double area_of(const core::Polyline& ring);
 bool inside(const core::Polyline& ring, const Point2& at);
 bool inside(const core::Zone& zone, const Point2& at);
-double distance_to(const core::Polyline& line, const Point2& at);
-
 /// The steps of the law, each of one design.
 void judge_loci(Subject& subject);
 void judge_validation(Subject& subject);

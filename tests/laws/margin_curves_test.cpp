@@ -11,11 +11,14 @@
 #include "mechanism/read.hpp"
 #include "numeric/reactions.hpp"
 #include "numeric/turns.hpp"
+#include "tests/laws/distance_to.hpp"
 #include "tests/laws/margin_designs.hpp"
 #include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
+
+using test::distance_to;
 
 using core::LocusKind;
 using core::Point2;
@@ -29,17 +32,6 @@ bool names(const std::vector<core::Vanishing>& vanishing, const std::string& joi
   return std::any_of(vanishing.begin(), vanishing.end(), [&](const core::Vanishing& candidate) {
     return candidate.joint == joint && candidate.quantity == core::Quantity::f;
   });
-}
-
-double distance_to(const core::Polyline& line, const Point2& at) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const Point2 &a = line[i - 1], &b = line[i];
-    const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
-    const double t = square > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / square, 0.0, 1.0) : 0.0;
-    least = std::min(least, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]));
-  }
-  return least;
 }
 
 class Margins {

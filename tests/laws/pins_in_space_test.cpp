@@ -16,6 +16,7 @@
 #include "mechanism/known_lines.hpp"
 #include "mechanism/read.hpp"
 #include "mechanism/read_task.hpp"
+#include "tests/laws/distance_to.hpp"
 #include "tests/laws/judged.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
@@ -23,6 +24,8 @@
 
 namespace clearloci {
 namespace {
+
+using test::distance_to;
 
 using mechanism::Mechanism;
 
@@ -191,17 +194,6 @@ std::vector<TurnedCell> turned_cells(const Force& force, int n, const core::Poin
       if (std::lround(angle / (2 * std::numbers::pi)) != 0) turned.push_back({place(i, j), place(i + 1, j + 1)});
     }
   return turned;
-}
-
-double distance_to(const core::Polyline& line, const core::Point2& at) {
-  double least = std::hypot(line.front()[0] - at[0], line.front()[1] - at[1]);
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const core::Point2 &a = line[i - 1], &b = line[i];
-    const double dx = b[0] - a[0], dy = b[1] - a[1], l2 = dx * dx + dy * dy;
-    const double t = l2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / l2, 0.0, 1.0) : 0;
-    least = std::min(least, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]));
-  }
-  return least;
 }
 
 /// On a direct singularity all numerators may vanish together: there no force has a limit.

@@ -10,6 +10,7 @@
 
 #include "analysis/zones.hpp"
 #include "mechanism/read_task.hpp"
+#include "tests/laws/distance_to.hpp"
 #include "tests/laws/judged.hpp"
 #include "tests/numeric/solved.hpp"
 #include "tests/numeric/spatial_designs.hpp"
@@ -17,6 +18,8 @@
 
 namespace clearloci {
 namespace {
+
+using test::distance_to;
 
 constexpr unsigned seed = 20260502;
 
@@ -99,17 +102,6 @@ bool inside(const core::Polyline& ring, const core::Point2& at) {
       result = !result;
   }
   return result;
-}
-
-double distance_to(const core::Polyline& line, const core::Point2& at) {
-  double least = 1e300;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const core::Point2 &a = line[i - 1], &b = line[i];
-    const double dx = b[0] - a[0], dy = b[1] - a[1], l2 = dx * dx + dy * dy;
-    const double t = l2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / l2, 0.0, 1.0) : 0;
-    least = std::min(least, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]));
-  }
-  return least;
 }
 
 /// At random poses one LU of the orthonormal form finds the signs of the zone that the pose lies in.

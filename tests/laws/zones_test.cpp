@@ -15,11 +15,14 @@
 #include "loci/zones/zones.hpp"
 #include "numeric/reactions.hpp"
 #include "tests/laws/design_texts.hpp"
+#include "tests/laws/distance_to.hpp"
 #include "tests/laws/task_designs.hpp"
 #include "tests/source_dir.hpp"
 
 namespace clearloci {
 namespace {
+
+using test::distance_to;
 
 mechanism::Mechanism example(const std::string& name) {
   return mechanism::read_mechanism(source_dir() + "/examples/" + name + ".yaml");
@@ -38,17 +41,6 @@ bool inside(const core::Polyline& ring, const core::Point2& at) {
 bool inside(const core::Zone& zone, const core::Point2& at) {
   return inside(zone.outer, at) && std::none_of(zone.holes.begin(), zone.holes.end(),
                                                 [&](const core::Polyline& hole) { return inside(hole, at); });
-}
-
-double distance_to(const core::Polyline& line, const core::Point2& at) {
-  double least = 1e300;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const core::Point2 &a = line[i - 1], &b = line[i];
-    const double dx = b[0] - a[0], dy = b[1] - a[1], l2 = dx * dx + dy * dy;
-    const double t = l2 > 0 ? std::clamp(((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / l2, 0.0, 1.0) : 0;
-    least = std::min(least, std::hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]));
-  }
-  return least;
 }
 
 double total_area(const core::Zones& map, const core::WorkingMode& mode) {
