@@ -67,6 +67,11 @@ std::vector<ArcPlace> places_of(const core::LocusCurve& curve, const core::Polyl
   return places;
 }
 
+BoundedNumerators numerators_on(const NumericModel& model, std::span<const int> mode, const Approach& way, double t) {
+  const std::array pose = {way.towards[0] + t * way.across[0], way.towards[1] + t * way.across[1]};
+  return bounded_numerators(model, pose, mode);
+}
+
 /// Bounds of |w|.
 struct Size {
   double least = 0, most = 0;
@@ -115,9 +120,7 @@ std::optional<Approach> brought_nearer(const NumericModel& model, std::span<cons
   Approach nearer = way;
   nearer.from *= approach_step;
   nearer.at.erase(nearer.at.begin());
-  const double t = nearer.from * approach_step * approach_step;
-  const std::array pose = {way.towards[0] + t * way.across[0], way.towards[1] + t * way.across[1]};
-  nearer.at.push_back(bounded_numerators(model, pose, mode));
+  nearer.at.push_back(numerators_on(model, mode, way, nearer.from * approach_step * approach_step));
   return nearer.at.back().reachable ? std::optional(std::move(nearer)) : std::nullopt;
 }
 
@@ -126,9 +129,7 @@ bool turns_round(const NumericModel& model, std::span<const int> mode, const App
   std::array<ForceNumerators, 2> sides{};
   double sign = 1;
   for (const std::size_t side : {0u, 1u}) {
-    const double t = side == 0 ? reach : -reach;
-    const std::array pose = {way.towards[0] + t * way.across[0], way.towards[1] + t * way.across[1]};
-    const BoundedNumerators at = bounded_numerators(model, pose, mode);
+    const BoundedNumerators at = numerators_on(model, mode, way, side == 0 ? reach : -reach);
     if (!at.reachable || std::abs(at.determinant.value) <= at.determinant.error) return false;
     if (at.determinant.value < 0) sign = -sign;
     const auto values = components(at, columns);

@@ -122,19 +122,23 @@ bool is_zero_there(const core::LocusProblem& problem, const core::WorkingMode& m
                                {core::Interval(zero.x) + around, core::Interval(zero.y) + around});
 }
 
-/// Whether |A| is proven to be zero at a zero of the system, as it holds a factor that is, which a numerator crosses
-/// there: that zero is a simple one of both, so that their quotient has more than one limit around.
-bool crosses_singularity(const core::LocusProblem& problem, const core::WorkingMode& mode,
-                         const core::ForceProbe& probe, const ForceZeros& zeros, const sheet::SheetZero& zero,
-                         double reach) {
+/// Factors of |A| that are proven to be zero there.
+std::vector<SheetFunction> zero_there(const core::LocusProblem& problem, const core::WorkingMode& mode,
+                                      const ForceZeros& zeros, const sheet::SheetZero& zero) {
+  std::vector<SheetFunction> list;
+  for (const LocusFactor& factor : problem.factors)
+    if (factor.role == core::FactorRole::direct_singularity && is_zero_there(problem, mode, factor, zeros, zero))
+      list.push_back({factor.sheet, factor.line});
+  return list;
+}
+
+/// Whether a numerator crosses a factor of |A| that is zero there: that zero is a simple one of both, so that their
+/// quotient has more than one limit around.
+bool crosses(const core::LocusProblem& problem, const core::WorkingMode& mode, const core::ForceProbe& probe,
+             const SheetFunction& singular, const sheet::SheetZero& zero, double reach) {
   const core::Polynomial none{problem.tower.variables(), {}};
-  return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& singular) {
-    return singular.role == core::FactorRole::direct_singularity &&
-           is_zero_there(problem, mode, singular, zeros, zero) &&
-           std::any_of(probe.numerators.begin(), probe.numerators.end(), [&](const core::StraightLine& numerator) {
-             Neighbourhood around(problem, mode, zero, reach);
-             return around.narrow({singular.sheet, singular.line}, {none, numerator});
-           });
+  return std::any_of(probe.numerators.begin(), probe.numerators.end(), [&](const core::StraightLine& numerator) {
+    return Neighbourhood(problem, mode, zero, reach).narrow(singular, {none, numerator});
   });
 }
 
@@ -167,8 +171,9 @@ NoLimit no_limit(const core::LocusProblem& problem, const core::WorkingMode& mod
           return NoLimit::of_all;
     }
   }
-  for (const double share : shares)
-    if (crosses_singularity(problem, mode, *probe, zeros, zero, reach_of(share))) return NoLimit::of_joint;
+  for (const SheetFunction& singular : zero_there(problem, mode, zeros, zero))
+    for (const double share : shares)
+      if (crosses(problem, mode, *probe, singular, zero, reach_of(share))) return NoLimit::of_joint;
   return NoLimit::unknown;
 }
 
