@@ -26,7 +26,7 @@ std::optional<Poly> FactorEmission::add_both_senses(const TwoSenses& senses, std
   const std::vector<Poly> sides = parts_of(senses.size * t + senses.bound), length = parts_of(senses.square + t);
   if (sides.size() != 2 || length.size() != 2 || length[0].is_constant()) return std::nullopt;
   // |w| = root / length[1], root^2 = length[0] length[1].
-  Poly left = sides[1], right = sides[0] * length[1];
+  Poly left = sides[1], right = d_.geometry.reduce(sides[0] * length[1]);
   const Poly shared = gcd(left, right);
   left = left.exact_quotient(shared);
   right = right.exact_quotient(shared);
@@ -36,7 +36,7 @@ std::optional<Poly> FactorEmission::add_both_senses(const TwoSenses& senses, std
 
   const std::vector<int> variables = d_.geometry.tower_variables();
   // A root of about the size of the coordinates: numerical steps along the curve weigh it against them.
-  const core::Polynomial unscaled = (length[0] * length[1]).plain(variables);
+  const core::Polynomial unscaled = d_.geometry.reduce(length[0] * length[1]).plain(variables);
   core::Polynomial square = core::scaled_for_doubles(unscaled);
   core::Rational gained = square.terms.front().coefficient / unscaled.terms.front().coefficient;
   if (!rational_root(gained)) {

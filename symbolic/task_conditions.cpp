@@ -219,7 +219,7 @@ class Conditions {
       core::Root root;
       root.name = "s" + std::to_string(result_.tower.roots.size() + 1);
       root.role = core::RootRole::length;
-      root.square = (length[0] * length[1]).plain(geometry_.tower_variables());
+      root.square = geometry_.reduce(length[0] * length[1]).plain(geometry_.tower_variables());
       core::append_roots(result_.tower, {std::move(root)});
     }
     lines_.let(geometry_.auxiliary(), found->second.variable, length[1]);

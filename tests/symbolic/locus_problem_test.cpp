@@ -116,6 +116,48 @@ TEST(LocusProblem, MarginsAddTheirOwnFactors) {
   EXPECT_EQ(margins, 8);
 }
 
+TEST(LocusProblem, TheLengthOfAMarginsForceIsAnElementLinearInEachRoot) {
+  const char* const stacked = R"(
+format: 1
+workspace: {x: [-0.5, 1.5], y: [-0.5, 0.125]}
+points:
+  A1: [0, 0]
+  A2: [0.375, 0.5]
+  A3: [0.75, 0.5]
+  P: [x, y]
+  B1: {dyad: [A1, P], lengths: [0.25, 0.25], side: left}
+  B2: {dyad: [A2, P], lengths: [0.375, 0.5], side: right}
+  Q: {on: [A2, B2], offset: [0.5, 0.375]}
+  C: {dyad: [A3, Q], lengths: [0.375, 0.375], side: right}
+links:
+  A1B1: {points: [A1, B1]}
+  B1P: {points: [B1, P]}
+  PB2: {points: [P, B2]}
+  crank: {points: [A2, B2, Q]}
+  QC: {points: [Q, C]}
+  A3C: {points: [A3, C]}
+joints:
+  A1: {revolute: [ground, A1B1], at: A1, actuated: true}
+  B1: {revolute: [A1B1, B1P], at: B1}
+  P: {revolute: [B1P, PB2], at: P}
+  B2: {revolute: [crank, PB2], at: B2}
+  A2: {revolute: [ground, crank], at: A2}
+  Q: {revolute: [crank, QC], at: Q}
+  C: {revolute: [A3C, QC], at: C}
+  A3: {revolute: [ground, A3C], at: A3, actuated: true}
+end_effector: {link: PB2, at: P}
+loads: [{link: PB2, at: P, force: [0, -100]}]
+)";
+  Selection selection;
+  selection.min_force = 20;
+  selection.joints = {"A2"};
+  const core::LocusProblem problem = locus_problem(mechanism::parse_mechanism(stacked, "stacked.yaml"), selection).problem;
+  ASSERT_GT(problem.tower.roots.size(), 3u) << "the dyads and a length";
+  for (const core::Root& root : problem.tower.roots)
+    for (int variable = 2; variable < problem.tower.variables(); ++variable)
+      EXPECT_LE(core::degree_in(root.square, variable), 1) << root.name;
+}
+
 TEST(LocusProblem, AnUnloadedMechanismSaysSo) {
   mechanism::Mechanism m = example("five_bar");
   m.loads.clear();
