@@ -111,6 +111,7 @@ class FactorEmission {
   bool add_senses(const TwoSenses& senses, const Poly& squared, core::LocusFactor common);
   /// How often `divisor` divides p.
   static int times_in(Poly p, const Poly& divisor);
+  bool is_product_of_denominators(Poly p) const;
   /// The factors size |w| - bound and size |w| + bound over one more root, |w|, without what they share, which is
   /// returned. `parts`: of the product of the two. Nothing where |w| is constant or a side is zero.
   std::optional<Poly> add_both_senses(const TwoSenses& senses, std::vector<SheetFactor> parts,

@@ -69,6 +69,12 @@ FactoredPoly shared_factors(const std::vector<FactoredPoly>& products) {
   return shared.value_or(FactoredPoly{1, {}});
 }
 
+Poly sum_of_squares(const std::vector<Poly>& parts) {
+  Poly sum = parts.at(0) * parts[0];
+  for (std::size_t i = 1; i < parts.size(); ++i) sum += parts[i] * parts[i];
+  return sum;
+}
+
 Poly without(FactoredPoly product, const FactoredPoly& factors, const Ring& ring) {
   multiply(product, factors, -1);
   return expanded(product, ring);

@@ -33,6 +33,9 @@ FactoredPoly shared_factors(const std::vector<FactoredPoly>& products);
 /// product / factors, multiplied out.
 Poly without(FactoredPoly product, const FactoredPoly& factors, const Ring& ring);
 
+/// Of at least one polynomial.
+Poly sum_of_squares(const std::vector<Poly>& parts);
+
 /// Multiplied out; ensures that no multiplicity is negative.
 Poly expanded(const FactoredPoly& product, const Ring& ring);
 

@@ -24,11 +24,11 @@ std::vector<Guide> guides(const Geometry& geometry, const Elimination& eliminati
     core::ensure(normal != nullptr && couple != nullptr, "a guide's normal force and couple");
     const Rational half = mechanism::value_of(joint.clearance->half_length, m);
     const FactoredPoly common = shared_factors({*normal, *couple});
-    const Poly square = squared_axis(geometry, joint);
-    const std::optional<Rational> constant = elimination.constant_over_tower(square);
+    const std::vector<Poly> axis = components_of_axis(geometry, joint);
+    const std::optional<Rational> constant = elimination.constant_over_tower(sum_of_squares(axis));
     result.push_back({joint.name, half, common,
                       normal->is_zero() ? Poly(ring) : without(*normal, common, ring).scaled(half),
-                      couple->is_zero() ? Poly(ring) : without(*couple, common, ring), square,
+                      couple->is_zero() ? Poly(ring) : without(*couple, common, ring), axis,
                       constant ? std::optional(mechanism::near_root(*constant)) : std::nullopt});
   }
   return result;

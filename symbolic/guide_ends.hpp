@@ -20,7 +20,7 @@ struct Guide {
   core::Rational half_length;
   FactoredPoly common;                   ///< what the numerators of N and T share
   Poly bears, turns;                     ///< the rest of h N / |u| and of T
-  Poly square;                           ///< u . u
+  std::vector<Poly> axis;                ///< the components of u
   std::optional<core::Rational> length;  ///< |u| where it is constant, within 1e-30
 
   /// The ends' numerators are polynomials: |u| is constant, or but a factor as one of N and T is zero in every pose.

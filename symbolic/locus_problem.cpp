@@ -65,7 +65,7 @@ std::optional<FactoredDeterminants> determinants_of(const Geometry& geometry, co
   return regular_determinants(geometry);
 }
 
-/// Loci and roots are handed over as elements that are linear in each root.
+/// Loci and roots are handed over as elements that are linear in each root; but for angles, of which no square is used.
 bool is_reduced(const core::LocusProblem& problem) {
   const auto first = static_cast<int>(problem.tower.coordinates.size());
   const auto linear = [&](const core::Polynomial& element) {
@@ -76,7 +76,7 @@ bool is_reduced(const core::LocusProblem& problem) {
   return std::all_of(problem.factors.begin(), problem.factors.end(),
                      [&](const core::LocusFactor& factor) { return linear(factor.sheet); }) &&
          std::all_of(problem.tower.roots.begin(), problem.tower.roots.end(),
-                     [&](const core::Root& root) { return linear(root.square); });
+                     [&](const core::Root& root) { return root.is_angle() || linear(root.square); });
 }
 
 void emit_factors(Derivation& d) {

@@ -16,14 +16,21 @@ int FactorEmission::times_in(Poly p, const Poly& divisor) {
   return times;
 }
 
+bool FactorEmission::is_product_of_denominators(Poly p) const {
+  for (const Poly& denominator : d_.elimination.denominator_factors())
+    for (Poly quotient = p; p.divides(denominator, quotient);) p = quotient;
+  return p.is_constant();
+}
+
 std::optional<Poly> FactorEmission::add_both_senses(const TwoSenses& senses, std::vector<SheetFactor> parts,
                                                     std::array<LocusFactor, 2> factors) {
   const Poly t = Poly::variable(d_.geometry.ring(), d_.geometry.auxiliary());
+  const Poly square_of_w = senses.square();
   const auto parts_of = [&](const Poly& natural) {
     return d_.elimination.over_tower(natural).coefficients(d_.geometry.auxiliary());
   };
   // Coefficients of t^0 and t^1 over the tower have one denominator.
-  const std::vector<Poly> sides = parts_of(senses.size * t + senses.bound), length = parts_of(senses.square + t);
+  const std::vector<Poly> sides = parts_of(senses.size * t + senses.bound), length = parts_of(square_of_w + t);
   if (sides.size() != 2 || length.size() != 2 || length[0].is_constant()) return std::nullopt;
   // |w| = root / length[1], root^2 = length[0] length[1].
   Poly left = sides[1], right = d_.geometry.reduce(sides[0] * length[1]);
@@ -43,22 +50,35 @@ std::optional<Poly> FactorEmission::add_both_senses(const TwoSenses& senses, std
     square = square + square;
     gained *= 2;
   }
-  left = left.scaled(1 / *rational_root(gained));
+  const core::Rational root_of_gained = *rational_root(gained);
+  const core::Polynomial divisor = length[1].plain();
+  const core::Rational gained_below =
+      core::scaled_for_doubles(divisor).terms.front().coefficient / divisor.terms.front().coefficient;
+  const Poly below = length[1].scaled(gained_below);
   const auto found = std::find_if(more_roots_.begin(), more_roots_.end(),
                                   [&](const core::Root& root) { return root.square == square; });
   const auto index = static_cast<int>(variables.size() + static_cast<std::size_t>(found - more_roots_.begin()));
   if (found == more_roots_.end())
-    more_roots_.push_back({"s" + std::to_string(d_.result.problem.tower.roots.size() + more_roots_.size() + 1), "",
-                           core::RootRole::length, square});
+    more_roots_.push_back(
+        {.name = "s" + std::to_string(d_.result.problem.tower.roots.size() + more_roots_.size() + 1),
+         .point = "",
+         .role = core::RootRole::length,
+         .square = square,
+         .line = d_.lines.square(gained / (gained_below * gained_below * senses.over), senses.w, below)});
+  d_.lines.let(d_.geometry.auxiliary(), index, below);
+  const core::Rational length_of_t = gained_below / root_of_gained;
+  const bool same_zeros = is_product_of_denominators(shared);
+  left = left.scaled(1 / root_of_gained);
   for (const int sense : {1, -1}) {
     LocusFactor& factor = factors[sense > 0 ? 0 : 1];
+    if (same_zeros) factor.line = d_.lines.of((senses.size * t).scaled(length_of_t) - senses.bound.scaled(sense));
     for (const SheetFactor& part : parts) put_implicit(part, factor);
     const core::Polynomial root = core::variable_polynomial(index + 1, index);
     const auto widened = [&](const Poly& p) { return core::with_variables(p.plain(variables), index + 1); };
     factor.sheet = core::scaled_for_doubles(sense > 0 ? widened(left) * root - widened(right)
                                                       : widened(left) * root + widened(right));
     const auto words = [&](const auto& write) {
-      return "(" + write(senses.size) + ")*sqrt(" + write(senses.square) + (sense > 0 ? ") - (" : ") + (") +
+      return "(" + write(senses.size) + ")*sqrt(" + write(square_of_w) + (sense > 0 ? ") - (" : ") + (") +
              write(senses.bound) + ")";
     };
     factor.expression = words([this](const Poly& p) { return d_.words.of(p); });
@@ -86,7 +106,7 @@ bool FactorEmission::add_senses(const TwoSenses& senses, const Poly& squared, Lo
 void FactorEmission::add_ends(const TwoSenses& senses, const std::array<LocusFactor, 2>& ends,
                               const std::string& joint) {
   const Poly squared =
-      d_.elimination.over_tower(senses.size * senses.size * senses.square - senses.bound * senses.bound);
+      d_.elimination.over_tower(senses.size * senses.size * senses.square() - senses.bound * senses.bound);
   const std::optional<Poly> shared =
       squared.is_zero() ? std::nullopt : add_both_senses(senses, parts_of_margin(squared), ends);
   if (!shared) {
@@ -134,13 +154,12 @@ void FactorEmission::add_guide_margins() {
     if (!guide.length && turns.is_zero()) {  // both ends bear alike
       LocusFactor both = of_end(Quantity::end_ahead);
       both.vanishing.push_back({guide.joint, Quantity::end_behind, 1});
-      add_ends({bears, guide.square, limit}, {both, both}, guide.joint);
+      add_ends({bears, guide.axis, limit}, {both, both}, guide.joint);
       continue;
     }
     if (!guide.length && !bears.is_zero()) {
       for (const Poly& bound : {turns - limit, turns + limit})
-        add_ends({bears, guide.square, bound}, {of_end(Quantity::end_behind), of_end(Quantity::end_ahead)},
-                 guide.joint);
+        add_ends({bears, guide.axis, bound}, {of_end(Quantity::end_behind), of_end(Quantity::end_ahead)}, guide.joint);
       continue;
     }
     std::vector<std::pair<Poly, LocusFactor>> curves;
@@ -187,7 +206,7 @@ void FactorEmission::moving_guides() {
       end.vanishing = {{guide.joint, ahead ? Quantity::end_ahead : Quantity::end_behind, 1}};
       end.cause = std::string("end ") + (ahead ? "ahead" : "behind") + " of guide " + guide.joint + " without load";
     }
-    add_ends({guide.bears, guide.square, guide.turns}, ends, guide.joint);
+    add_ends({guide.bears, guide.axis, guide.turns}, ends, guide.joint);
   }
 }
 

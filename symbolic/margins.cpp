@@ -22,15 +22,13 @@ class Margins {
     const std::vector<FactoredPoly>& force = pressing.parts;
     if (std::all_of(force.begin(), force.end(), [](const FactoredPoly& part) { return part.is_zero(); })) return;
     const FactoredPoly common = shared_factors(force);
-    Poly square(ring());  // of what is left of the force
-    for (const FactoredPoly& part : force) {
-      if (part.is_zero()) continue;
-      const Poly rest = without(part, common, ring());
-      square += rest * rest;
-    }
+    std::vector<Poly> left;  // of the force
+    for (const FactoredPoly& part : force)
+      if (!part.is_zero()) left.push_back(without(part, common, ring()));
     // Of a pin about an axis of constant length the force is w over that length.
     const auto axis = pressing.squared ? elimination_.constant_over_tower(*pressing.squared) : std::nullopt;
-    if (axis) square = square.scaled(1 / *axis);
+    const Rational over = axis.value_or(1);
+    const Poly square = sum_of_squares(left).scaled(1 / over);
     const FactoredPoly shared = common_factors(common, determinant_);
     const Poly size = without(common, shared, ring()), d = without(determinant_, shared, ring());
     if (pressing.squared && !axis) {
@@ -43,10 +41,13 @@ class Margins {
       add(joint.name, Quantity::f, size.scaled(*length) - d.scaled(bound), bound, {cleared(shared), 1});
       add(joint.name, Quantity::f, size.scaled(*length) + d.scaled(bound), bound, {cleared(shared), 1});
     } else {
+      // Of another w the direction is lost where |A| vanishes with w; then squares tell more than |w| does.
+      const bool in_space = geometry_.mechanism().space != mechanism::Space::planar;
+      const bool two_senses = !size.is_constant() && (in_space || is_way(left));
       Margin& added = add(joint.name, Quantity::f, size * size * square - (d * d).scaled(bound * bound), bound,
                           {cleared(shared), 2},
-                          size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, square, d.scaled(bound)}));
-      if (size.is_constant() && !pressing.squared && !added.force) added.force = squared_force(force, shared, bound);
+                          two_senses ? std::optional(TwoSenses{size, left, d.scaled(bound), over}) : std::nullopt);
+      if (!two_senses && !pressing.squared && !added.force) added.force = squared_force(force, shared, bound);
     }
   }
 
@@ -76,13 +77,19 @@ class Margins {
     }
     const Poly &size = over_axis ? n : d, &other = over_axis ? d : n;
     add(joint.name, quantity, size * size * axis2 - other * other, bound, {cleared(shared), 2},
-        size.is_constant() ? std::nullopt : std::optional(TwoSenses{size, axis2, other}));
+        size.is_constant() ? std::nullopt
+                           : std::optional(TwoSenses{size, components_of_axis(geometry_, joint), other}));
   }
 
   std::vector<Margin> take() { return std::move(margins_); }
 
  private:
   const Ring& ring() const { return geometry_.ring(); }
+
+  /// Along a line of the mechanism, as the way from one point to another is.
+  static bool is_way(const std::vector<Poly>& w) {
+    return std::all_of(w.begin(), w.end(), [](const Poly& component) { return component.total_degree() <= 1; });
+  }
 
   /// Without what all of it shares.
   SquaredForce squared_force(const std::vector<FactoredPoly>& components, const FactoredPoly& shared,
@@ -138,6 +145,8 @@ std::optional<Rational> rational_root(const Rational& square) {
     return std::nullopt;
   return Rational(sqrt(square.get_num()), sqrt(square.get_den()));
 }
+
+Poly TwoSenses::square() const { return sum_of_squares(w).scaled(1 / over); }
 
 std::vector<Margin> margins(const Geometry& geometry, const Elimination& elimination, const FactoredPoly& determinant,
                             const std::vector<Reaction>& reactions, const Selection& selection,

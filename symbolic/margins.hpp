@@ -14,7 +14,12 @@ namespace clearloci::symbolic {
 /// Squared, the two senses cross wherever size and |A| vanish together, at points that are no better known than the
 /// curves; over |w| as another root of the tower they are two curves, smooth there.
 struct TwoSenses {
-  Poly size, square, bound;  ///< |w|^2; f_min |A|
+  Poly size;
+  std::vector<Poly> w;      ///< its components
+  Poly bound;               ///< f_min |A|
+  core::Rational over = 1;  ///< |w|^2 is their sum of squares over this number
+
+  Poly square() const;  ///< |w|^2
 };
 
 /// A force whose components have nothing in common: |w|^2 = (f_min |A|)^2 is a quadratic form in them and in |A|.

@@ -219,10 +219,14 @@ PressingForce pressing_force(const Geometry& geometry, const std::vector<Reactio
   return pressing;
 }
 
+std::vector<Poly> components_of_axis(const Geometry& geometry, const mechanism::Joint& joint) {
+  std::vector<Poly> components;
+  for (const GiNaC::ex& u : geometry.vector(joint.axes.at(0))) components.push_back(geometry.poly(u.expand()));
+  return components;
+}
+
 Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint) {
-  GiNaC::ex square = 0;
-  for (const GiNaC::ex& u : geometry.vector(joint.axes.at(0))) square += u * u;
-  return geometry.poly(square.expand());
+  return sum_of_squares(components_of_axis(geometry, joint));
 }
 
 bool is_force_over_axis(const mechanism::Mechanism& mechanism, const mechanism::Joint& joint) {

@@ -49,7 +49,8 @@ struct PressingForce {
 PressingForce pressing_force(const Geometry& geometry, const std::vector<Reaction>& reactions,
                              const mechanism::Joint& joint, const FactoredPoly& determinant);
 
-/// |u|^2 of a joint's axis u.
+/// Of a joint's axis u, and |u|^2.
+std::vector<Poly> components_of_axis(const Geometry& geometry, const mechanism::Joint& joint);
 Poly squared_axis(const Geometry& geometry, const mechanism::Joint& joint);
 /// Whether the numerator of F, the force along an axis u, is that of the force over |u|; otherwise it is of u . f.
 bool is_force_over_axis(const mechanism::Mechanism& mechanism, const mechanism::Joint& joint);

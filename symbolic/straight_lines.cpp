@@ -149,6 +149,16 @@ void StraightLines::let(int ring_variable, int root, const Poly& divisor) {
   known_[ring_variable] = builder_.multiply(builder_.variable(root), builder_.inverse(below));
 }
 
+StraightLine StraightLines::square(const Rational& constant, const std::vector<Poly>& w, const Poly& divisor) {
+  // The components take half of the constant's power of two, so that none is beyond the range of doubles.
+  const Rational half = core::times_power_of_two(1, core::binary_exponent(constant) / 2);
+  int sum = builder_.constant(0);
+  for (const Poly& component : w)
+    sum = builder_.add(sum, builder_.power(builder_.append(of(half, {{component, 1}})), 2));
+  const int above = builder_.multiply(builder_.constant(constant / (half * half)), sum);
+  return builder_.line(builder_.multiply(above, builder_.power(value(divisor.plain()), 2)));
+}
+
 namespace {
 
 /// In the plane: numerators of a vector over the tower.

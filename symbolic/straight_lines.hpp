@@ -39,6 +39,9 @@ class StraightLines {
   /// tower's variable.
   void let(int ring_variable, int root, const Poly& divisor);
 
+  /// The square of such a root: constant |w|^2 divisor^2 of a vector w in natural coordinates, as it is.
+  core::StraightLine square(const core::Rational& constant, const std::vector<Poly>& w, const Poly& divisor);
+
   /// The tower, with everything in it that is known as it is computed.
   core::RootTower tower();
 

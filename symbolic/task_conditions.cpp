@@ -198,7 +198,7 @@ class Conditions {
         multiply(end.numerator, guide.common);
         end.numerator.constant /= 2 * guide.half_length;
       }
-      lengths_.try_emplace(guide.joint, GuideLength{guide.square});
+      lengths_.try_emplace(guide.joint, GuideLength{sum_of_squares(guide.axis)});
     }
     for (Reaction& end : ends) reactions_.back().push_back(std::move(end));
   }

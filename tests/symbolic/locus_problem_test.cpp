@@ -117,13 +117,14 @@ TEST(LocusProblem, MarginsAddTheirOwnFactors) {
 }
 
 TEST(LocusProblem, TheLengthOfAMarginsForceIsAnElementLinearInEachRoot) {
-  const char* const stacked = R"(
+  const char* const legged = R"(
 format: 1
 workspace: {x: [-0.5, 1.5], y: [-0.5, 0.125]}
 points:
   A1: [0, 0]
   A2: [0.375, 0.5]
   A3: [0.75, 0.5]
+  A4: [1, 0]
   P: [x, y]
   B1: {dyad: [A1, P], lengths: [0.25, 0.25], side: left}
   B2: {dyad: [A2, P], lengths: [0.375, 0.5], side: right}
@@ -136,6 +137,8 @@ links:
   crank: {points: [A2, B2, Q]}
   QC: {points: [Q, C]}
   A3C: {points: [A3, C]}
+  cylinder: {points: [A4]}
+  rod: {points: [C]}
 joints:
   A1: {revolute: [ground, A1B1], at: A1, actuated: true}
   B1: {revolute: [A1B1, B1P], at: B1}
@@ -144,14 +147,18 @@ joints:
   A2: {revolute: [ground, crank], at: A2}
   Q: {revolute: [crank, QC], at: Q}
   C: {revolute: [A3C, QC], at: C}
-  A3: {revolute: [ground, A3C], at: A3, actuated: true}
+  A3: {revolute: [ground, A3C], at: A3}
+  A4: {revolute: [ground, cylinder], at: A4}
+  S: {prismatic: [cylinder, rod], at: C, axis: [A4, C], actuated: true, clearance: {axial: 5e-6}}
+  D: {revolute: [rod, QC], at: C}
 end_effector: {link: PB2, at: P}
 loads: [{link: PB2, at: P, force: [0, -100]}]
 )";
   Selection selection;
   selection.min_force = 20;
-  selection.joints = {"A2"};
-  const core::LocusProblem problem = locus_problem(mechanism::parse_mechanism(stacked, "stacked.yaml"), selection).problem;
+  selection.joints = {"S"};
+  const core::LocusProblem problem =
+      locus_problem(mechanism::parse_mechanism(legged, "legged.yaml"), selection).problem;
   ASSERT_GT(problem.tower.roots.size(), 3u) << "the dyads and a length";
   for (const core::Root& root : problem.tower.roots)
     for (int variable = 2; variable < problem.tower.variables(); ++variable)
