@@ -128,13 +128,17 @@ void Narrowing::take_step() {
 }
 
 void Narrowing::choose_trial() {
-  bool inside_box = true;
   for (std::size_t c = 0; c < point_.size(); ++c) {
     const double radius = std::max(radius_, 0x1p-51 * point_[c].magnitude());
-    trial_[c] = is_thin(c) ? (*box_)[c] : Interval(point_[c].lower() - radius, point_[c].upper() + radius);
-    inside_box = inside_box && (is_thin(c) || inside(trial_[c], (*box_)[c]));
+    const Interval& whole = (*box_)[c];
+    trial_[c] = whole;
+    if (is_thin(c)) continue;
+    const Interval wanted(point_[c].lower() - radius, point_[c].upper() + radius);
+    if (disjoint(wanted, whole)) return end_radii(false);
+    // The box may be narrower in one coordinate than the others are wanted: a root that is zero on the curve of another
+    // function is known better than the place.
+    trial_[c] = meet(wanted, whole);
   }
-  if (!inside_box) end_radii(false);
 }
 
 void Narrowing::take_trial(ZeroCount count) {

@@ -58,5 +58,17 @@ TEST(Krawczyk, NarrowsToRounding) {
   }
 }
 
+TEST(Krawczyk, NarrowsWhereOneCoordinateIsKnownBetterThanTheOthersAreWanted) {
+  const Ring r{2};
+  const SheetProgram program(testing::plane(), {r.x() * r.x() + r.y() * r.y() + r.y() - r(core::Rational(1, 2)), r.y()});
+  SheetCell cell(program, {});
+  const std::vector<Interval> box = {Interval(0.6, 0.8), Interval(-1.5e-18, 9e-18)};
+  std::vector<Interval> enclosure = box;
+  narrow(cell, {}, box, {}, 1e-14, enclosure);
+  EXPECT_TRUE(enclosure[0].contains(std::sqrt(0.5)));
+  EXPECT_LT(enclosure[0].width(), 1e-14);
+  EXPECT_TRUE(enclosure[1].contains(0));
+}
+
 }  // namespace
 }  // namespace clearloci::loci::sheet
