@@ -89,15 +89,24 @@ bool GraphBuilder::leave_those_in_mode(int patch, std::vector<std::vector<Interv
 }
 
 void GraphBuilder::settle_touches(int patch, FoundZeros& found) const {
-  const std::vector<PlaneCell> places = clusters(found.undecided);
-  if (std::any_of(places.begin(), places.end(),
-                  [](const PlaneCell& cell) { return cell.y.width() > widest_star_touch; }))
+  std::vector<Interval> places;
+  for (const PlaneCell& cell : clusters(found.undecided)) places.push_back(cell.y);
+  std::sort(places.begin(), places.end(), [](const Interval& a, const Interval& b) { return a.lower() < b.lower(); });
+  // Around a double zero cells are left that do not lie side by side.
+  std::vector<Interval> joined;
+  for (const Interval& place : places)
+    if (!joined.empty() && hull(joined.back(), place).width() <= widest_star_touch)
+      joined.back() = hull(joined.back(), place);
+    else
+      joined.push_back(place);
+  if (std::any_of(joined.begin(), joined.end(),
+                  [](const Interval& place) { return place.width() > widest_star_touch; }))
     return;
   Charting charting(tower_, {curve_}, parts_.stars);
   const ChartedSheet sheet = charting.in(graph_.patches[patch].chart);
   std::vector<std::vector<Interval>> zeros;
-  for (const PlaneCell& cell : places) {
-    const std::optional<StarTouch> touch = star_touch(graph_.patches[patch].chart, sheet, mode_, cell.y);
+  for (const Interval& place : joined) {
+    const std::optional<StarTouch> touch = star_touch(graph_.patches[patch].chart, sheet, mode_, place);
     if (!touch) return;
     if (touch->enters) zeros.insert(zeros.end(), 2, touch->enclosure);
   }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "loci/numbers/numbers.hpp"
+
 namespace clearloci::loci::sheet {
 namespace {
 
@@ -21,24 +23,22 @@ Along<T> times(const Along<T>& a, const Along<T>& b) {
 }
 
 /// Nothing: no number, or one that is not known exactly.
-std::optional<Rational> number_of(const StraightLine::Step& step, Rational*) {
+std::optional<Surd> number_of(const StraightLine::Step& step, Surd*) {
   if (step.radius() != 0) return std::nullopt;
-  return step.value();
+  return Surd(step.value());
 }
 std::optional<Interval> number_of(const StraightLine::Step& step, Interval* kind) {
   return enclosed_as(step.value(), step.radius(), kind);
 }
-std::optional<Rational> reciprocal(const Rational& a) {
-  if (a == 0) return std::nullopt;
-  return Rational(1 / a);
-}
+std::optional<Surd> reciprocal(const Surd& a) { return a.reciprocal(); }
 std::optional<Interval> reciprocal(const Interval& a) {
   if (a.sign() == 0) return std::nullopt;
   return inverse(a);
 }
-std::optional<Rational> root_of(const Rational& square) {
-  if (square <= 0) return std::nullopt;
-  return core::square_root(square);
+std::optional<Surd> root_of(const Surd& square) {
+  const std::optional<Rational> rational = square.rational();
+  if (!rational || *rational <= 0) return std::nullopt;
+  return Surd::root_of(*rational);
 }
 std::optional<Interval> root_of(const Interval& square) {
   if (square.sign() <= 0) return std::nullopt;
@@ -114,9 +114,9 @@ std::optional<Along<T>> value_along(const ChartedSheet& sheet, const core::Worki
 std::optional<StarTouch> star_touch(const Chart& chart, const ChartedSheet& sheet, const core::WorkingMode& mode,
                                     const Interval& t) {
   const Rational at = chart.shortest_direction(t);
-  std::vector<Along<Rational>> exact;
-  const auto touch = value_along<Rational>(sheet, mode, 0, at, 1, exact);
-  if (!touch || touch->value != 0 || touch->slope != 0) return std::nullopt;
+  std::vector<Along<Surd>> exact;
+  const auto touch = value_along<Surd>(sheet, mode, Surd(0), Surd(at), 1, exact);
+  if (!touch || !touch->value.is_zero() || !touch->slope.is_zero()) return std::nullopt;
   std::vector<Along<Interval>> around;
   const Interval place = enclosed_as(at, Rational(0), static_cast<Interval*>(nullptr));
   const auto along = value_along<Interval>(sheet, mode, Interval(0), hull(t, place), 1, around);

@@ -16,7 +16,7 @@ struct StarTouch {
 };
 
 /// The only zero at u = 0 in a range of t, if it is a double one in the direction there whose rise is the shortest
-/// rational number, with rational roots.
+/// rational number; the roots there are square roots of rational numbers.
 std::optional<StarTouch> star_touch(const Chart& chart, const ChartedSheet& sheet, const core::WorkingMode& mode,
                                     const Interval& t);
 

@@ -16,5 +16,6 @@
 #include "loci/numbers/number_field.hpp"
 #include "loci/numbers/sheet_program.hpp"
 #include "loci/numbers/square_free.hpp"
+#include "loci/numbers/surd.hpp"
 #include "loci/numbers/tower_algebra.hpp"
 #include "loci/numbers/univariate.hpp"

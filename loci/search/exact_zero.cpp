@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/rational.hpp"
+#include "loci/numbers/numbers.hpp"
 
 namespace clearloci::loci::sheet {
 
@@ -35,20 +36,21 @@ std::array<Rational, 2> point_in(const core::RootTower& tower, const PlaneCell& 
   return {shortest_in(place.x), shortest_in(place.y)};
 }
 
-/// What a function is at a point, by powers of the roots that are angles: those have no rational values.
-std::map<std::vector<int>, Rational> by_angles(const core::RootTower& tower, const core::Polynomial& p,
-                                               const std::vector<Rational>& point) {
-  std::map<std::vector<int>, Rational> sums;
+/// What a function is at a point, by powers of the roots that are angles: those are no roots of rational numbers.
+std::map<std::vector<int>, Surd> by_angles(const core::RootTower& tower, const core::Polynomial& p,
+                                           const std::vector<Surd>& point) {
+  std::map<std::vector<int>, Surd> sums;
   for (const core::Term& term : p.terms) {
     std::vector<int> of_angles;
-    Rational value = term.coefficient;
+    Surd value(term.coefficient);
     for (std::size_t v = 0; v < term.exponents.size(); ++v) {
       if (v >= 2 && tower.roots[v - 2].is_angle())
         of_angles.push_back(term.exponents[v]);
       else
-        for (int k = 0; k < term.exponents[v]; ++k) value *= point[v];
+        for (int k = 0; k < term.exponents[v]; ++k) value = value * point[v];
     }
-    sums[of_angles] += value;
+    Surd& sum = sums[of_angles];
+    sum = sum + value;
   }
   return sums;
 }
@@ -63,35 +65,36 @@ bool depends_on_angles(const core::RootTower& tower, const core::Polynomial& p) 
 
 bool vanish_exactly(const core::RootTower& tower, const core::WorkingMode& mode,
                     const std::vector<core::Polynomial>& functions, const PlaneCell& place) {
-  std::vector<Rational> point(static_cast<std::size_t>(tower.variables()));
+  std::vector<Surd> point(static_cast<std::size_t>(tower.variables()));
   const std::array<Rational, 2> at = point_in(tower, place);
   point[0] = at[0];
   point[1] = at[1];
-  bool is_on_boundary = false;
-  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-    if (depends_on_angles(tower, tower.roots[j].square)) return false;
-    const Rational square = core::evaluate(tower.roots[j].square, point);
-    if (tower.roots[j].is_angle()) {
-      if (square == 0) return false;  // it is undefined
-      continue;
-    }
-    const std::optional<Rational> root = core::square_root(square);
-    if (!root) return false;
-    is_on_boundary = is_on_boundary || *root == 0;
-    point[2 + j] = mode[j] > 0 ? *root : Rational(-*root);
-  }
-  const auto is_zero = [](const auto& sum) { return sum.second == 0; };
-  // Where the ends of a dyad meet its root vanishes with the denominator. A leg without length alone leaves all roots
-  // as they are.
-  const auto may_vanish = [&](const core::Polynomial& denominator) {
-    return depends_on_angles(tower, denominator) || core::evaluate(denominator, point) == 0;
-  };
-  if (is_on_boundary && std::any_of(tower.denominators.begin(), tower.denominators.end(), may_vanish)) return false;
+  const auto is_zero = [](const auto& sum) { return sum.second.is_zero(); };
   // Whatever the angles are.
   const auto vanishes = [&](const core::Polynomial& p) {
     const auto sums = by_angles(tower, p, point);
     return std::all_of(sums.begin(), sums.end(), is_zero);
   };
+  bool is_on_boundary = false;
+  for (std::size_t j = 0; j < tower.roots.size(); ++j) {
+    if (depends_on_angles(tower, tower.roots[j].square)) return false;
+    if (tower.roots[j].is_angle()) {
+      if (vanishes(tower.roots[j].square)) return false;  // it is undefined
+      continue;
+    }
+    const auto squares = by_angles(tower, tower.roots[j].square, point);
+    const std::optional<Rational> square = squares.empty() ? Rational(0) : squares.begin()->second.rational();
+    if (!square || *square < 0) return false;
+    is_on_boundary = is_on_boundary || *square == 0;
+    const Surd root = Surd::root_of(*square);
+    point[2 + j] = mode[j] > 0 ? root : Surd() - root;
+  }
+  // Where the ends of a dyad meet its root vanishes with the denominator. A leg without length alone leaves all roots
+  // as they are.
+  const auto may_vanish = [&](const core::Polynomial& denominator) {
+    return depends_on_angles(tower, denominator) || vanishes(denominator);
+  };
+  if (is_on_boundary && std::any_of(tower.denominators.begin(), tower.denominators.end(), may_vanish)) return false;
   return std::all_of(functions.begin(), functions.end(), vanishes);
 }
 

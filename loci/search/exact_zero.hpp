@@ -1,5 +1,5 @@
-// Common zeros that no enclosure proves, since the curves touch there or one of them crosses itself: where all numbers
-// are rational they are decided exactly.
+// Common zeros that no enclosure proves, since the curves touch there or one of them crosses itself: at rational
+// points, where roots are square roots of rational numbers, they are decided exactly.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace clearloci::loci::sheet {
 
 /// Whether all the functions vanish at the base or else the point with the shortest coordinates within `place`, itself
 /// as far again around it, on the mode's sheet or its boundary, whatever the angles among the roots are there. False
-/// also where another root of it is not rational, or the tower is undefined there.
+/// also where a root's square is not rational, or the tower is undefined there.
 bool vanish_exactly(const core::RootTower& tower, const core::WorkingMode& mode,
                     const std::vector<core::Polynomial>& functions, const PlaneCell& place);
 

@@ -15,11 +15,12 @@ using core::Rational;
 
 const testing::Ring in_plane{2};
 
-SheetTrace traced_around_origin(const Polynomial& curve) {
+SheetTrace traced_around_origin(const Polynomial& curve, const core::RootTower& tower = testing::plane(),
+                                const core::WorkingMode& mode = {}) {
   SheetTraceOptions options;
   options.special.emplace_back();
   options.special.back().no_length = true;
-  return trace_sheet(testing::plane(), {}, {-1, -1}, {1, Rational(3, 4)}, {curve}, {}, options);
+  return trace_sheet(tower, mode, {-1, -1}, {1, Rational(3, 4)}, {curve}, {}, options);
 }
 
 /// (x - y / 2)^2 = y^3: both branches leave the origin along x = y / 2, above it.
@@ -34,6 +35,15 @@ TEST(StarTouch, BranchesOfACuspArriveSideBySide) {
     EXPECT_NEAR(std::pow(p[0] - p[1] / 2, 2), std::pow(p[1], 3), 1e-12);
   }
   EXPECT_EQ(nearest, 0);
+}
+
+/// s (x - y / 2)^2 = y^3 with s^2 = x + 2, which is no square at the origin.
+TEST(StarTouch, BranchesArriveSideBySideWhereARootIsIrrational) {
+  const testing::Ring r{3};
+  const Polynomial y = r.y(), off = r.x() - r(Rational(1, 2)) * y;
+  const SheetTrace trace = traced_around_origin(r.s(1) * off * off - y * y * y, testing::one_root(r.x() + r(2)), {1});
+  EXPECT_TRUE(trace.certified);
+  ASSERT_EQ(trace.arcs.size(), 1U);
 }
 
 /// x = +-1e-18 y at the origin, where doubles see x = 0 twice.

@@ -199,5 +199,17 @@ TEST(Touch, IsExactWhereAnAngleDoesNotCount) {
   EXPECT_FALSE(vanish_exactly(tower, {1}, {phi * off, y}, place));
 }
 
+/// s1 s2 = 2 at the origin for s1^2 = x + 2 and s2^2 = y + 2: each is irrational there.
+TEST(Touch, VanishesExactlyWhereRootsAreIrrational) {
+  const testing::Ring r{4};
+  core::RootTower tower = testing::one_root(r.x() + r(2));
+  tower.roots.push_back({"s2", "B2", core::RootRole::working_mode, r.y() + r(2)});
+  const PlaneCell place = {{-1e-12, 1e-12}, {-1e-12, 1e-12}};
+  EXPECT_TRUE(vanish_exactly(tower, {1, 1}, {r.s(1) * r.s(2) - r(2)}, place));
+  EXPECT_TRUE(vanish_exactly(tower, {1, -1}, {r.s(1) + r.s(2)}, place));
+  EXPECT_FALSE(vanish_exactly(tower, {1, -1}, {r.s(1) * r.s(2) - r(2)}, place));
+  EXPECT_FALSE(vanish_exactly(tower, {1, 1}, {r.s(1) - r(Rational(1414213562373, 1000000000000))}, place));
+}
+
 }  // namespace
 }  // namespace clearloci::loci::sheet
