@@ -15,7 +15,16 @@
 namespace clearloci::report {
 namespace {
 
-constexpr int digits = 6;
+constexpr int digits = 6, digits_of_size = 4;
+
+std::string at_least(double size) { return fmt::format("{:.{}g}", rounded_down(size, digits_of_size), digits_of_size); }
+
+std::string at_most(double size) { return fmt::format("{:.{}g}", rounded_up(size, digits_of_size), digits_of_size); }
+
+/// "sizes below 6.088 fail, proven, and ", or nothing.
+std::string proven_below(const std::string& sizes, double least) {
+  return least > 0 ? fmt::format("{} below {} fail, proven, and ", sizes, at_least(least)) : std::string();
+}
 
 class Efforts {
  public:
@@ -26,7 +35,8 @@ class Efforts {
   /// "[6.05, 6.15] N m (beyond: contact lost in A1)", and where nothing beyond was looked at the end alone.
   std::string end(const std::array<double, 2>& range, const std::string& beyond) const {
     if (beyond.empty() && range[0] == range[1]) return told(0, range[0]);
-    return fmt::format("[{}, {}] {}{}", number(0, range[0]), number(0, range[1]), unit(0).name,
+    return fmt::format("[{}, {}] {}{}", engineering(rounded_down(range[0] * unit(0).per_si, digits), digits),
+                       engineering(rounded_up(range[1] * unit(0).per_si, digits), digits), unit(0).name,
                        beyond.empty() ? "" : " (beyond: " + beyond + ")");
   }
 
@@ -46,8 +56,8 @@ std::string pattern_line(const core::PreloadPattern& pattern) {
   if (signs.empty()) signs = "whatever the signs";
   const auto& [least, most] = pattern.size;
   return signs + (pattern.verdict == core::Verdict::verified
-                      ? fmt::format(": the smallest size is between {:.4g} and {:.4g}", least, most)
-                      : fmt::format(": none was found; sizes below {:.4g} fail", least));
+                      ? fmt::format(": the smallest size is between {} and {}", at_least(least), at_most(most))
+                      : fmt::format(": none was found; sizes below {} fail", at_least(least)));
 }
 
 }  // namespace
@@ -99,20 +109,15 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
     } else {
       lines.push_back(fmt::format("efforts exist at every pose, and some that vary continuously: proven in {} cells",
                                   preload.cells_of_law.size()));
-      lines.push_back(fmt::format("{}the smallest size of a law is at most {:.4g}",
-                                  preload.size[0] > 0
-                                      ? fmt::format("laws of a size below {:.4g} fail, proven, and ", preload.size[0])
-                                      : std::string(),
-                                  preload.size[1]));
+      lines.push_back(fmt::format("{}the smallest size of a law is at most {}",
+                                  proven_below("laws of a size", preload.size[0]), at_most(preload.size[1])));
     }
   } else if (preload.law) {
     lines.push_back(fmt::format("{} = {}: verifies", preload.joints.front(), preload.law->expression));
-    lines.push_back(fmt::format(
-        "{} takes {} to {} over the task; {}the smallest size of a law is at most {:.4g}", preload.joints.front(),
-        efforts.told(0, preload.law->within[0]), efforts.told(0, preload.law->within[1]),
-        preload.size[0] > 0 ? fmt::format("laws of a size below {:.4g} fail, proven, and ", preload.size[0])
-                            : std::string(),
-        preload.size[1]));
+    lines.push_back(fmt::format("{} takes {} to {} over the task; {}the smallest size of a law is at most {}",
+                                preload.joints.front(), efforts.told(0, preload.law->within[0]),
+                                efforts.told(0, preload.law->within[1]),
+                                proven_below("laws of a size", preload.size[0]), at_most(preload.size[1])));
   } else if (preload.value) {
     std::string line;
     bool none = true;
@@ -123,10 +128,8 @@ std::vector<std::string> preload_lines(const core::PreloadAnswer& preload, const
     if (none)
       line += ": none is needed";
     else
-      line += fmt::format(
-          ": verifies; {}the smallest size that verifies is at most {:.4g}",
-          preload.size[0] > 0 ? fmt::format("sizes below {:.4g} fail, proven, and ", preload.size[0]) : std::string(),
-          preload.size[1]);
+      line += fmt::format(": verifies; {}the smallest size that verifies is at most {}",
+                          proven_below("sizes", preload.size[0]), at_most(preload.size[1]));
     lines.push_back(line);
   } else {
     lines.emplace_back("none was found");

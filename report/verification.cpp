@@ -124,6 +124,15 @@ class Words {
   std::string effort(const core::Vanishing& reaction, double value) const {
     return told(value, core::unit_of(reaction.quantity));
   }
+  /// Bounds, rounded so that they stay ones.
+  std::string at_least(double value, const std::string& si) const {
+    const ShownUnit unit = core::told_unit(si, result_.units);
+    return engineering(rounded_down(value * unit.per_si, size_digits), size_digits) + " " + unit.name;
+  }
+  std::string at_most(double value, const std::string& si) const {
+    const ShownUnit unit = core::told_unit(si, result_.units);
+    return engineering(rounded_up(value * unit.per_si, size_digits), size_digits) + " " + unit.name;
+  }
   /// A distance in the task's metric.
   std::string distance(double value) const { return result_.margin_of_angles() ? angle(value) : length(value); }
 
@@ -353,15 +362,15 @@ std::string verification_text(const core::Verification& result) {
   if (!result.zone.empty()) put("zone", result.zone);
   const bool apart = result.margin && result.angle_margin;
   if (result.margin)
-    put("margin", fmt::format("at least {}, proven{}", words.length(*result.margin),
+    put("margin", fmt::format("at least {}, proven{}", words.at_least(*result.margin, "m"),
                               apart ? ", with the angles of the task"
                               : result.task.angle_length
                                   ? ", " + words.length(core::to_double(*result.task.angle_length)) + " per radian"
                                   : ""));
   if (result.angle_margin)
-    put("margin", fmt::format("at least {}, proven{}", words.angle(*result.angle_margin),
+    put("margin", fmt::format("at least {}, proven{}", words.at_least(*result.angle_margin, "rad"),
                               apart ? ", with the lengths of the task" : ""));
-  if (result.pose_error) put("pose error", fmt::format("at most {}, proven", words.length(*result.pose_error)));
+  if (result.pose_error) put("pose error", fmt::format("at most {}, proven", words.at_most(*result.pose_error, "m")));
   if (result.nearest) {
     const core::NearestOfTask& nearest = *result.nearest;
     const bool in_task = nearest.distance <= rounding_of_distance;
@@ -385,7 +394,8 @@ std::string verification_text(const core::Verification& result) {
   for (const core::LeastReaction& reaction : result.least)
     put("least",
         fmt::format("|{}| at least {} over the task, proven; least value found {}", reaction_name(reaction.reaction),
-                    words.effort(reaction.reaction, reaction.proven), words.effort(reaction.reaction, reaction.met)));
+                    words.at_least(reaction.proven, core::unit_of(reaction.reaction.quantity)),
+                    words.effort(reaction.reaction, reaction.met)));
   for (const std::string& note : told_once(core::in_file_units(result.notes, result.units, result.angles)))
     text += printable(note) + "\n";
   return text;

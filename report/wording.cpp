@@ -283,6 +283,14 @@ std::string short_number(double value, int digits) {
   return text == "-0" ? "0" : text;
 }
 
+double rounded_down(double value, int digits) {
+  double rounded = std::stod(fmt::format("{:.{}g}", value, digits));
+  if (rounded > value) rounded -= std::pow(10.0, std::floor(std::log10(std::abs(value))) - digits + 1);
+  return rounded;
+}
+
+double rounded_up(double value, int digits) { return -rounded_down(-value, digits); }
+
 std::string engineering(double value, int digits) {
   constexpr double least = 1e-3, most = 1e6;
   const double size = std::abs(value);

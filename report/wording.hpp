@@ -70,6 +70,10 @@ std::string short_number(double value, int digits);
 /// Significant digits in texts: of places and loads, which may be typed in again; of sizes; of what needs few.
 inline constexpr int place_digits = 9, size_digits = 6, few_digits = 4;
 
+/// A bound to so many digits that stays one.
+double rounded_down(double value, int digits);
+double rounded_up(double value, int digits);
+
 /// Engineering notation: an exponent that is a multiple of three where the number is not between 0.001 and 1e6:
 /// "12.5e-6", "0.25", "1234.5". No "-0".
 std::string engineering(double value, int digits);

@@ -125,6 +125,16 @@ TEST(FileUnits, TellPlacesWithTheirAngles) {
   EXPECT_EQ(place_words(std::array{0.25, 1e-17}, {}, {true, {"mm", 0.001}}), "(250, 0) mm");
 }
 
+TEST(Wording, BoundsStayBoundsInFewDigits) {
+  EXPECT_DOUBLE_EQ(rounded_down(8.08553534835, 4), 8.085);
+  EXPECT_DOUBLE_EQ(rounded_up(8.08553534835, 4), 8.086);
+  EXPECT_DOUBLE_EQ(rounded_down(-8.08553534835, 4), -8.086);
+  EXPECT_DOUBLE_EQ(rounded_up(22.0988, 3), 22.1);
+  EXPECT_DOUBLE_EQ(rounded_down(0.09999, 3), 0.0999);
+  EXPECT_EQ(rounded_down(6.25, 3), 6.25);
+  EXPECT_EQ(rounded_up(0, 3), 0);
+}
+
 TEST(Wording, IsInEngineeringNotation) {
   EXPECT_EQ(engineering(1.25e-5, 9), "12.5e-6");
   EXPECT_EQ(engineering(-4.5e-4, 9), "-450e-6");
