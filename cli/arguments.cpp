@@ -100,7 +100,10 @@ std::vector<mechanism::Override> parse_overrides(const std::vector<std::string>&
     if (!is_assignment(word))
       refuse("--set", fmt::format("'{}' is not name=value", word), "write e.g. --set L=0.4, once for each parameter");
     const std::size_t equals = word.find('=');
-    overrides.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    const std::string name = word.substr(0, equals);
+    if (std::any_of(overrides.begin(), overrides.end(), [&](const auto& known) { return known.first == name; }))
+      refuse("--set", fmt::format("'{}' is given twice", name), "give each parameter and each effort one value");
+    overrides.emplace_back(name, word.substr(equals + 1));
   }
   return overrides;
 }

@@ -211,7 +211,11 @@ std::optional<core::Point2> newton(const core::RootTower& tower, const WorkingMo
   return std::nullopt;
 }
 
-core::Point2 middle_of(const sheet::PlaneCell& cell) { return {cell.x.middle(), cell.y.middle()}; }
+/// A point in a cell: on an axis where that is within it.
+core::Point2 point_in(const sheet::PlaneCell& cell) {
+  const auto number_in = [](const Interval& range) { return range.contains(0) ? 0 : range.middle(); };
+  return {number_in(cell.x), number_in(cell.y)};
+}
 
 std::array<double, 4> box_of(const sheet::PlaneCell& cell) {
   return {cell.x.lower(), cell.x.upper(), cell.y.lower(), cell.y.upper()};
@@ -350,7 +354,7 @@ void add_contact_loss_points(const LocusProblem& problem, const WorkingMode& mod
     std::size_t open = 0;
     sheet::PlaneCell hull;
     for (const sheet::PlaneCell& cell : undecided) {
-      const core::Point2 centre = middle_of(cell);
+      const core::Point2 centre = point_in(cell);
       const double reach = 4 * std::max({cell.x.width(), cell.y.width(), 1e-9 * size});
       auto at = newton(problem.tower, mode, factors.system[0]->sheet, factors.system[1]->sheet, centre, reach);
       if (at && !vanishes_at(problem, mode, factors, {(*at)[0], (*at)[1], {}, multiple_zero * size})) at.reset();

@@ -106,6 +106,7 @@ class WrongCalls(InOwnFolder):
     def test_set(self):
         for wrong in ("L", "L=", "=1", "L=1/0", "L=abc", "Lambda=1", "L=-1"):
             self.complaint("loci", FIVE_BAR, "--set", wrong)
+        self.assertIn("'L' is given twice", self.complaint("loci", FIVE_BAR, "--set", "L=0.4", "--set", "L=0.5"))
 
     def test_numbers(self):
         for option in ("--min-force", "--min-couple", "--tolerance", "--time-limit"):
