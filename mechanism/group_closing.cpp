@@ -56,6 +56,7 @@ GroupClosing::Posture GroupClosing::posture() {
   for (const core::PoseProgram::Block& block : program.blocks)
     near.insert(near.end(), block.near.begin(), block.near.end());
   if (!values.put(program.near, near)) return result;
+  result.built = true;
   const std::vector<int>& equations = program.blocks.back().equations;
   for (std::size_t i = 0; i < program_->wanted.size(); ++i) {
     const double wanted = values[program_->wanted[i]];
@@ -63,9 +64,12 @@ GroupClosing::Posture GroupClosing::posture() {
     result.lengths.push_back(std::sqrt(std::max(0.0, values[equations[i]] + wanted * wanted)));
   }
   std::vector<double> closed = near;
-  if (!values.close(program.near, closed)) return result;
-  for (std::size_t k = 0; k < near.size(); ++k) result.moved = std::max(result.moved, std::abs(closed[k] - near[k]));
-  result.closed = closed;
+  if (values.close(program.near, closed)) {
+    for (std::size_t k = 0; k < near.size(); ++k) result.moved = std::max(result.moved, std::abs(closed[k] - near[k]));
+    result.closed = closed;
+  } else if (!values.put(program.near, near)) {
+    return result;
+  }
   // Rows of J in the size of the points.
   double size = 0;
   for (const double length : result.wanted) size = std::max(size, std::abs(length));

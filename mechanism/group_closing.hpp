@@ -30,9 +30,10 @@ class GroupClosing {
 
   /// How the last group's equations are met by its posture, and where Newton's iteration leads from there.
   struct Posture {
+    bool built = false;                         ///< what the group is built on closes at the posture's pose
     std::optional<std::vector<double>> closed;  ///< as at(); nothing where it leads nowhere
     double moved = 0;                           ///< by how much a coordinate changes at most, m
-    std::vector<double> lengths, wanted;        ///< of its distances, m; empty where it could not be looked at
+    std::vector<double> lengths, wanted;        ///< of its distances, m
     std::vector<std::size_t> dependent;         ///< equations that do not hold its points, at a dead centre
   };
   Posture posture();

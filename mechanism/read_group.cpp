@@ -202,7 +202,11 @@ class GroupReader {
       for (const Rational& c : point)
         if (found.wanted.empty()) longest = std::max(longest, std::abs(core::to_double(c)));
     const Value near = mapping_.at("near");
-    if (!found.closed || found.moved > far * longest) refuse_open(group, found, near);
+    if (!found.built)
+      throw InputError(near.where, "the points that " + what_ + " is built on do not close at its posture's pose",
+                       "give a posture at a pose that the mechanism reaches, with the sides of the file");
+    const bool is_open = !found.closed || found.moved > far * longest;
+    if (is_open && (!found.lengths.empty() || found.dependent.empty())) refuse_open(group, found, near);
     if (!found.dependent.empty()) {
       std::string names;
       for (const std::size_t equation : found.dependent)
@@ -228,8 +232,11 @@ class GroupReader {
 
   [[noreturn]] void refuse_open(const Group& group, const GroupClosing::Posture& found, const Value& near) const {
     if (found.lengths.empty())
-      throw InputError(near.where, "the points that " + what_ + " is built on do not close at its posture's pose",
-                       "give a posture at a pose that the mechanism reaches, with the sides of the file");
+      throw InputError(near.where,
+                       "the posture of " + what_ +
+                           (found.closed ? " does not close: its points move by " + told(found.moved) + " until they do"
+                                         : " does not close: its points are on their lines nowhere near it"),
+                       "give places nearer to an assembly, at the pose under at, or change the lines");
     std::size_t worst = 0;
     for (std::size_t i = 0; i < found.lengths.size(); ++i)
       if (std::abs(found.lengths[i] - found.wanted[i]) > std::abs(found.lengths[worst] - found.wanted[worst]))

@@ -68,7 +68,8 @@ std::string nothing_words(const core::LocusMap& map, bool in_reach = true) {
   if (map.out_of_time) return "nothing was found before the time limit";
   if (!in_reach && map.tower.coordinates.size() == 1 && !map.open.empty())
     return "in reach nowhere outside of the places that are open";
-  if (!in_reach && map.tower.coordinates.size() == 1) return "out of reach in the whole range";
+  if (!in_reach && map.tower.coordinates.size() == 1)
+    return map.complete ? "out of reach in the whole range" : "nothing is proven: all that may be in reach is in doubt";
   if (!in_reach && map.tower.coordinates.size() == 3) return "nothing vanishes in the box";
   return map.tower.coordinates.size() == 3 ? "no surfaces" : "no curves";
 }

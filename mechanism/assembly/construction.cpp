@@ -98,6 +98,11 @@ void Construction::put_together(const std::string& name, const Node& form, const
   }
 }
 
+Construction::Handle Construction::know(const std::string& name, const std::array<double, 3>& posture) {
+  known_.push_back({name, std::nullopt, posture, true});
+  return static_cast<Handle>(known_.size()) - 1;
+}
+
 double Construction::drawn_value(std::size_t coordinate) const {
   using Kind = DrawnCoordinate::Kind;
   const DrawnCoordinate& drawn_coordinate = d_.coordinates[coordinate];

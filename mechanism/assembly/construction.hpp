@@ -55,6 +55,8 @@ class Construction {
   /// Points that close together: they have one form.
   void put_together(const std::string& name, const Node& form, const std::string& comment,
                     const std::vector<PointIndex>& points);
+  /// A point that has its construction by others, such as a group.
+  Handle know(const std::string& name, const std::array<double, 3>& posture);
   /// Of a coordinate in the drawn posture, m or rad.
   double drawn_value(std::size_t coordinate) const;
   /// The form of a point at a way from another one.

@@ -24,6 +24,8 @@ FoundConstruction PartByPart::run() {
 bool PartByPart::turn_one() {
   for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
     if (!is_turned(static_cast<LinkIndex>(l)) && turn(static_cast<LinkIndex>(l))) return true;
+  for (std::size_t l = 0; l < d_.mechanism.links.size(); ++l)
+    if (!is_turned(static_cast<LinkIndex>(l)) && turn_by_way(static_cast<LinkIndex>(l))) return true;
   return false;
 }
 

@@ -26,6 +26,8 @@ class PartByPart : public Construction {
   virtual bool is_turned(LinkIndex link) const = 0;
   /// Finds how a link is turned; false where it cannot be told yet.
   virtual bool turn(LinkIndex link) = 0;
+  /// By a way between links, one of whose two sides it takes: where nothing else tells how any link is turned.
+  virtual bool turn_by_way(LinkIndex) { return false; }
   /// Where a vector of the drawing is that turns with a link; required: is_turned(link).
   virtual WrittenVector image(LinkIndex link, const Amounts& drawn) = 0;
   virtual bool put_on_link(PointIndex point) = 0;

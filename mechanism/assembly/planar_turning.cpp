@@ -67,6 +67,12 @@ const Orientation* PlanarTurning::orientation(LinkIndex link) const {
   return orientation ? &*orientation : nullptr;
 }
 
+void PlanarTurning::set_turned(LinkIndex link, Orientation orientation) {
+  orientations_[static_cast<std::size_t>(link)] = std::move(orientation);
+}
+
+bool PlanarTurning::turn_alike(const DrawnMesh& mesh) { return mesh.teeth && (*mesh.teeth)[0] == -(*mesh.teeth)[1]; }
+
 bool PlanarTurning::slides(const Joint& joint, LinkIndex link) const {
   return is_guide(d_.mechanism, joint) && joins(joint, link);
 }
@@ -76,7 +82,7 @@ bool PlanarTurning::turn(LinkIndex link) {
     if (coordinate.kind == DrawnCoordinate::Kind::direction && (coordinate.link == link || coordinate.other == link) &&
         orient_by_angle(link, coordinate))
       return true;
-  return orient_by_points(link) || orient_by_guide(link) || orient_by_way(link) || orient_by_wheels(link);
+  return orient_by_points(link) || orient_by_guide(link) || orient_by_wheels(link);
 }
 
 std::array<Amount, 2> PlanarTurning::parts(const Amounts& v, const Amounts& reference, bool over_square) {
@@ -188,9 +194,7 @@ bool PlanarTurning::orient_by_guide(LinkIndex link) {
   for (const Joint& joint : d_.mechanism.joints)
     if (slides(joint, link) && orient_as(link, other_of(joint, link))) return true;
   for (const DrawnMesh& mesh : d_.meshes)
-    if (mesh.teeth && (*mesh.teeth)[0] == -(*mesh.teeth)[1] && joins(mesh.joint, link) &&
-        orient_as(link, other_of(mesh.joint, link)))
-      return true;
+    if (turn_alike(mesh) && joins(mesh.joint, link) && orient_as(link, other_of(mesh.joint, link))) return true;
   return false;
 }
 
@@ -214,7 +218,7 @@ bool PlanarTurning::orient_as(LinkIndex link, LinkIndex guide) {
 
 /// Two links, each with one known point, and a guide between them along the way from the one to the other; or a link
 /// with one known point and a slot along the way to a known pin.
-bool PlanarTurning::orient_by_way(LinkIndex link) {
+bool PlanarTurning::turn_by_way(LinkIndex link) {
   for (std::size_t j = 0; j < d_.mechanism.joints.size(); ++j)
     if (auto found = by_way(link, static_cast<JointIndex>(j))) {
       orientations_[static_cast<std::size_t>(link)] = std::move(found);

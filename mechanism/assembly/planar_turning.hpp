@@ -39,6 +39,7 @@ class PlanarTurning : public PartByPart {
 
   bool is_turned(LinkIndex link) const override { return orientation(link) != nullptr; }
   bool turn(LinkIndex link) override;
+  bool turn_by_way(LinkIndex link) override;
   WrittenVector image(LinkIndex link, const Amounts& drawn) override;
   /// Where a vector of a link's shape is.
   WrittenVector image_of_shape(LinkIndex link, const Amounts& v);
@@ -47,6 +48,9 @@ class PlanarTurning : public PartByPart {
   const Orientation* orientation(LinkIndex link) const;
   /// In a guide, with which it turns.
   bool slides(const Joint& joint, LinkIndex link) const;
+  void set_turned(LinkIndex link, Orientation orientation);
+  /// Wheels that turn by the same angle: pulleys of one size, a wheel in a ring.
+  static bool turn_alike(const DrawnMesh& mesh);
   static Amounts left(const Amounts& v) { return {-v[1], v[0], {}}; }
   /// v by its parts along a reference and to its left, each over `length` of the reference where `over_square`.
   static std::array<Amount, 2> parts(const Amounts& v, const Amounts& reference, bool over_square);
@@ -59,7 +63,6 @@ class PlanarTurning : public PartByPart {
   bool orient_by_angle(LinkIndex link, const DrawnCoordinate& c);
   bool orient_by_points(LinkIndex link);
   bool orient_by_guide(LinkIndex link);
-  bool orient_by_way(LinkIndex link);
   std::optional<Orientation> by_way(LinkIndex link, JointIndex index);
   Orientation beside_way(const Orientation& along, const Joint& joint, const Amounts& axis);
   bool orient_as(LinkIndex link, LinkIndex guide);

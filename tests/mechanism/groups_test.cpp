@@ -147,6 +147,34 @@ loads: [{link: block, at: S, force: [-10, 0]}]
   }
 }
 
+/// Lines alone that do not hold a point are refused as such: what the group is built on is right.
+TEST(Groups, TellLinesThatDoNotHoldAPoint) {
+  const std::string text = R"(format: 1
+workspace: {x: [0.8, 1.2]}
+points:
+  A: [0, 0]
+  S: [x, 0]
+  crank:
+    group: [B]
+    with: {C: {from: B, by: [0.1, 0]}}
+    lines: {B: [A, [1, 2]], C: [S, [1, 2]]}
+    near: {at: {x: 1}, B: [0.4, 0.8]}
+links: {BC: {points: [B, C]}}
+joints: {G: {prismatic: [ground, BC], at: B, axis: [1, 2], actuated: true}}
+end_effector: {link: BC, at: B}
+)";
+  try {
+    parse_mechanism(text, "m.yaml");
+    FAIL() << "accepted";
+  } catch (const core::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the line of B, the line of C do not hold its points there"),
+              std::string::npos)
+        << error.what();
+  }
+  const Mechanism held = parse_mechanism(with(text, "C: [S, [1, 2]]", "C: [S, [1, -2]]"), "m.yaml");
+  EXPECT_FALSE(held.notes.empty());  // of the posture, which is off
+}
+
 struct Mistake {
   const char *from, *to;
   int line;

@@ -97,6 +97,18 @@ TEST(LociTable, AnEmptyMapIsAnAnswer) {
   EXPECT_EQ(loci_table(map), "nothing\n\nno curves\n");
 }
 
+/// What is in doubt is not out of reach.
+TEST(LociTable, ARangeInDoubtIsNotOutOfReach) {
+  core::LocusMap map;
+  map.mechanism = "nothing";
+  map.tower.coordinates = {"q"};
+  map.complete = true;
+  EXPECT_TRUE(has(loci_table(map), "out of reach in the whole range"));
+  map.complete = false;
+  EXPECT_FALSE(has(loci_table(map), "out of reach"));
+  EXPECT_TRUE(has(loci_table(map), "nothing is proven: all that may be in reach is in doubt"));
+}
+
 TEST(TextTable, AlignsNumbersByTheirPointsAndLeavesOutEmptyColumns) {
   const std::vector<Column> heading = {
       {"joint"}, {"f [N]", 0, Alignment::point}, {"N [N]", 0, Alignment::point}, {"M [N m]", 0, Alignment::point}};
