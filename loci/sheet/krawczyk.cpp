@@ -128,13 +128,13 @@ void Narrowing::take_step() {
 }
 
 void Narrowing::choose_trial() {
-  bool inside_box = true;
   for (std::size_t c = 0; c < point_.size(); ++c) {
     const double radius = std::max(radius_, 0x1p-51 * point_[c].magnitude());
     trial_[c] = is_thin(c) ? (*box_)[c] : Interval(point_[c].lower() - radius, point_[c].upper() + radius);
-    inside_box = inside_box && (is_thin(c) || inside(trial_[c], (*box_)[c]));
+    // A root that is zero may be enclosed to less than any radius beforehand.
+    if (disjoint(trial_[c], (*box_)[c])) return end_radii(false);
+    trial_[c] = meet(trial_[c], (*box_)[c]);
   }
-  if (!inside_box) end_radii(false);
 }
 
 void Narrowing::take_trial(ZeroCount count) {

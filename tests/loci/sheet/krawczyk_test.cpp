@@ -58,5 +58,22 @@ TEST(Krawczyk, NarrowsToRounding) {
   }
 }
 
+// At s = 0 the root, which is zero, is known to 1e-70 where the coordinates are not yet.
+TEST(Krawczyk, NarrowsAroundARootThatIsZero) {
+  const Ring r{3};
+  const core::RootTower tower = testing::one_root(r(1) - r.x() * r.x() - r.y() * r.y());
+  const SheetProgram program(tower, {r.s(1), r.x() - r.y()});
+  SheetCell cell(program, {1});
+  const std::vector<Interval> box = {Interval(0.707, 0.708), Interval(0.707, 0.708), Interval(-1e-70, 1e-70)};
+  std::vector<Interval> enclosure = box;
+  narrow(cell, {}, box, {0}, 1e-14, enclosure);
+  ASSERT_EQ(enclosure.size(), 3u);
+  for (const std::size_t c : {0, 1}) {
+    EXPECT_TRUE(enclosure[c].contains(std::sqrt(0.5)));
+    EXPECT_LT(enclosure[c].width(), 1e-14);
+  }
+  EXPECT_LE(enclosure[2].magnitude(), 1e-70);
+}
+
 }  // namespace
 }  // namespace clearloci::loci::sheet
