@@ -107,7 +107,7 @@ std::optional<std::set<Reaction>> label_at(const mechanism::Mechanism& m, const 
       // Components are named where they are asked for, and vanish beyond what the force itself does.
       if ((guide || is_part(quantity)) && !wants(quantity)) continue;
       any = any || (asked && wants(quantity));
-      if (is_part(quantity) && !guide && force && order < least + no_order) continue;
+      if (is_part(quantity) && force && order < least + no_order) continue;
       quantities.insert(quantity);
     }
     for (const Quantity quantity : quantities) {

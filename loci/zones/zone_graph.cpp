@@ -41,7 +41,9 @@ constexpr int agreeing_circles = 1;
 // Nodes whose order is not told are joined with those that edges lead to within this distance.
 constexpr double widest_join = 1e-5, beyond_join = 1.5;
 constexpr double widest_doubt = 1e-4;  // rad; of bearings that are looked for by other means
-constexpr double rounding = 1e-13;     // of points moved onto a curve
+// Of the tolerance: a curve is that near to its chords, and crosses a circle about its node under no flat angle.
+constexpr double drawn_doubt = 4;
+constexpr double rounding = 1e-13;  // of points moved onto a curve
 // Tolerances by which chords may cross beside the curves' crossing.
 constexpr double drawn_off = 100;
 // Tolerances by which polylines of arcs that meet are apart at most, with room for rounding.
@@ -770,8 +772,14 @@ class Builder {
         break;
       }
       Bearing bearing = bearing_of_curve(edge.owners.front(), centre, at, radius);
-      if (follow && bearing.doubt > widest_doubt)
-        bearing = followed_bearing(edge.owners.front(), centre, points, radius).value_or(bearing);
+      if (follow && bearing.doubt > widest_doubt) {
+        const Bearing drawn = drawn_bearing(centre, at, radius);
+        if (drawn.doubt < bearing.doubt) bearing = drawn;
+        const auto followed = followed_bearing(edge.owners.front(), centre, points, radius);
+        // Where several branches leave a node another one may be followed.
+        if (followed && std::abs(std::remainder(followed->angle - drawn.angle, 2 * std::numbers::pi)) <= drawn.doubt)
+          bearing = *followed;
+      }
       bearings.emplace_back(bearing, half);
     }
     std::sort(bearings.begin(), bearings.end(),
@@ -867,6 +875,11 @@ class Builder {
     return Bearing{std::atan2(at[1] - centre[1], at[0] - centre[0]), (std::abs(off) + 2 * rounding * size_) / radius};
   }
 
+  /// The same by where the chords of a curve cross the circle.
+  Bearing drawn_bearing(const Point2& centre, const Point2& at, double radius) const {
+    return {std::atan2(at[1] - centre[1], at[0] - centre[0]), drawn_doubt * map_.tolerance / radius};
+  }
+
   /// The angle under which a curve crosses the circle: along its tangent to the radius, then back onto the curve.
   Bearing bearing_of_curve(int owner, const Point2& centre, Point2 at, double radius) {
     const CurveProjection* const curve_projection = projection(owner);
@@ -888,7 +901,8 @@ class Builder {
       else
         at = {on[0] + (radius - r) / outward * tangent[0], on[1] + (radius - r) / outward * tangent[1]};
     }
-    return bearing(distance(at, start) < 0.5 * radius ? off : std::numeric_limits<double>::infinity());
+    const double beside = std::min(0.5 * radius, drawn_doubt * map_.tolerance + same_place * size_);
+    return bearing(distance(at, start) < beside ? off : std::numeric_limits<double>::infinity());
   }
 
   /// Edges that are proven to meet at nodes only must not seem to cross elsewhere, unless they are too close to tell.

@@ -157,12 +157,13 @@ void expect_partition(const mechanism::Mechanism& mechanism, const core::Zones& 
 // with long coefficients leaves of a product was too small to have a sign; along a boundary on which numerators are
 // zero with the root though no term of them has it as a factor; along the slit of a torsion spring; in slivers beside
 // the boundary, whose chords have their middles beyond or far from the point amid them, or are crossed by its chords;
-// where a curve that two factors have parts of crosses itself, in a part of each.
+// where a curve that two factors have parts of crosses itself, in a part of each; where a locus passes a corner of the
+// workspace by less than what counts as one place, so that it is followed from no point of its own.
 TEST(Zones, OfTheCorpusAreCertified) {
   for (const std::string name :
        {"rrrpr_singularities_cross_at_base", "five_bar_long_coefficients", "minitaur_foot", "rrrpr_torsion_slit",
         "rrrpr_sliver_beside_a_boundary", "prrrp_sliver_along_a_boundary", "three_rrr_sliver_beside_a_boundary",
-        "one_rail_curve_crosses_itself"}) {
+        "one_rail_curve_crosses_itself", "coupler_locus_beside_a_corner"}) {
     SCOPED_TRACE(name);
     const core::Zones map =
         find_zones(mechanism::read_mechanism(source_dir() + "/tests/corpus/loci/" + name + ".yaml"), {});

@@ -58,16 +58,21 @@ TEST(Krawczyk, NarrowsToRounding) {
   }
 }
 
-TEST(Krawczyk, NarrowsWhereOneCoordinateIsKnownBetterThanTheOthersAreWanted) {
-  const Ring r{2};
-  const SheetProgram program(testing::plane(), {r.x() * r.x() + r.y() * r.y() + r.y() - r(core::Rational(1, 2)), r.y()});
-  SheetCell cell(program, {});
-  const std::vector<Interval> box = {Interval(0.6, 0.8), Interval(-1.5e-18, 9e-18)};
+// At s = 0 the root, which is zero, is known to 1e-70 where the coordinates are not yet.
+TEST(Krawczyk, NarrowsAroundARootThatIsZero) {
+  const Ring r{3};
+  const core::RootTower tower = testing::one_root(r(1) - r.x() * r.x() - r.y() * r.y());
+  const SheetProgram program(tower, {r.s(1), r.x() - r.y()});
+  SheetCell cell(program, {1});
+  const std::vector<Interval> box = {Interval(0.707, 0.708), Interval(0.707, 0.708), Interval(-1e-70, 1e-70)};
   std::vector<Interval> enclosure = box;
-  narrow(cell, {}, box, {}, 1e-14, enclosure);
-  EXPECT_TRUE(enclosure[0].contains(std::sqrt(0.5)));
-  EXPECT_LT(enclosure[0].width(), 1e-14);
-  EXPECT_TRUE(enclosure[1].contains(0));
+  narrow(cell, {}, box, {0}, 1e-14, enclosure);
+  ASSERT_EQ(enclosure.size(), 3u);
+  for (const std::size_t c : {0, 1}) {
+    EXPECT_TRUE(enclosure[c].contains(std::sqrt(0.5)));
+    EXPECT_LT(enclosure[c].width(), 1e-14);
+  }
+  EXPECT_LE(enclosure[2].magnitude(), 1e-70);
 }
 
 }  // namespace
