@@ -84,6 +84,42 @@ class Twins(InOwnFolder):
                     answer.pop(key, None)
             self.assertEqual(json.dumps(answers[0]), json.dumps(answers[1]))
 
+# J0 bears nothing in any pose: its force is nought to rounding, of which there is more at some poses.
+SLIDES_ON_A_LEVER = """format: 1
+workspace: {q: {angle: [90 deg, 220 deg], of: L1}}
+drawn: {J0: [-0.15, -0.65], J1: [0.8, 0.6], J2: [0.45, -0.95], J3: [0.9, 0.75], J4: [-0.6, 0.05], J5: [0.85, 0.2],
+  J6: [0.45, 0.65], E: [-0.65, -0.4]}
+links:
+  L1: {points: [J0, E]}
+  L2: {points: [J1, J3, J5]}
+  L3: {points: [J3, J6]}
+  L4: {points: [J2, J4]}
+  L5: {points: [J5, J6]}
+joints:
+  J0: {revolute: [ground, L1], at: J0, clearance: {radial: 1.0e-05, angular: 0.001}, actuated: true}
+  J1: {prismatic: [L1, L2], at: J1, axis: [0.1, 1.0], clearance: {gap: 1.0e-05, half_length: 0.05}}
+  J2: {revolute: [ground, L4], at: J2, clearance: {radial: 1.0e-05}}
+  J3: {revolute: [L3, L2], at: J3, clearance: {radial: 1.0e-05}}
+  J4: {prismatic: [L5, L4], at: J4, axis: [0.2, -0.8]}
+  J5: {revolute: [L2, L5], at: J5, clearance: {radial: 1.0e-05}}
+  J6: {revolute: [L5, L3], at: J6, clearance: {radial: 1.0e-05}}
+end_effector: {link: L2, at: J5}
+loads:
+- {link: L4, at: J2, force: [-14, 13], couple: 0.8}
+- {link: L4, at: J4, force: [-11, -5]}
+springs:
+- {links: [L2, L3], at: [J1, J3], force: -19}
+"""
+
+
+class SlidesOnALever(InOwnFolder):
+    def test_what_bears_nothing_leaves_nothing_in_doubt(self):
+        file = self.folder / "lever.yaml"
+        file.write_text(SLIDES_ON_A_LEVER, encoding="utf-8")
+        answer = json.loads(self.run_program("zones", file, "--time-limit", "60", "--json").stdout)
+        self.assertTrue(answer["complete"])
+        self.assertEqual(len(answer["zones"]), 1)
+
 
 if __name__ == "__main__":
     unittest.main()
