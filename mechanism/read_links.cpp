@@ -131,6 +131,8 @@ void read_links(Mechanism& mechanism, const Value& value) {
     else if (link.points.size() == 1 && sgn(mass) == 0)
       link.inertia = Expression();
     if (const auto masses = mapping.find("masses")) link.masses = read_point_masses(mechanism, *masses);
+    if (mapping.find("com") && !mapping.find("mass") && link.masses.empty())
+      mechanism.notes.push_back("link " + link.name + " has a com and no mass: it weighs nothing");
     mechanism.links.push_back(std::move(link));
   }
 }

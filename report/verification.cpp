@@ -356,6 +356,7 @@ std::string verification_text(const core::Verification& result) {
     of = "every design within the tolerances of " + many(count, "parameter");
   if (const std::size_t count = result.task.loads_within.size(); count > 0)
     of += (of.empty() ? "" : ", ") + ("every load within " + many(count, "ball"));
+  if (result.task.loads) of += (of.empty() ? "" : ", ") + std::string("every load of loads_from");
   if (!of.empty()) put("of", of);
   if (result.preload)
     for (const std::string& line : preload_lines(*result.preload, result.units)) put("preload", printable(line));
