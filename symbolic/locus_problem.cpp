@@ -65,20 +65,6 @@ std::optional<FactoredDeterminants> determinants_of(const Geometry& geometry, co
   return regular_determinants(geometry);
 }
 
-/// Loci and roots are handed over as elements that are linear in each root; but for angles, of which no square is used.
-bool is_reduced(const core::LocusProblem& problem) {
-  const auto first = static_cast<int>(problem.tower.coordinates.size());
-  const auto linear = [&](const core::Polynomial& element) {
-    for (int variable = first; variable < problem.tower.variables(); ++variable)
-      if (core::degree_in(element, variable) > 1) return false;
-    return true;
-  };
-  return std::all_of(problem.factors.begin(), problem.factors.end(),
-                     [&](const core::LocusFactor& factor) { return linear(factor.sheet); }) &&
-         std::all_of(problem.tower.roots.begin(), problem.tower.roots.end(),
-                     [&](const core::Root& root) { return root.is_angle() || linear(root.square); });
-}
-
 void emit_factors(Derivation& d) {
   FactorEmission emission(d);
   const bool efforts_free = !d.preload.joints.empty();
@@ -94,7 +80,6 @@ void emit_factors(Derivation& d) {
   emission.force_probes();
   emission.force_pairs();
   emission.append_roots();
-  core::ensure(is_reduced(d.result.problem), "an element that is linear in each root");
 }
 
 DerivedProblem derived(Derivation& d) {
