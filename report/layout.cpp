@@ -157,12 +157,19 @@ std::vector<LegendEntry> legend_entries(const Subject& subject, const Layout& la
   const auto& regions = map.workspace;
   if (subject.layer == nullptr &&
       std::any_of(regions.begin(), regions.end(), [&](const auto& r) { return r.mode == subject.mode; })) {
-    if (subject.zones != nullptr)
-      add(SampleKind::zones, "zones, the largest first",
-          (subject.task == nullptr ? "dashed: the largest circle inside" : "numbered as in the zones' table") +
-              preload_words(*subject.zones, subject.mode));
-    else
+    if (subject.zones != nullptr) {
+      const bool has_margins = std::any_of(map.curves.begin(), map.curves.end(), [](const core::LocusCurve& curve) {
+        return curve.kind == core::LocusKind::margin;
+      });
+      // With margins they are others than those of the same mechanism without.
+      const std::string words = (subject.task == nullptr ? "dashed: the largest circle inside"
+                                 : has_margins           ? "cut by margins, too"
+                                                         : "") +
+                                preload_words(*subject.zones, subject.mode);
+      add(SampleKind::zones, "zones, the largest first", words.starts_with("; ") ? words.substr(2) : words);
+    } else {
       add(SampleKind::workspace, "workspace");
+    }
   }
   if (map.lower.size() > 1 && shows_more_than_searched(layout)) add(SampleKind::searched_box, "searched box");
   if (subject.sketch != nullptr) {
