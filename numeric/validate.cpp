@@ -220,22 +220,26 @@ class ModeValidation {
       ++report.disputed;
       report.disputed_arcs.push_back({map_.curves[c].id, pose_of(at), mode_, checked.reaction, claimed, false});
     };
+    // Other curves, or a boundary beyond that of the workspace, may be nearer than the ways' ends; and where a reaction
+    // is small along the arc it may seem to vanish towards it from farther away.
+    const auto tally_nearer = [&] {
+      std::vector<Approach> nearer;
+      for (const Approach& way : ways)
+        if (auto one = brought_nearer(model_, signs_, way)) nearer.push_back(std::move(*one));
+      return tally_of(nearer, checked.columns);
+    };
     if (claimed && most(tally.other)) {
       // Vertices may be off their curve by the map's tolerance.
       const auto stands_for_a_zero = [&](const Approach& way) {
         return turns_round(model_, signs_, way, checked.columns, reach_);
       };
-      // Other curves, or a boundary beyond that of the workspace, may be nearer than the ways' ends.
-      std::vector<Approach> nearer;
-      for (const Approach& way : ways)
-        if (auto one = brought_nearer(model_, signs_, way)) nearer.push_back(std::move(*one));
-      const bool is_sure = most(tally_of(nearer, checked.columns).other);
-      if (is_sure && !std::all_of(ways.begin(), ways.end(), stands_for_a_zero)) return dispute(ways.front().towards);
+      if (most(tally_nearer().other) && !std::all_of(ways.begin(), ways.end(), stands_for_a_zero))
+        return dispute(ways.front().towards);
       ++report.arcs_undecided;
     } else if (claimed) {
       ++(most(tally.zero) ? report.arcs_held : report.arcs_undecided);
     }
-    if (claimed || !most(tally.zero)) return;
+    if (claimed || !most(tally.zero) || !most(tally_nearer().zero)) return;
     // Another curve of the map may run along here and say so.
     const core::Point2& at = ways.front().towards;
     for (std::size_t k = 0; k < map_.curves.size(); ++k)

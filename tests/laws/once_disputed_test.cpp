@@ -63,6 +63,9 @@ TEST(OnceDisputed, CurvesNearerThanTheWaysTowardsThem) {
   hold("certificates/rails_nearly_one_line", true, {.working_modes = {{-1, 1}}});
 }
 
+// A couple is small along the boundary beside its curve's end there: from farther away it seemed to vanish all along.
+TEST(OnceDisputed, ACoupleThatIsSmallAlongTheBoundary) { hold("witness/couple_small_along_the_boundary", true); }
+
 // A moment vanishes along the workspace boundary, where its curve is open.
 TEST(OnceDisputed, AnOpenCurveAlongTheBoundary) {
   hold("certificates/open_beside_the_boundary", false, {.working_modes = {{1, -1}}});
