@@ -125,14 +125,8 @@ class Words {
     return told(value, core::unit_of(reaction.quantity));
   }
   /// Bounds, rounded so that they stay ones.
-  std::string at_least(double value, const std::string& si) const {
-    const ShownUnit unit = core::told_unit(si, result_.units);
-    return engineering(rounded_down(value * unit.per_si, size_digits), size_digits) + " " + unit.name;
-  }
-  std::string at_most(double value, const std::string& si) const {
-    const ShownUnit unit = core::told_unit(si, result_.units);
-    return engineering(rounded_up(value * unit.per_si, size_digits), size_digits) + " " + unit.name;
-  }
+  std::string at_least(double value, const std::string& si) const { return told(value, si, rounded_down); }
+  std::string at_most(double value, const std::string& si) const { return told(value, si, rounded_up); }
   /// A distance in the task's metric.
   std::string distance(double value) const { return result_.margin_of_angles() ? angle(value) : length(value); }
 
@@ -158,9 +152,10 @@ class Words {
     return std::abs(value) <= rounding * std::max(std::abs(from), std::abs(to)) ? 0 : value;
   }
 
-  std::string told(double value, const std::string& si) const {
+  std::string told(double value, const std::string& si, double (*rounded)(double, int) = nullptr) const {
     const ShownUnit unit = core::told_unit(si, result_.units);
-    return engineering(value * unit.per_si, size_digits) + " " + unit.name;
+    const double shown = value * unit.per_si;
+    return engineering(rounded == nullptr ? shown : rounded(shown, size_digits), size_digits) + " " + unit.name;
   }
 
   const core::Verification& result_;
