@@ -345,6 +345,9 @@ void read_loads(Mechanism& mechanism, const std::optional<Value>& value) {
     if (!couple && !load.has_force())
       throw InputError(described.where, described.what + " has neither a force nor a couple",
                        "add force: [fx, fy] or couple: m");
+    if (load.at && !is_on_link(mechanism, *load.at, load.link))
+      mechanism.notes.push_back(described.what + " acts at " + text_of(mapping.at("at")) +
+                                ", which is not among the points of its link " + text_of(mapping.at("link")));
     mechanism.loads.push_back(std::move(load));
   }
 }

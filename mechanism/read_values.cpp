@@ -1,6 +1,7 @@
 // Numbers, parameters and the workspace.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <stdexcept>
@@ -201,27 +202,55 @@ bool names_a_turn(const Expression& e) {
   return e.kind() == Expression::Kind::pi || std::any_of(parts.begin(), parts.end(), names_a_turn);
 }
 
-/// Degrees that were meant and not written: plain numbers are rad, and a range of more than two turns of those reaches
-/// every pose three times.
+/// Of plain numbers of an angle, which are rad: more than two turns are degrees that were meant and not written.
+constexpr double most_plain_turn = 4 * std::numbers::pi;
+
+[[noreturn]] void refuse_plain_turns(const Value& value, double rad, const std::string& in_degrees) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const auto words = [](double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", number);
+    return std::string(text);
+  };
+  throw InputError(value.where,
+                   value.what + " is " + words(rad) + " rad, " + words(rad * degrees / 360) +
+                       " turns: plain numbers of an angle are rad",
+                   "write " + in_degrees + ", or units: {angle: deg} for the whole file");
+}
+
+/// A range of more than two turns reaches every pose three times.
 void check_plain_turns(const Mechanism& mechanism, const Coordinate& coordinate, const Value& range,
                        const std::vector<Value>& ends) {
-  constexpr double degrees = 180 / std::numbers::pi, most = 4 * std::numbers::pi;
   const double extent = core::to_double(coordinate.upper) - core::to_double(coordinate.lower);
-  if (!coordinate.angle || mechanism.units.angle_declared || extent <= most) return;
+  if (!coordinate.angle || mechanism.units.angle_declared || extent <= most_plain_turn) return;
   for (const Value& end : ends) {
     const InSi value = read_in_si(mechanism, end, Scope::parameters);
     if (value.has_unit || value.dimension != Dimension{} || names_a_turn(value.expression)) return;
   }
-  const auto words = [](double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return std::string(text);
-  };
-  throw InputError(
-      range.where,
-      range.what + " is " + words(extent) + " rad, " + words(extent * degrees / 360) +
-          " turns: plain numbers of an angle are rad",
-      "write [" + text_of(ends[0]) + " deg, " + text_of(ends[1]) + " deg], or units: {angle: deg} for the whole file");
+  refuse_plain_turns(range, extent, "[" + text_of(ends[0]) + " deg, " + text_of(ends[1]) + " deg]");
+}
+
+/// The rest of a spring, the play of a pin, the turn of a frame.
+void check_plain_turns(const Mechanism& mechanism, const Value& value, const Number& number) {
+  if (!number.plain || mechanism.units.angle_declared || dimension_of(value.field) != Dimension{.angle = 1}) return;
+  const double rad = core::to_double(number.value);
+  if (std::abs(rad) > most_plain_turn && !names_a_turn(number.expression))
+    refuse_plain_turns(value, rad, text_of(value) + " deg");
+}
+
+Number number_of(const Mechanism& mechanism, const Value& value, Sign sign) {
+  Number number;
+  const InSi read = read_in_si(mechanism, value, Scope::parameters);
+  number.expression = read.expression;
+  number.plain = !read.has_unit && read.dimension == Dimension{};
+  number.value = evaluate_at(number.expression, mechanism, value).value;
+  const std::string written = told(number, value, mechanism);
+  if (sign != Sign::any && sgn(number.value) < 0)
+    throw InputError(value.where, value.what + " is negative: " + written,
+                     sign == Sign::positive ? "write a value above 0" : "write 0 or a value above 0");
+  if (sign == Sign::positive && sgn(number.value) == 0)
+    throw InputError(value.where, value.what + " is zero: " + written, "write a value above 0");
+  return number;
 }
 
 Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
@@ -235,8 +264,8 @@ Coordinate read_coordinate(const Mechanism& mechanism, const Entry& entry) {
   }
   range.what = "the range of coordinate " + entry.key;
   const std::vector<Value> ends = elements(range, 2);
-  const Number lower = read_number(mechanism, ends[0], Sign::any);
-  const Number upper = read_number(mechanism, ends[1], Sign::any);
+  const Number lower = number_of(mechanism, ends[0], Sign::any);
+  const Number upper = number_of(mechanism, ends[1], Sign::any);
   const std::string &first = text_of(ends[0]), &second = text_of(ends[1]);
   if (lower.value == upper.value)
     throw InputError(range.where, range.what + " is empty: both ends are " + first,
@@ -277,17 +306,8 @@ Rational read_parameter_value(const Mechanism& mechanism, const Parameter& param
 }
 
 Number read_number(const Mechanism& mechanism, const Value& value, Sign sign) {
-  Number number;
-  const InSi read = read_in_si(mechanism, value, Scope::parameters);
-  number.expression = read.expression;
-  number.plain = !read.has_unit && read.dimension == Dimension{};
-  number.value = evaluate_at(number.expression, mechanism, value).value;
-  const std::string written = told(number, value, mechanism);
-  if (sign != Sign::any && sgn(number.value) < 0)
-    throw InputError(value.where, value.what + " is negative: " + written,
-                     sign == Sign::positive ? "write a value above 0" : "write 0 or a value above 0");
-  if (sign == Sign::positive && sgn(number.value) == 0)
-    throw InputError(value.where, value.what + " is zero: " + written, "write a value above 0");
+  Number number = number_of(mechanism, value, sign);
+  check_plain_turns(mechanism, value, number);
   return number;
 }
 

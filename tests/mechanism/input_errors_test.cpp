@@ -250,6 +250,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"EndEffectorOnGround", "{link: PB2, at: P}", "{link: ground, at: P}", 27, 22, "name a link that moves"},
         Mistake{"EndEffectorOffItsLink", "{link: PB2, at: P}", "{link: PB2, at: A1}", 27, 31, "no point of link PB2"},
         Mistake{"LoadOnGround", "{link: PB2, at: P, force", "{link: ground, at: P, force", 29, 12, "is the ground"},
+        Mistake{"PlayInDegreesWithoutTheirUnit", "angular: 0.5e-3", "angular: 40", 22, 94,
+                "the angular clearance of joint A1 is 40 rad, 6.366 turns: plain numbers of an angle are rad; write 40 "
+                "deg"},
         Mistake{"ForceWithoutPoint", "at: P, force", "force", 29, 5, "no point where it acts"},
         Mistake{"EmptyLoad", ", force: [0, -100]", "", 29, 5, "neither a force nor a couple"},
         Mistake{"ForceOfThree", "force: [0, -100]", "force: [0, 0, 1]", 29, 31,

@@ -151,7 +151,9 @@ TEST(ReadLimits, KeepDistancesAndAngles) {
   EXPECT_EQ(words_of(m, m.limits[0], false), "angle A1-B1-P at 20 deg");
   EXPECT_EQ(words_of(m, m.limits[1], true), "distance A1-P at 0.52 m");
   expect_complaint("limits: [{angle: [A1, B1], within: [20 deg, 160 deg]}]\n", "a list of 3, not of 2");
-  expect_complaint("limits: [{angle: [A1, B1, P], within: [20, 160]}]\n", "beyond 180 deg");
+  expect_complaint("limits: [{angle: [A1, B1, P], within: [20 deg, 190 deg]}]\n", "beyond 180 deg");
+  expect_complaint("limits: [{angle: [A1, B1, P], within: [20, 160]}]\n",
+                   "20 rad, 3.183 turns: plain numbers of an angle");
   expect_complaint("limits: [{distance: [A1, P], within: [0.52, 0.31]}]\n", "ends where it begins, or before");
   expect_complaint("limits: [{distance: [A1, P], with: [0.31, 0.52]}]\n", "did you mean 'within'?");
   expect_complaint("limits: [{within: [0.31, 0.52]}]\n", "of nothing");
@@ -169,6 +171,13 @@ TEST(ReadSprings, NoteAStiffnessWithoutAUnitWhereLengthsAreInMillimetres) {
   EXPECT_EQ(notes("800")[0],
             "spring Pull: its stiffness has no unit and is therefore in N/m; write the unit, such as N/mm");
   EXPECT_TRUE(notes("0.8 N/mm").empty());
+}
+
+TEST(ReadLoads, NoteAPlaceThatIsNoPointOfTheLink) {
+  EXPECT_TRUE(parsed(text).notes.empty());
+  const Mechanism elsewhere = parsed(with(text, "{link: PB2, at: P, force", "{link: PB2, at: B1, force"));
+  ASSERT_EQ(elsewhere.notes.size(), 1U);
+  EXPECT_EQ(elsewhere.notes[0], "load 1 acts at B1, which is not among the points of its link PB2");
 }
 
 TEST(ReadSprings, EndTheWorkspaceWhereTheirEndsMeetAlongACurve) {
