@@ -126,7 +126,9 @@ Amount operator/(const Amount& a, const Amount& b) {
   if (a.is_exact() && b.is_exact())
     return Amount::surd(a.factor_ / (b.factor_ * b.radicand_), a.radicand_ * b.radicand_);
   if (b.is_rational() && b.factor_ == 1) return a;
-  return Amount::expression(a.text(true) + "/" + b.text(true), a.value() / b.value());
+  std::string below = b.text(true);
+  if (below.front() != '(' && below.find('*') != std::string::npos) below = "(" + below + ")";  // 2*sqrt(3)
+  return Amount::expression(a.text(true) + "/" + below, a.value() / b.value());
 }
 
 Amount square_root(const Amount& a) {
