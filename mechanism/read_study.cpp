@@ -87,6 +87,14 @@ std::vector<std::string> figure_names() {
   return names;
 }
 
+/// What a figure is measured in: an effort in what its unit says, without one in N m or N.
+std::string field_of(core::Figure figure, const Mechanism& mechanism, const Value& value) {
+  if (figure != core::Figure::effort) return core::to_string(figure);
+  const std::vector<std::string> names = parameter_names(mechanism);
+  const Expression written = parse_with_units(text_of(value), value.where, {names.begin(), names.end()});
+  return in_si(written, mechanism, std::nullopt).dimension == dimension_of("force") ? "force" : "couple";
+}
+
 void read_require(Study& study, const Mechanism& mechanism, const Value& value) {
   for (Entry& entry : entries(value)) {
     const auto figure = core::figure_named(entry.key);
@@ -94,6 +102,7 @@ void read_require(Study& study, const Mechanism& mechanism, const Value& value) 
       throw InputError(entry.where, "'" + entry.key + "' cannot be required",
                        suggest(entry.key, figure_names(), "figures"));
     entry.value.what = "the required " + entry.key;
+    entry.value.field = field_of(*figure, mechanism, entry.value);
     study.require.push_back({*figure, read_number(mechanism, entry.value, Sign::not_negative).value});
   }
 }

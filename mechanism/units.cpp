@@ -66,6 +66,8 @@ const std::map<std::string, std::optional<Dimension>>& fields() {
       {"period", duration},
       {"margin", length},
       {"pose_error", length},
+      {"largest_circle", length},
+      {"zone_area", {{.length = 2}}},
       {"min_force", force},
       {"min_couple", couple},
       {"loads_from", force},

@@ -10,6 +10,9 @@
 #include "clearloci/study.hpp"
 #include "clearloci/verify.hpp"
 #include "core/errors.hpp"
+#include "core/rational.hpp"
+#include "mechanism/read.hpp"
+#include "mechanism/read_study.hpp"
 #include "tests/report/scratch_folder.hpp"
 #include "tests/source_dir.hpp"
 
@@ -35,6 +38,29 @@ std::string told(const StudyResult& result) {
     text += "\n";
   }
   return text;
+}
+
+/// As of a task: in the units of the mechanism file, where they have none of their own.
+TEST(Study, RequiresFiguresInTheUnitsOfTheFile) {
+  const mechanism::Mechanism lift = mechanism::read_mechanism(source_dir() + "/examples/scissor_lift.yaml");
+  const auto required = [&](const std::string& require) {
+    const Study study = mechanism::parse_study(
+        "format: 1\nvary: {W: [1000, 2000]}\ntask: {box: {theta: [20, 30], u: [0, 100]}}\nrequire: {" + require +
+            "}\ngoal: {maximise: margin}\nmethod: {grid: 2}\n",
+        "study.yaml", lift);
+    return core::to_double(study.require.at(0).bound);
+  };
+  EXPECT_DOUBLE_EQ(required("pose_error: 3.4 mm"), 0.0034);
+  EXPECT_DOUBLE_EQ(required("pose_error: 3.4"), 0.0034);
+  EXPECT_DOUBLE_EQ(required("margin: 3 cm"), 0.03);
+  EXPECT_DOUBLE_EQ(required("largest_circle: 30"), 0.03);
+  EXPECT_DOUBLE_EQ(required("min_force: 2 kN"), 2000);
+  EXPECT_DOUBLE_EQ(required("effort: 500 N mm"), 0.5);
+  EXPECT_DOUBLE_EQ(required("effort: 0.5 kN"), 500);
+  EXPECT_DOUBLE_EQ(required("effort: 12"), 12);
+  EXPECT_DOUBLE_EQ(required("zone_area: 500 mm^2"), 0.0005);
+  EXPECT_THROW(required("pose_error: 3.4 N"), core::InputError);
+  EXPECT_THROW(required("effort: 3 mm"), core::InputError);
 }
 
 TEST(Study, SaysOfEveryDesignWhatVerifySays) {
