@@ -11,6 +11,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/frame.hpp"
 #include "mechanism/idle.hpp"
+#include "mechanism/notes.hpp"
 #include "mechanism/read.hpp"
 #include "tests/source_dir.hpp"
 
@@ -171,6 +172,17 @@ TEST(ReadSprings, NoteAStiffnessWithoutAUnitWhereLengthsAreInMillimetres) {
   EXPECT_EQ(notes("800")[0],
             "spring Pull: its stiffness has no unit and is therefore in N/m; write the unit, such as N/mm");
   EXPECT_TRUE(notes("0.8 N/mm").empty());
+}
+
+TEST(Notes, TellLengthsThatAreNearlyEqual) {
+  const auto notes = [](const std::string& length) {
+    return notes_of(
+        parsed(with(five_bar_text, "{dyad: [A2, P], lengths: [L, L]", "{dyad: [A2, P], lengths: [L, " + length + "]")));
+  };
+  EXPECT_TRUE(notes("L").empty());
+  EXPECT_TRUE(notes("1.001*L").empty());
+  ASSERT_EQ(notes("1.00000000000001*L").size(), 1U);
+  EXPECT_NE(notes("1.00000000000001*L")[0].find("differ by 1.0e-14 of their size"), std::string::npos);
 }
 
 TEST(ReadLoads, NoteAPlaceThatIsNoPointOfTheLink) {
