@@ -105,6 +105,23 @@ std::vector<bool> loaded_beside_efforts(const mechanism::Mechanism& mechanism, c
   return loaded;
 }
 
+std::vector<core::Vanishing> too_small_at(const numeric::NumericModel& model, const std::vector<TaskDemand>& demands,
+                                          const std::vector<double>& pose, const std::vector<int>& sides) {
+  std::vector<core::Vanishing> small;
+  if (std::none_of(demands.begin(), demands.end(), [](const TaskDemand& demand) { return demand.least > 0; }))
+    return {};
+  const numeric::BoundedNumerators numerators = numeric::bounded_numerators(model, pose, sides);
+  if (!numerators.reachable) return {};
+  for (const TaskDemand& demand : demands) {
+    double size = 0;
+    for (const numeric::Bounded& part : numeric::demanded_parts(model, demand, numerators))
+      size = std::hypot(size, part.value);
+    if (size < core::to_double(demand.least) * std::abs(numerators.determinant.value))
+      small.push_back({demand.joint, demand.quantity, 1});
+  }
+  return small;
+}
+
 core::LocusKind locus_kind_of(const TaskDemand& demand) {
   if (demand.bound) return core::LocusKind::preload;
   if (demand.least > 0) return core::LocusKind::margin;

@@ -37,6 +37,11 @@ std::vector<bool> loaded_beside_efforts(const mechanism::Mechanism& mechanism, c
                                         const std::vector<core::TaskDemand>& demands,
                                         const std::vector<std::vector<double>>& poses);
 
+/// Reactions that are smaller at a pose than the least size that is asked for, in floating point.
+std::vector<core::Vanishing> too_small_at(const numeric::NumericModel& model,
+                                          const std::vector<core::TaskDemand>& demands, const std::vector<double>& pose,
+                                          const std::vector<int>& sides);
+
 /// Margin, backlash or contact loss.
 core::LocusKind locus_kind_of(const core::TaskDemand& demand);
 

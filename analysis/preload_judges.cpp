@@ -250,7 +250,8 @@ class StaticsPreload : public PreloadJudge {
         return 0;
       case PoseCell::State::in_doubt: {
         const PoseCell::Known sides_known = cell_->known();
-        return demand < sides_known.signs.size() ? sides_known.signs[demand] : 0;
+        const bool has_sign = statics_.demands[demand].components.size() == 1 && demand < sides_known.signs.size();
+        return has_sign ? std::clamp(sides_known.signs[demand], -1, 1) : 0;
       }
       case PoseCell::State::outside:
         // The pose can be assembled: some effort is beyond its bound in all of the cell, be it this one or another.

@@ -25,6 +25,7 @@ class RangeClaims {
       : mechanism_(mechanism),
         request_(request),
         map_(map),
+        model_(numeric::compile(mechanism)),
         lower_(mechanism.coordinates.front().lower),
         upper_(mechanism.coordinates.front().upper),
         hair_(beside * (upper_ - lower_)) {
@@ -35,14 +36,13 @@ class RangeClaims {
     const auto found = std::find(modes_.begin(), modes_.end(), mode);
     if (found != modes_.end()) return result_.modes[static_cast<std::size_t>(found - modes_.begin())];
     modes_.push_back(mode);
-    const numeric::NumericModel model = numeric::compile(mechanism_);
     RangeCertificate::Mode& added = result_.modes.emplace_back();
-    added.sides = numeric::dyad_signs(model, map_.tower, mode);
+    added.sides = numeric::dyad_signs(model_, map_.tower, mode);
     constexpr std::size_t poses = 24;
     std::vector<std::string> notes;
     const std::vector<core::TaskDemand> asked = demands_of(mechanism_, request_);
     // Where no pose is within reach none tells what is never loaded.
-    added.demands = reached ? loaded_demands({model}, added.sides, asked, mechanism::spread_poses(mechanism_, poses),
+    added.demands = reached ? loaded_demands({model_}, added.sides, asked, mechanism::spread_poses(mechanism_, poses),
                                              notes, LeastSizes::are_left_out)
                             : asked;
     // Bounds of efforts are the model's.
@@ -58,7 +58,10 @@ class RangeClaims {
   void add(RangeCertificate::Mode& mode, double from, double to, RangeCertificate::Free free = {}) const {
     free.from = Rational(from) <= lower_ + hair_ ? lower_ : Rational(Rational(from) + hair_);
     free.to = Rational(to) >= upper_ - hair_ ? upper_ : Rational(Rational(to) - hair_);
-    if (free.from < free.to) mode.free.push_back(std::move(free));
+    if (!(free.from < free.to)) return;
+    const double middle = core::to_double(Rational((free.from + free.to) / 2));
+    free.too_small = too_small_at(model_, mode.demands, {middle}, mode.sides);
+    mode.free.push_back(std::move(free));
   }
 
   /// Where no mode is within reach, the claim is that the whole range is out of reach in each; out of time nothing is
@@ -79,6 +82,7 @@ class RangeClaims {
   const mechanism::Mechanism& mechanism_;
   const LociRequest& request_;
   const core::LocusMap& map_;
+  const numeric::NumericModel model_;
   Rational lower_, upper_, hair_;
   RangeCertificate result_;
   std::vector<core::WorkingMode> modes_;

@@ -7,7 +7,9 @@
 #include "analysis/framed.hpp"
 #include "analysis/idle_efforts.hpp"
 #include "analysis/model.hpp"
+#include "analysis/pose_demands.hpp"
 #include "analysis/request_limits.hpp"
+#include "analysis/task_demands.hpp"
 #include "analysis/zone_preload.hpp"
 #include "analysis/zones_by_cells.hpp"
 #include "core/errors.hpp"
@@ -62,7 +64,8 @@ bool cuts_zones(core::Quantity quantity, const LociRequest& request) {
   return asked(quantity);
 }
 
-/// Signs of |A| and of every wanted couple and the like in the zones, by the independent witness at their samples.
+/// Signs of |A| and of every wanted couple and the like in the zones, and what is too small, by the independent witness
+/// at their samples.
 void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request,
                const std::vector<core::Vanishing>& always_zero, core::Zones& map) {
   const numeric::NumericModel model = numeric::compile(with_idle_efforts(mechanism));
@@ -70,12 +73,19 @@ void add_signs(const mechanism::Mechanism& mechanism, const LociRequest& request
   const std::vector<numeric::TracedReaction> wanted = selected_reactions(mechanism, request);
   const std::vector<numeric::JointColumns> columns_of_joints = numeric::joint_columns(model);
   const std::vector<numeric::JointClearance> clearances = numeric::joint_clearances(mechanism);
+  std::vector<core::TaskDemand> demands = demands_of(mechanism, request);
+  std::erase_if(demands, [&](const core::TaskDemand& demand) {
+    return std::any_of(always_zero.begin(), always_zero.end(), [&](const core::Vanishing& what) {
+      return what.joint == demand.joint && what.quantity == demand.quantity;
+    });
+  });
   for (core::Zone& zone : map.zones) {
     const std::vector<int> sides = numeric::dyad_signs(model, map.loci.tower, zone.mode);
     const numeric::BoundedNumerators at = numeric::bounded_numerators(model, zone.sample, sides);
     if (!at.reachable) continue;
     zone.assembly_mode = sign(at.determinant);
-    if (free) continue;  // signs are those of the effort that is chosen
+    if (free) continue;  // signs and sizes are those of the effort that is chosen
+    zone.too_small = too_small_at(model, demands, zone.sample, sides);
     for (std::size_t k = 0; k < model.unknowns.size(); ++k) {
       const mechanism::Unknown& unknown = model.unknowns[k];
       const std::string& joint = mechanism.joints[static_cast<std::size_t>(unknown.joint)].name;

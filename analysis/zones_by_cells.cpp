@@ -39,7 +39,8 @@ core::ZoneBorder border_of(const mechanism::Mechanism& mechanism, const core::Po
                            int demand) {
   if (doubt == Doubt::workspace) return {.kind = core::LocusKind::workspace_boundary};
   if (doubt == Doubt::singularity) return {.kind = core::LocusKind::direct_singularity};
-  const core::TaskDemand& task_demand = statics.demands[static_cast<std::size_t>(demand)].demand;
+  core::TaskDemand task_demand = statics.demands[static_cast<std::size_t>(demand)].demand;
+  if (doubt == Doubt::zero) task_demand.least = 0;
   core::ZoneBorder border{.kind = locus_kind_of(task_demand),
                           .vanishing = {{task_demand.joint, task_demand.quantity, 1}}};
   if (task_demand.bound)
@@ -123,7 +124,8 @@ class Ends {
       const double at = end == 0 ? zone.lower[0] : zone.upper[0];
       if (at <= range[0] || at >= range[1]) continue;
       const double beyond = start_beyond(all, end == 1, at, widest_doubt * width);
-      zone.ends.push_back(end_at(at, beyond, beside * width, cells.at_ends[end]));
+      const bool reach_ends = beyond == at && is_end_of_reach(at, end == 0 ? -width : width);
+      zone.ends.push_back(end_at(at, beyond, beside * width, reach_ends, cells.at_ends[end]));
     }
   }
 
@@ -146,7 +148,8 @@ class Ends {
   }
 
   /// `beyond`: where the next zone begins.
-  core::ZoneEnd end_at(double at, double beyond, double apart, const std::set<std::pair<Doubt, int>>& open) {
+  core::ZoneEnd end_at(double at, double beyond, double apart, bool reach_ends,
+                       const std::set<std::pair<Doubt, int>>& open) {
     core::ZoneEnd end;
     end.at = at;
     const std::vector<double> before = {std::min(at, beyond) - apart}, behind = {std::max(at, beyond) + apart};
@@ -157,7 +160,7 @@ class Ends {
     // unless it is elsewhere in a stretch that is in doubt.
     const Passed passed =
         std::abs(beyond - at) <= widest_end * apart ? passed_between(before, behind) : Passed::nothing;
-    if (holds(Doubt::workspace) || passed == Passed::boundary) {
+    if (holds(Doubt::workspace) || passed == Passed::boundary || reach_ends) {
       end.kind = core::LocusKind::workspace_boundary;
       for (const double beside_it : {at - apart, at + apart})  // the one beyond the end breaks the limit
         if (end.limit.empty())
@@ -180,6 +183,14 @@ class Ends {
     else if (std::abs(beyond - at) <= apart)
       add_jump(end, before.front(), behind.front());
     return end;
+  }
+
+  /// Where no zone is near beyond an end: whether what is in doubt there goes on to a pose out of reach. Next to one at
+  /// which |A| vanishes to a high order, cells stay in doubt far from it.
+  bool is_end_of_reach(double at, double outward) {
+    for (double part = beside; part <= widest_doubt; part *= 2)
+      if (!cell_.at({at + outward * part})) return true;
+    return false;
   }
 
   enum class Passed : std::uint8_t { nothing, boundary, singularity };
@@ -419,6 +430,9 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
             loci::pose::largest_ball(found.zones[z], z, found.raster, map.grid, ground.lower, ground.upper))
       zone.ball = *ball;
     add_signs(statics, model, sides, cell, zone);
+    std::vector<core::TaskDemand> demands;
+    for (const core::PoseDemand& demand : statics.demands) demands.push_back(demand.demand);
+    zone.too_small = too_small_at(model, demands, zone.sample, sides);
     if (ground.lower.size() == 1) ends.add(found.zones[z], all, {ground.lower[0], ground.upper[0]}, zone);
     map.zones.push_back(std::move(zone));
   }

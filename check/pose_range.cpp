@@ -45,7 +45,6 @@ class PoseRangeCheck {
     return claim;
   }
 
-  /// Without its least size.
   PoseTaskClaim with_demand(const PoseRangeClaim::Mode& mode, std::size_t demand, const Rational& from,
                             const Rational& to) const {
     PoseTaskClaim claim = task(mode, from, to);
@@ -62,15 +61,21 @@ class PoseRangeCheck {
   /// Where loci alone are, and not what is out of reach.
   Rational narrow() const { return (upper_ - lower_) / 1'000'000; }
 
-  void check_mode(const PoseRangeClaim::Mode& mode) {
-    if (mode.demands.empty()) throw FalseClaim("demands: there is none");
+  static PoseRangeClaim::Mode without_least_sizes(PoseRangeClaim::Mode mode) {
+    for (core::TaskDemand& demand : mode.demands) demand.least = 0;
+    return mode;
+  }
+
+  void check_mode(const PoseRangeClaim::Mode& asked) {
+    if (asked.demands.empty()) throw FalseClaim("demands: there is none");
+    const PoseRangeClaim::Mode mode = without_least_sizes(asked);  // of points, and of what lies between intervals
     shown_.clear();
     std::vector<PoseRangeClaim::Free> free = mode.free;
     std::sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
     Rational reached = lower_;
     for (const PoseRangeClaim::Free& entry : free) {
       if (entry.from < reached || entry.to > upper_) throw FalseClaim("free: intervals overlap, or leave the range");
-      check_free(mode, entry);
+      check_free(asked, entry);
       if (entry.from > reached) check_between(mode, reached, entry.from);
       reached = entry.to;
     }
@@ -120,7 +125,23 @@ class PoseRangeCheck {
     }
   }
 
-  void check_free(const PoseRangeClaim::Mode& mode, const PoseRangeClaim::Free& free) {
+  /// The demands of an interval: without the least size of what is too small there, which is shown at its middle.
+  PoseRangeClaim::Mode demanded_in(const PoseRangeClaim::Mode& asked, const PoseRangeClaim::Free& free) {
+    PoseRangeClaim::Mode mode = asked;
+    const Rational middle = (free.from + free.to) / 2;
+    for (const auto& [joint, quantity] : free.too_small) {
+      const std::optional<std::size_t> demand = demand_of(mode, joint, quantity);
+      if (!demand || mode.demands[*demand].least <= 0 ||
+          holds(with_demand(mode, *demand, middle, middle), Holding::clear))
+        throw FalseClaim(fmt::format("too_small: {}_{}, at {}", core::to_string(quantity), joint.substr(0, 40),
+                                     place(free.from, free.to)));
+      mode.demands[*demand].least = 0;
+    }
+    return mode;
+  }
+
+  void check_free(const PoseRangeClaim::Mode& asked, const PoseRangeClaim::Free& free) {
+    const PoseRangeClaim::Mode mode = demanded_in(asked, free);
     try {
       examination_.task_cells += check_poses(m_, task(mode, free.from, free.to), Holding::clear, deadline_, shown_);
     } catch (const FalseClaim& claim) {
@@ -247,7 +268,7 @@ class PoseRangeCheck {
       for (const auto& [joint, quantity] : point.vanishing) {
         if (singular) continue;
         const std::optional<std::size_t> d = demand_of(mode, joint, quantity);
-        if (d && before.demands[*d] * behind.demands[*d] < 0 && mode.demands[*d].least == 0) continue;
+        if (d && before.demands[*d] * behind.demands[*d] < 0) continue;
         const std::string name = fmt::format("{}_{}", core::to_string(quantity), joint.substr(0, 40));
         if (d && holds(with_demand(mode, *d, from, to), Holding::clear)) refuted = name;
         unknown += (unknown.empty() ? "" : ", ") + name;
@@ -267,7 +288,7 @@ class PoseRangeCheck {
                      const Rational& from, const Rational& to) const {
     for (std::size_t d = 0; d < mode.demands.size(); ++d) {
       const core::TaskDemand& demand = mode.demands[d];
-      if (demand.least > 0 || demand.bound || before.demands[d] * behind.demands[d] >= 0) continue;
+      if (demand.bound || before.demands[d] * behind.demands[d] >= 0) continue;
       const Reaction reaction{demand.joint, demand.quantity};
       const auto count = std::count_if(mode.points.begin(), mode.points.end(), [&](const PoseRangeClaim::Point& point) {
         return point.at >= from && point.at <= to &&

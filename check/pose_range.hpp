@@ -26,6 +26,8 @@ struct PoseRangeClaim {
     core::Rational from, to;
     int assembly_mode = 0;  ///< the sign of |A|, up to one that is the same all over the certificate; 0: not claimed
     std::vector<std::tuple<std::string, core::Quantity, int>> signs;
+    std::vector<Reaction> too_small;  ///< smaller than their least size: all that is claimed of them is that they are
+                                      ///< not zero
   };
   struct Point {
     core::LocusKind kind = core::LocusKind::contact_loss;

@@ -38,9 +38,12 @@ class PoseRangeReader : ClaimReader {
                               rational(at(json, "from")),
                               rational(at(json, "to")),
                               sign(at(json, "assembly_mode")),
+                              {},
                               {}};
     for (const Json& each : list(at(json, "signs"), most_demands))
       free.signs.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))), sign(item(each, 2)));
+    for (const Json& each : list(at(json, "too_small"), most_demands))
+      free.too_small.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))));
     if (free.from > free.to) fail("an interval ends before it begins");
     return free;
   }

@@ -82,6 +82,7 @@ struct RangeCertificate {
     Rational from, to;
     int assembly_mode = 0;                         ///< of zones
     std::vector<std::pair<Vanishing, int>> signs;  ///< of zones
+    std::vector<Vanishing> too_small = {};         ///< smaller than their least size, and not zero
   };
   struct Mode {
     std::vector<int> sides;           ///< one a dyad or slider

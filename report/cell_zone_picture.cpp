@@ -213,6 +213,10 @@ std::vector<LegendRow> legend_of(const core::Zones& map, const core::ZonedMode& 
                                                         : zone.assembly_mode < 0 ? "|A|\u2212"
                                                                                  : "",
                                                         signs));
+    if (!zone.too_small.empty())
+      for (std::string& line :
+           wrap("too small: " + reaction_names(zone.too_small), legend_width - 16, measure_in(legend_font)))
+        rows.back().lines.push_back(std::move(line));
   }
   if (count > most) rows.push_back({std::nullopt, {fmt::format("and {} more", count - most)}});
   const auto any = [&](int label) {
@@ -237,11 +241,6 @@ std::string cell_zone_picture(const core::Zones& map, const core::ZonedMode& mod
   const double left = page_margin + 36;
   const double legend_x = left + static_cast<double>(columns) * (width + gap) - gap + 24;
   const std::vector<LegendRow> legend = legend_of(map, mode);
-  std::vector<std::string> ends;
-  if (!y)
-    for (const std::string& words : zone_end_lines(map, mode.mode))
-      for (const std::string& line : wrap(printable(words), width + legend_width, measure_in(legend_font)))
-        ends.push_back(line);
   const std::string sides = mode_words(map.loci.tower, mode.mode);
   const double page_width = legend_x + legend_width + page_margin;
   const PageHead page = page_head(map.loci.mechanism, "Discontinuity-free zones" + (sides.empty() ? "" : "; " + sides),
@@ -250,6 +249,12 @@ std::string cell_zone_picture(const core::Zones& map, const core::ZonedMode& mod
   double legend_height = 0;
   for (const LegendRow& row : legend) legend_height += legend_line_height * static_cast<double>(row.lines.size()) + 4;
   const double below = head + static_cast<double>(rows) * (height + gap);
+  // Beside a legend that reaches so far down there is the width of the layer alone.
+  const double room = head + legend_height > below - legend_line_height ? width : width + legend_width;
+  std::vector<std::string> ends;
+  if (!y)
+    for (const std::string& words : zone_end_lines(map, mode.mode))
+      for (const std::string& line : wrap(printable(words), room, measure_in(legend_font))) ends.push_back(line);
   const double bottom = std::max(below + legend_line_height * static_cast<double>(ends.size()), head + legend_height);
   std::string description;
   for (const LegendRow& row : legend)

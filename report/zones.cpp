@@ -66,6 +66,7 @@ Json zone_object(const core::Zones& map, const core::Zone& zone) {
                {"working_mode", mode_object(map.loci.tower, zone.mode)},
                {"assembly_mode", zone.assembly_mode},
                {"signs", signs_of(zone)},
+               {"too_small", vanishing_array(zone.too_small)},
                {"contact_lost_at_border", lost_at_border(zone)},
                {"at_least", zone.at_least},
                {"at_most", zone.at_most},

@@ -44,6 +44,7 @@ std::string border_words(const core::Zone& zone) {
     words += "; contact lost:";
     for (const std::string& joint : joints) words += " " + joint;
   }
+  if (!zone.too_small.empty()) words += "; too small: " + reaction_names(zone.too_small);
   if (!zone.isolated_points.empty()) words += fmt::format("; {} isolated points", zone.isolated_points.size());
   return words;
 }
@@ -221,6 +222,7 @@ std::string paragraphs_of(const core::Zones& map, const core::WorkingMode& mode)
                          places.pose(zone.sample));
     if (zone.ball.radius > 0) out += ball_words(map.loci, places, zone.ball);
     out += fmt::format("      beside it: {}\n", bounds_words(zone));
+    if (!zone.too_small.empty()) out += fmt::format("      too small: {}\n", reaction_names(zone.too_small));
     for (const core::ZoneEnd& end : zone.ends) out += "      ends at " + end_words(map.loci, places, end) + "\n";
     if (zone.perhaps_one_with.empty()) continue;
     out += "      perhaps the same zone as";

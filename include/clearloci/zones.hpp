@@ -71,6 +71,7 @@ struct Zone {
   WorkingMode mode;
   int assembly_mode = 0;                         ///< sign of |A|
   std::vector<std::pair<Vanishing, int>> signs;  ///< of every couple, axial force or normal force wanted
+  std::vector<Vanishing> too_small;              ///< what is smaller than --min-force or --min-couple in it
   double size = 0;                               ///< over two lengths the area; by cells `at_least`
   /// Bounds of the size. Where a zone over two lengths is certified both are its area; where it is not they are 0 and
   /// the area of the box. By cells: what is proven to hang together without a locus, and that with all in doubt that

@@ -221,6 +221,16 @@ std::vector<EdgeLabel> labels_from(const LocusProblem& problem, const ReactionOr
   return labels;
 }
 
+/// The factors of the workspace boundary alone.
+std::vector<EdgeLabel> ends_of_reach_at(const LocusProblem& problem, RootPlace& place) {
+  std::vector<bool> vanishing, margins(problem.factors.size());
+  for (const LocusFactor& factor : problem.factors)
+    vanishing.push_back(factor.role == FactorRole::workspace_boundary && place.sign(factor) == 0);
+  std::vector<EdgeLabel> labels = labels_from(problem, ReactionOrders{}, vanishing, margins);
+  for (EdgeLabel& label : labels) label.proven = true;
+  return labels;
+}
+
 /// What vanishes at one point of a mode.
 std::vector<EdgeLabel> labels_at(const LocusProblem& problem, const core::WorkingMode& mode, RealRoot& root,
                                  RootPlace& place) {
@@ -609,9 +619,11 @@ class ModePoints {
       if (!place.reachable()) return std::nullopt;
       const bool undefined = std::any_of(problem_.tower.denominators.begin(), problem_.tower.denominators.end(),
                                          [&](const Polynomial& denominator) { return place.sign(denominator) == 0; });
-      if (undefined) return std::nullopt;
-      labels = event.exact != nullptr ? labels_at(problem_, mode_, *event.exact, place)
-                                      : labels_at(problem_, factor_at(event, place), place);
+      // Nothing is claimed where the ends of equal links meet, but that the reach ends there, if it does.
+      if (undefined && reached && from_ < next && line_.reaches(from_, next)) return std::nullopt;
+      labels = undefined                ? ends_of_reach_at(problem_, place)
+               : event.exact != nullptr ? labels_at(problem_, mode_, *event.exact, place)
+                                        : labels_at(problem_, factor_at(event, place), place);
       // What a force must do is a condition on its numerator times |A|, which tells nothing where |A| is zero.
       const std::vector<bool> vanishing = place.vanishing_roots();
       bool at_limit = false;

@@ -303,6 +303,67 @@ void PoseCellOf<Form>::add_spreads(const Form& value) {
 }
 
 template <class Form>
+typename PoseCellOf<Form>::Projection PoseCellOf<Form>::project(const core::PoseDemand& demand,
+                                                                std::vector<double> n) const {
+  Projection projection{std::move(n), std::vector<double>(n_, 0.0), {}};
+  std::vector<Sum> sums(n_);
+  std::vector<double> at_middle(n_, 0.0);
+  for (std::size_t k = 0; k < projection.n.size(); ++k)
+    for (const core::LinearRow::Term& term : demand.components[k].terms) {
+      const auto j = static_cast<std::size_t>(term.unknown);
+      add_step(sums[j], projection.n[k], term.step);
+      at_middle[j] += projection.n[k] * forms_[term.step].c;
+    }
+  std::vector<double>& multipliers = projection.multipliers;
+  for (std::size_t j = 0; j < n_; ++j)
+    if (at_middle[j] != 0)
+      for (std::size_t i = 0; i < n_; ++i) multipliers[i] += inverse_at(j, i) * at_middle[j];
+  for (std::size_t j = 0; j < n_; ++j) {
+    for (const Entry& entry : columns_[j])
+      if (const double multiplier = multipliers[static_cast<std::size_t>(entry.row)]; multiplier != 0)
+        add_step(sums[j], -multiplier, entry.step);
+    projection.left.push_back(sums[j].result());
+  }
+  return projection;
+}
+
+template <class Form>
+std::pair<Form, double> PoseCellOf<Form>::value_of(const Projection& projection, const core::PoseDemand& demand,
+                                                   std::size_t load) const {
+  Sum sum;
+  for (std::size_t k = 0; k < projection.n.size(); ++k) add_step(sum, projection.n[k], demand.components[k].free[load]);
+  for (std::size_t i = 0; i < n_; ++i)
+    if (projection.multipliers[i] != 0) add_step(sum, projection.multipliers[i], statics_->equations[i].free[load]);
+  double beyond = 0;
+  for (std::size_t j = 0; j < n_; ++j) {
+    sum.add(solution_[load][j], projection.left[j]);
+    beyond += projection.left[j].magnitude() * rest_[load][j];
+  }
+  for (std::size_t j = 0; j < n_; ++j) sum.add(1, projection.left[j] * moved_[load][j]);
+  return {sum.result(), rounded_up(beyond, n_)};
+}
+
+template <class Form>
+bool PoseCellOf<Form>::is_below(int index) const {
+  const auto demand = static_cast<std::size_t>(index);
+  const core::PoseDemand& pose_demand = statics_->demands[demand];
+  const double least = leasts_[demand] * (1 - 0x1p-40);
+  if (!(least > 0)) return false;
+  for (std::size_t load = 0; load < statics_->loads; ++load) {
+    double squares = 0;
+    for (std::size_t k = 0; k < pose_demand.components.size(); ++k) {
+      std::vector<double> n(pose_demand.components.size(), 0.0);
+      n[k] = 1;
+      const auto [value, beyond] = value_of(project(pose_demand, std::move(n)), pose_demand, load);
+      const double most = value.magnitude() + beyond;
+      squares += most * most;
+    }
+    if (std::sqrt(squares) * (1 + 0x1p-40) < least) return true;
+  }
+  return false;
+}
+
+template <class Form>
 bool PoseCellOf<Form>::judge(int index) {
   const core::PoseDemand& demand = statics_->demands[static_cast<std::size_t>(index)];
   const std::vector<double> first = component_values(demand, 0), last = component_values(demand, statics_->loads - 1);
@@ -311,24 +372,7 @@ bool PoseCellOf<Form>::judge(int index) {
   // Without a direction of its own any one does; what keeps to a bound is positive.
   for (std::size_t k = 0; k < n.size(); ++k)
     n[k] = demand.demand.bound ? 1.0 : size > 0 ? n[k] / size : (k == 0 ? 1.0 : 0.0);
-  std::vector<Sum> sums(n_);
-  std::vector<double> at_middle(n_, 0.0), multipliers(n_, 0.0);
-  for (std::size_t k = 0; k < n.size(); ++k)
-    for (const core::LinearRow::Term& term : demand.components[k].terms) {
-      const auto j = static_cast<std::size_t>(term.unknown);
-      add_step(sums[j], n[k], term.step);
-      at_middle[j] += n[k] * step(term.step).c;
-    }
-  for (std::size_t j = 0; j < n_; ++j)
-    if (at_middle[j] != 0)
-      for (std::size_t i = 0; i < n_; ++i) multipliers[i] += inverse_at(j, i) * at_middle[j];
-  std::vector<Form> left;
-  for (std::size_t j = 0; j < n_; ++j) {
-    for (const Entry& entry : columns_[j])
-      if (const double multiplier = multipliers[static_cast<std::size_t>(entry.row)]; multiplier != 0)
-        add_step(sums[j], -multiplier, entry.step);
-    left.push_back(sums[j].result());
-  }
+  const Projection projection = project(demand, n);
   double& kept = least_[static_cast<std::size_t>(index)];
   kept = std::numeric_limits<double>::infinity();
   const double least = leasts_[static_cast<std::size_t>(index)];
@@ -336,23 +380,13 @@ bool PoseCellOf<Form>::judge(int index) {
   values.clear();
   bool enough = true;
   for (std::size_t load = 0; load < statics_->loads; ++load) {
-    Sum sum;
-    for (std::size_t k = 0; k < n.size(); ++k) add_step(sum, n[k], demand.components[k].free[load]);
-    for (std::size_t i = 0; i < n_; ++i)
-      if (multipliers[i] != 0) add_step(sum, multipliers[i], statics_->equations[i].free[load]);
-    double beyond = 0;
-    for (std::size_t j = 0; j < n_; ++j) {
-      sum.add(solution_[load][j], left[j]);
-      beyond += left[j].magnitude() * rest_[load][j];
-    }
-    for (std::size_t j = 0; j < n_; ++j) sum.add(1, left[j] * moved_[load][j]);
-    const Form value = sum.result();
+    const auto [value, beyond] = value_of(projection, demand, load);
     // n is a unit vector to some roundings.
-    const double low = Form::down(value.lower() - rounded_up(beyond, n_)) * (1 - 0x1p-48);
+    const double low = Form::down(value.lower() - beyond) * (1 - 0x1p-48);
     kept = std::min(kept, low);
     Open& open = kept_[static_cast<std::size_t>(index)];
     open = {value, least, index, n.size() != 1 ? 0 : n[0] > 0 ? 1 : -1};
-    open.form.r = (open.form.r + rounded_up(beyond, n_)) * (1 + 0x1p-40) + Form::slack(std::abs(value.c));
+    open.form.r = (open.form.r + beyond) * (1 + 0x1p-40) + Form::slack(std::abs(value.c));
     if (low > least) {
       if (enough) add_spreads(value);
       values.push_back(value);
@@ -362,7 +396,7 @@ bool PoseCellOf<Form>::judge(int index) {
     enough = false;
     for (std::size_t j = 0; j < n_; ++j)
       for (std::size_t p = 0; p < Form::noises; ++p)
-        spreads_[p] += 2 * std::abs(left[j].a[p]) * (moved_[load][j].magnitude() + rest_[load][j]);
+        spreads_[p] += 2 * std::abs(projection.left[j].a[p]) * (moved_[load][j].magnitude() + rest_[load][j]);
   }
   return enough;
 }
@@ -401,6 +435,18 @@ CellAnswers::State PoseCellOf<Form>::enter(const PoseChart& chart, const PoseBox
 
 double CellAnswers::size_of(const std::vector<std::vector<double>>& by_load) {
   return length_of(nearest_to_origin(by_load.front(), by_load.back()));
+}
+
+CellAnswers::Signs CellAnswers::signs_of(const core::PoseStatics& statics, const At& at) {
+  Signs signs;
+  for (std::size_t d = 0; d < at.components.size(); ++d) {
+    const double least = core::to_double(statics.demands[d].demand.least);
+    const std::vector<double>& first = at.components[d].front();
+    const int sign = first.size() == 1 ? (first[0] > 0 ? 1 : -1) : least > 0 ? 1 : 0;
+    signs.push_back(size_of(at.components[d]) < least ? below * sign : sign);
+  }
+  signs.push_back(at.determinant);
+  return signs;
 }
 
 template class PoseCellOf<Affine>;

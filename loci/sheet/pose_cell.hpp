@@ -33,14 +33,19 @@
 
 namespace clearloci::loci::pose {
 
-/// What keeps a pose from being good: `demand` is that of core::PoseStatics, with `Doubt::demand`.
-enum class Doubt { none, workspace, singularity, demand };
+/// What keeps a pose from being good: `demand` is that of core::PoseStatics, with `Doubt::demand`, and with
+/// `Doubt::zero`, where a size that is below its least perhaps vanishes.
+enum class Doubt { none, workspace, singularity, demand, zero };
 
 /// What a cell says of itself, whatever its forms.
 struct CellAnswers {
   enum class State { proven, in_doubt, outside };
-  /// Signs, +1 or -1, of every demand of one component and, last, of |A|; 0 where they are not known, and of others.
+  /// Of every demand and, last, of |A| what is the same all over a zone; 0 where it is not known.
+  ///     of one component, and of |A|          its sign, +1 or -1
+  ///     of more components that have a least size, kept     +1
+  ///     of a size that is below the least     `below` times of that
   using Signs = std::vector<int>;
+  static constexpr int below = 2;
   /// What is known of a cell in doubt, under one load.
   struct Known {
     bool free = false;                        ///< it is proven after all
@@ -56,6 +61,7 @@ struct CellAnswers {
   using At = PosePoint::At;
   /// The smallest size under loads between the first and the last.
   static double size_of(const std::vector<std::vector<double>>& by_load);
+  static Signs signs_of(const core::PoseStatics& statics, const At& at);
 };
 
 /// `Form`: of second order where products of coordinates are worth their price, else of first (affine.hpp).
@@ -102,6 +108,18 @@ class PoseCellOf : public CellAnswers {
   /// Judges each demand of a cell once, and those that are alike together.
   bool keeps(int demand);
   bool judge(int demand);
+  /// n . f of a demand's components f, as the equations leave it: left . w and multipliers . b.
+  struct Projection {
+    std::vector<double> n, multipliers;
+    std::vector<Form> left;
+  };
+  Projection project(const core::PoseDemand& demand, std::vector<double> n) const;
+  /// Under a load, and what it is off by besides.
+  std::pair<Form, double> value_of(const Projection& projection, const core::PoseDemand& demand,
+                                   std::size_t load) const;
+  /// Of a demand that is not kept, in a cell that is regular: whether its size is below the least in every pose of it,
+  /// under one load.
+  bool is_below(int demand) const;
   /// Adds how far each parameter moves what a demand is kept from zero by.
   void add_spreads(const Form& value);
   bool is_beyond_bound(int demand) const;
@@ -127,7 +145,7 @@ class PoseCellOf : public CellAnswers {
   void know_near_singularity(Known& sides_known);
   void know_at_demand(Known& sides_known);
   void know_at_boundary(Known& sides_known);
-  double& inverse_at(std::size_t i, std::size_t j) { return inverse_[i * n_ + j]; }
+  double inverse_at(std::size_t i, std::size_t j) const { return inverse_[i * n_ + j]; }
 
   const core::PoseStatics* statics_;
   PosePoint point_;

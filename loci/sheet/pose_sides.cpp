@@ -112,6 +112,9 @@ HalfSpace where_positive(const std::vector<Affine>& forms) {
   return HalfSpace::within(way, beyond + roundings);
 }
 
+/// Of a demand of one component its sign; of others +1, where they are told from those of a smaller size.
+int sign_of_kept(int sign, double least) { return sign == 0 && least > 0 ? 1 : sign; }
+
 int sign_of(const Affine& x) { return x.contains_zero() ? 0 : x.c > 0 ? 1 : -1; }
 
 }  // namespace
@@ -188,15 +191,24 @@ void PoseCell::know_at_demand(Known& sides_known) {
   std::vector<Open> open;
   for (std::size_t d = 0; d < demands; ++d) {
     if (keeps(static_cast<int>(d))) {
-      sides_known.signs[d] = kept_[d].sign;
+      sides_known.signs[d] = sign_of_kept(kept_[d].sign, leasts_[d]);
       continue;
     }
-    sides_known.open.emplace_back(Doubt::demand, static_cast<int>(d));
-    open.push_back(kept_[d]);
+    Open what = kept_[d];
+    const bool is_small = is_below(static_cast<int>(d));
+    if (is_small) what.least = 0, what.sign *= below;
+    if (is_small && what.form.lower() > 0) {
+      sides_known.signs[d] = below * sign_of_kept(kept_[d].sign, leasts_[d]);
+      continue;
+    }
+    sides_known.open.emplace_back(is_small ? Doubt::zero : Doubt::demand, static_cast<int>(d));
+    open.push_back(what);
   }
+  sides_known.free = open.empty();
   demand_ = demand;
   doubt_ = Doubt::demand;
   spreads_ = spreads;
+  if (sides_known.free) return;
   sides_of(open, {}, sides_known);
   // Where A is not far from singular its inverse is known badly, and s g well.
   constexpr double well_known = 0.1;

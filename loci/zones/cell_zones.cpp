@@ -210,7 +210,7 @@ class Zones {
 
   static bool may_have(const PoseCell::Signs& signs, const PoseCell::Signs& of_zone) {
     for (std::size_t d = 0; d < signs.size() && d < of_zone.size(); ++d)
-      if (signs[d] * of_zone[d] < 0) return false;
+      if (signs[d] != 0 && of_zone[d] != 0 && signs[d] != of_zone[d]) return false;
     return true;
   }
 

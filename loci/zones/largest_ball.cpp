@@ -135,6 +135,8 @@ std::optional<core::ZoneBall> largest_ball(const CellZone& zone, std::size_t num
       }
     if (!better) step *= 0.5;
   }
+  constexpr double rounding = 1e-9;  // of a place of the raster: its middle is on a face
+  if (radius <= rounding * *std::min_element(widths.begin(), widths.end())) return std::nullopt;
   return core::ZoneBall{{centre.begin(), centre.begin() + static_cast<std::ptrdiff_t>(n)}, radius * (1 - 1e-12)};
 }
 

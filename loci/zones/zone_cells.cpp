@@ -150,13 +150,9 @@ std::size_t ZoneCells::leaf_at(const Pose& pose) const {
 }
 
 PoseCell::Signs ZoneCells::signs_at(const Pose& pose) {
-  PoseCell::Signs signs;
-  const auto at = workers_.local().at(pose);
-  if (!at) return signs;
-  for (const auto& component : at->components)
-    signs.push_back(component.front().size() != 1 ? 0 : component.front()[0] > 0 ? 1 : -1);
-  signs.push_back(at->determinant);
-  return signs;
+  PoseCell& cell = workers_.local();
+  const auto at = cell.at(pose);
+  return at ? PoseCell::signs_of(cell.statics(), *at) : PoseCell::Signs{};
 }
 
 }  // namespace clearloci::loci::pose

@@ -81,6 +81,7 @@ py::dict zone_dict(const Zones& map, const Zone& zone) {
   one["working_mode"] = mode_of(map.loci.tower, zone.mode);
   one["assembly_mode"] = zone.assembly_mode;
   one["signs"] = signs_of(zone.signs);
+  one["too_small"] = names_of(zone.too_small);
   one["size"] = zone.size;
   one["at_least"] = zone.at_least;
   one["at_most"] = zone.at_most;

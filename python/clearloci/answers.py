@@ -335,6 +335,7 @@ class Zone:
     working_mode: dict[str, str]
     assembly_mode: int  #: sign of ``|A|``
     signs: dict[str, int]  #: of couples, axial and normal forces: {"M_A1": 1}
+    too_small: list[str]  #: what is smaller than min_force or min_couple in it: ["f_A1"]
     size: float  #: over two lengths the area; by cells `at_least`
     at_least: float  #: proven; 0 of a zone over two lengths that is not certified
     at_most: float

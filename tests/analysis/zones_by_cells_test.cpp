@@ -241,10 +241,8 @@ TEST(ZonesByCells, OfThreeCoordinatesHaveClosedSurfaces) {
   }
 }
 
-TEST(ZonesByCells, OfAFourBarEndAtItsLoci) {
-  const Model model = example("four_bar");
-  const Zones map = find_zones(model);
-  const LocusMap loci = trace_loci(model);
+/// Of the whole turn of a crank.
+void expect_zones_between_loci(const Zones& map, const LocusMap& loci) {
   std::set<double> cuts = {0, 2 * std::numbers::pi};
   for (const IsolatedPoint& point : loci.isolated_points) cuts.insert(point.at.front());
   ASSERT_EQ(map.zones.size() + 1, cuts.size());
@@ -257,12 +255,43 @@ TEST(ZonesByCells, OfAFourBarEndAtItsLoci) {
     for (const double cut : cuts) EXPECT_FALSE(zone.lower[0] < cut - 1e-12 && cut + 1e-12 < zone.upper[0]);
     EXPECT_FALSE(zone.ends.empty());
   }
+}
+
+TEST(ZonesByCells, OfAFourBarEndAtItsLoci) {
+  const Model model = example("four_bar");
+  const Zones map = find_zones(model);
+  expect_zones_between_loci(map, trace_loci(model));
   // The end effector jumps where the rocker is upright, and its couple changes its sign in every zone.
   const auto jumps = std::count_if(map.zones.begin(), map.zones.end(), [](const Zone& zone) {
     return std::any_of(zone.ends.begin(), zone.ends.end(),
                        [](const ZoneEnd& end) { return end.jump && end.jump->displacement[0] != 0; });
   });
   EXPECT_GE(jumps, 3);
+}
+
+/// Where its pins bear less than 10 N, too, it has zones, between the same contact losses.
+TEST(ZonesByCells, OfAFourBarEndWhereForcesAreTooSmall) {
+  const Model model = example("four_bar");
+  ZoneRequest request;
+  request.loci.min_force = 10;
+  const Zones map = find_zones(model, request);
+  const LocusMap loci = trace_loci(model, request.loci);
+  expect_zones_between_loci(map, loci);
+  EXPECT_TRUE(map.loci.complete);
+  EXPECT_LT(map.modes.front().in_doubt, 1e-5);
+  int small = 0, lost = 0;
+  for (const Zone& zone : map.zones) {
+    EXPECT_TRUE(zone.certified) << zone.id;
+    std::set<std::string> expected, found;
+    for (const JointReaction& reaction : solve_pose(model, zone.sample).reactions)
+      if (std::hypot(reaction.components[0].value, reaction.components[1].value) < 10) expected.insert(reaction.joint);
+    for (const Vanishing& what : zone.too_small) found.insert(what.joint);
+    EXPECT_EQ(found, expected) << zone.id;
+    small += zone.too_small.empty() ? 0 : 1;
+    for (const ZoneEnd& end : zone.ends) lost += end.kind == LocusKind::contact_loss && !zone.too_small.empty() ? 1 : 0;
+  }
+  EXPECT_GE(small, 3) << "on either side of both contact losses";
+  EXPECT_EQ(lost, 4);
 }
 
 /// F = -10 (q - 1/3); the ends bear (5 -+ 20 (q - 1/3))/2 under it: zero at q = 1/3 -+ 1/4. All unknowns are
@@ -401,6 +430,23 @@ TEST(ZonesByCells, OverOneCoordinateAreTwoWhereTheForceOfAPinVanishesBetweenThem
     for (const ZoneEnd& end : zone.ends) lost += end.kind == LocusKind::contact_loss ? 1 : 0;
   }
   EXPECT_GE(lost, 2) << "from either side";
+}
+
+/// Forces grow without bound towards the place where O, C1 and B are aligned and C1 is at C2. Neither zones nor loci
+/// say that any of them vanishes there: it is the end of the reach.
+TEST(ZonesByCells, EndWithTheReachWhereTheEndsOfEqualLinksMeet) {
+  const Model model = Model::read(source_dir() + "/tests/corpus/mechanism/peaucellier.yaml");
+  const double aligned = std::acos((0.964 - 0.5) / 0.5);  // |OB|^2 = 1/2 + cos(t)/2 = 4 |OC1|^2
+  const LocusMap loci = trace_loci(model);
+  ASSERT_EQ(loci.isolated_points.size(), 1U);
+  EXPECT_EQ(loci.isolated_points[0].kind, LocusKind::workspace_boundary);
+  EXPECT_NEAR(loci.isolated_points[0].at[0], aligned, 1e-12);
+  const Zones map = find_zones(model);
+  ASSERT_EQ(map.zones.size(), 1U);
+  ASSERT_EQ(map.zones[0].ends.size(), 1U);
+  EXPECT_EQ(map.zones[0].ends[0].kind, LocusKind::workspace_boundary);
+  EXPECT_FALSE(map.zones[0].ends[0].jump);
+  EXPECT_NEAR(map.zones[0].ends[0].at, aligned, 1e-5);
 }
 
 TEST(ZonesOverTwoLengths, AreTheSameAtACoarseTolerance) {

@@ -125,6 +125,33 @@ TEST(PoseRangeCertificate, IsRejectedWhereAClaimIsMadeFalse) {
   }
 }
 
+/// Under a least force each interval says what is too small in it, and it may say neither less nor more.
+TEST(PoseRangeCertificate, TellsWhatIsTooSmall) {
+  const std::string model = example("four_bar.yaml");
+  LociRequest request;
+  request.min_force = 10;
+  for (const bool zones : {false, true}) {
+    const std::string certificate = range_certified(model, zones, request);
+    const check::Examination examination = examination_of(model, certificate);
+    EXPECT_TRUE(examination.accepted) << examination.why;
+    EXPECT_GE(examination.points, 3u);
+    Json free = Json::parse(certificate)["pose_range"]["modes"][0]["free"];
+    std::size_t small = 0;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      Json changed = Json::parse(certificate);
+      Json& list = changed["pose_range"]["modes"][0]["free"][i]["too_small"];
+      small += list.empty() ? 0 : 1;
+      if (list.empty())
+        list.push_back({"B", "f"});
+      else
+        list.erase(0);
+      EXPECT_FALSE(examination_of(model, changed.dump()).accepted) << zones << " " << i;
+    }
+    EXPECT_GE(small, 3u);
+    EXPECT_LT(small, free.size());
+  }
+}
+
 /// Out of reach there are no points but at its ends, where teeth change flanks: each is a boundary at which their force
 /// vanishes.
 TEST(PoseRangeCertificate, IsRejectedWherePointsAreNotThoseOfTheEndsOfTheReach) {
