@@ -101,7 +101,8 @@ bool is_smooth_at(const Star& star, const core::Polynomial& function);
 /// The points at which the boundary curves (boundary_curves.hpp) of two roots touch.
 std::vector<Star> touches(const core::RootTower& tower);
 
-/// The rational points at which the boundary curves of two roots cross and the function vanishes with both roots.
+/// The rational points at which the boundary curves of two roots cross and the function vanishes with both roots,
+/// whatever the other roots are there.
 /// `nested`: what nested_meetings() finds in the tower, where the boundaries may touch too.
 std::vector<Star> corners_on(const core::RootTower& tower, const core::Polynomial& function,
                              const std::vector<NestedMeeting>& nested);
