@@ -61,6 +61,20 @@ std::array<int, 2> Star::weights() const {
 
 int Star::power_of_root(int root) const { return static_cast<int>(std::count(roots.begin(), roots.end(), root)); }
 
+bool Star::is_undefined() const {
+  if (no_length) return true;
+  if (shape == Shape::corner)
+    return std::any_of(roots.begin(), roots.end(), [&](int root) { return power_of_root(root) > 1; });
+  return shape == Shape::cone && !roots.empty();
+}
+
+bool Star::is_near(const Interval& at_x, const Interval& at_y, double reach) const {
+  const auto is_near = [&](const Interval& range, const Rational& own) {
+    return (range - constant_as(own, static_cast<Interval*>(nullptr))).magnitude() <= reach;
+  };
+  return is_near(at_x, x) && is_near(at_y, y);
+}
+
 std::optional<std::array<Rational, 2>> double_point(const Polynomial& d) {
   static const Rational zero;
   const Rational *xx = &zero, *yy = &zero, *x = &zero, *y = &zero, *constant = &zero;
