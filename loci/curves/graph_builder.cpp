@@ -11,6 +11,9 @@ namespace {
 // Where one patch has spent its budget the curve is not proven whatever the others tell: they get this part of theirs.
 constexpr int share_of_spent_budget = 8;
 
+// Of the box: what is this near to a star counts as the star where there is no posture, as what is to a touch does.
+constexpr double one_place = 1e-10;
+
 }  // namespace
 
 GraphBuilder::GraphBuilder(const core::RootTower& tower, const SheetFunction& curve, const core::WorkingMode& mode,
@@ -29,7 +32,10 @@ std::optional<CurveGraph> GraphBuilder::run() {
     graph_.stopped = graph_.stopped || patch.tree->cut_short();
     const std::vector<Leaf>& leaves = patch.tree->leaves();
     // Nor where the curve is open in cells that are too small to be cut.
-    if (std::any_of(leaves.begin(), leaves.end(), [](const Leaf& leaf) { return leaf.kind == LeafKind::undecided; }))
+    const int index = static_cast<int>(at_leaf_.size());
+    if (std::any_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+          return leaf.kind == LeafKind::undecided && !is_at_undefined(index, leaf.cell);
+        }))
       leave_open_for_good();
     if (graph_.stopped && options_.whole_or_nothing) return leave_open(patch);
     at_leaf_.emplace_back(patch.tree->leaves().size());
@@ -62,6 +68,15 @@ void GraphBuilder::settle_places() {
 bool GraphBuilder::has_curve(int patch, int index) const {
   const LeafKind kind = leaf(patch, index).kind;
   return kind == LeafKind::graph || kind == LeafKind::undecided;
+}
+
+bool GraphBuilder::is_at_undefined(int patch, const PlaneCell& place) const {
+  const Chart& chart = graph_.patches[patch].chart;
+  if (chart.side == Side::plane) return false;
+  const Star& star = parts_.stars[static_cast<std::size_t>(chart.star)];
+  const auto& d = parts_.domain;
+  const PlaneCell cell = chart.to_plane(place);
+  return star.is_undefined() && star.is_near(cell.x, cell.y, one_place * std::max(d[1] - d[0], d[3] - d[2]));
 }
 
 void GraphBuilder::give_up_on(int patch, int index) {
@@ -117,6 +132,16 @@ void GraphBuilder::join_clusters(int patch) {
     for (const int l : cells) {
       branches.insert(branches.end(), at_leaf_[patch][l].begin(), at_leaf_[patch][l].end());
       place = {hull(place.x, leaves[l].cell.x), hull(place.y, leaves[l].cell.y)};
+    }
+    if (is_at_undefined(patch, place)) {
+      if (branches.empty()) continue;
+      std::vector<Interval> star = branches.front().enclosure;
+      star[0] = 0.0;
+      star[1] = place.y.middle();
+      const int crossing = add_crossing(patch, star, Crossing::Kind::star);
+      for (const LeafCrossing& branch : branches)
+        graph_.stretches.push_back({patch, -1, 0, {{branch.crossing, branch.enclosure}, {crossing, star}}});
+      continue;
     }
     for (const int l : cells) graph_.undecided.push_back(chart.to_plane(leaves[l].cell));
     graph_.clusters.push_back({patch, place, -1, branches.empty()});

@@ -50,6 +50,10 @@ class GraphBuilder {
   const Leaf& leaf(int patch, int index) const { return graph_.patches[patch].tree->leaves()[index]; }
   bool has_curve(int patch, int index) const;
 
+  /// Whether a place of a patch cannot be told, to rounding, from a star where there is no posture: what is undecided
+  /// in it counts as the star.
+  bool is_at_undefined(int patch, const PlaneCell& place) const;
+
   /// What was to be told apart at a leaf could not be.
   void give_up_on(int patch, int index);
 

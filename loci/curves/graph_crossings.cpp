@@ -278,6 +278,9 @@ void GraphBuilder::meet_border(int patch) {
         const PlaneCell& cell = leaf(patch, index).cell;
         const Interval& interval = axis == 0 ? cell.x : cell.y;
         if ((end < 0 ? interval.lower() : interval.upper()) != at || !has_curve(patch, index)) continue;
+        if (border.to == ChartBorder::To::star && leaf(patch, index).kind == LeafKind::undecided &&
+            is_at_undefined(patch, cell))
+          continue;
         const Interval& other = axis == 0 ? cell.y : cell.x;
         const std::size_t most_cells =
             runs_along ? std::min(most_cells_beside_a_run, cells_on_edge()) : cells_on_edge();

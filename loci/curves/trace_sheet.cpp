@@ -87,9 +87,25 @@ std::optional<SheetFunction> beyond_quarter_turn(const core::RootTower& tower, c
   return std::nullopt;
 }
 
-bool divisible_by_variable(const core::Polynomial& p, int variable) {
-  return !p.is_zero() && std::all_of(p.terms.begin(), p.terms.end(),
-                                     [&](const core::Term& term) { return term.exponents[variable] > 0; });
+/// A sheet that is zero all along a root's rim, divided by the root; nothing where it is not seen to be. With Q = g h,
+/// h made of squared distances from points, a g + b s is s (a s + b h) / h.
+std::optional<core::Polynomial> without_root(const core::RootTower& tower, int root, const core::Polynomial& sheet) {
+  if (!core::depends_on(sheet, 2 + root)) return std::nullopt;
+  core::Polynomial free{sheet.variables, {}}, by_root = free;
+  for (core::Term term : sheet.terms) {
+    int& power = term.exponents[static_cast<std::size_t>(2 + root)];
+    core::Polynomial& part = power > 0 ? by_root : free;
+    power = std::max(0, power - 1);
+    part.terms.push_back(std::move(term));
+  }
+  if (free.is_zero()) return by_root;
+  if (core::depends_on(by_root, 2 + root)) return std::nullopt;
+  const core::Polynomial& square = tower.roots[static_cast<std::size_t>(root)].square;
+  if (square.is_zero()) return std::nullopt;
+  const core::Polynomial rim = without_denominators(square, tower);
+  const std::optional<core::Polynomial> rest = exact_quotient(free, rim), points = exact_quotient(square, rim);
+  if (!rest || !points || rim.is_constant()) return std::nullopt;
+  return without_denominators(*rest * core::variable_polynomial(sheet.variables, 2 + root) + by_root * *points, tower);
 }
 
 void append(SheetTrace& all, SheetTrace part) {
@@ -165,16 +181,13 @@ SheetTrace trace_sheet(const core::RootTower& tower, const core::WorkingMode& mo
   if (sheet.is_constant()) return {};
   // s_j = 0 and the factors of Q_j are the workspace boundary: curves of the plane below root j.
   for (std::size_t j = 0; j < tower.roots.size(); ++j) {
-    const int v = 2 + static_cast<int>(j);
     if (tower.roots[j].is_angle()) continue;
     const std::optional<SheetFunction> rim = on_rim_of(tower, static_cast<int>(j), sheet, options.special);
-    if (!rim && !divisible_by_variable(sheet, v)) continue;
+    const std::optional<core::Polynomial> quotient =
+        rim ? std::nullopt : without_root(tower, static_cast<int>(j), sheet);
+    if (!rim && !quotient) continue;
     SheetTrace all = trace_boundary(tower, mode, lower, upper, {static_cast<int>(j), sheet, rim}, cutters, options);
-    if (!rim) {
-      core::Polynomial quotient = sheet;
-      for (core::Term& term : quotient.terms) --term.exponents[v];
-      append(all, trace_sheet(tower, mode, lower, upper, {quotient}, cutters, options));
-    }
+    if (quotient) append(all, trace_sheet(tower, mode, lower, upper, {*quotient}, cutters, options));
     return all;
   }
   return found(tower, mode, lower, upper, function, cutters, options)->trace(options.tolerance);

@@ -27,15 +27,6 @@ constexpr double one_touch = 100, widest_at_touch = 1e7;
 // Relative to coordinates: cells are not cut until they hold no doubles.
 constexpr double roundings = 0x1p-49;
 
-/// The direction from end to end is, so that roots vanish; at nodes of a function alone none do. Of a cone that a
-/// boundary runs through they vanish with the second power at least.
-bool is_undefined_at(const Star& star) {
-  if (star.no_length) return true;
-  if (star.shape == Star::Shape::corner)
-    return std::any_of(star.roots.begin(), star.roots.end(), [&](int root) { return star.power_of_root(root) > 1; });
-  return star.shape == Star::Shape::cone && !star.roots.empty();
-}
-
 /// The zero in plane coordinates. `enclosure`: of the chart's coordinates and roots.
 SheetZero describe(const std::vector<Interval>& enclosure, const Chart& chart, const std::vector<Star>& stars) {
   SheetZero zero;
@@ -98,7 +89,7 @@ ZeroSet found_zeros(const core::RootTower& tower, const core::WorkingMode& mode,
       if (disjoint(place.x, box_x) || disjoint(place.y, box_y)) return;
       const SheetZero zero = describe(enclosure, chart, parts.stars);
       if (chart.is_at_star({enclosure[0], enclosure[1]}, 1)) {
-        const bool at_cone = is_undefined_at(parts.stars[static_cast<std::size_t>(chart.star)]) &&
+        const bool at_cone = parts.stars[static_cast<std::size_t>(chart.star)].is_undefined() &&
                              std::max(place.x.width(), place.y.width()) <= at_rounding * size;
         (at_cone ? result.at_cones : result.undecided).push_back(place);
         return;

@@ -61,6 +61,20 @@ std::array<int, 2> Star::weights() const {
 
 int Star::power_of_root(int root) const { return static_cast<int>(std::count(roots.begin(), roots.end(), root)); }
 
+bool Star::is_undefined() const {
+  if (no_length) return true;
+  if (shape == Shape::corner)
+    return std::any_of(roots.begin(), roots.end(), [&](int root) { return power_of_root(root) > 1; });
+  return shape == Shape::cone && !roots.empty();
+}
+
+bool Star::is_near(const Interval& at_x, const Interval& at_y, double reach) const {
+  const auto is_near = [&](const Interval& range, const Rational& own) {
+    return (range - constant_as(own, static_cast<Interval*>(nullptr))).magnitude() <= reach;
+  };
+  return is_near(at_x, x) && is_near(at_y, y);
+}
+
 std::optional<std::array<Rational, 2>> double_point(const Polynomial& d) {
   static const Rational zero;
   const Rational *xx = &zero, *yy = &zero, *x = &zero, *y = &zero, *constant = &zero;
@@ -200,9 +214,21 @@ namespace {
 
 void set_tangent(Star& star, const BoundaryCurve& curve) { set_tangent(star, curve.normal_at({star.x, star.y})); }
 
-/// The derivative by a root at a place where all roots are 0.
-Rational slope_in_root(const Polynomial& function, int root, const std::vector<Rational>& at) {
-  return core::evaluate(core::derivative(function, 2 + root), at);
+/// Where two boundaries cross and both roots are 0: whether the function is too, whatever the other roots are there.
+bool vanishes_at(const Polynomial& function, const std::array<Rational, 2>& point, const BoundaryMeeting& meeting) {
+  std::vector<Rational> at(static_cast<std::size_t>(function.variables), Rational(1));
+  at[0] = point[0];
+  at[1] = point[1];
+  Collected by_others;
+  for (const core::Term& term : function.terms) {
+    std::vector<int> others = term.exponents;
+    others[0] = others[1] = 0;
+    if (others[static_cast<std::size_t>(2 + meeting.first.root)] != 0 ||
+        others[static_cast<std::size_t>(2 + meeting.second.root)] != 0)
+      continue;
+    by_others[std::move(others)] += core::evaluate(Polynomial{function.variables, {term}}, at);
+  }
+  return as_polynomial(function.variables, by_others).is_zero();
 }
 
 }  // namespace
@@ -260,26 +286,20 @@ std::vector<Star> corners_on(const core::RootTower& tower, const Polynomial& fun
   std::vector<Star> result;
   for (const BoundaryMeeting& meeting : boundary_meetings(tower)) {
     const int first = meeting.first.root, second = meeting.second.root;
-    const bool others = std::any_of(function.terms.begin(), function.terms.end(), [&](const core::Term& term) {
-      for (std::size_t v = 2; v < term.exponents.size(); ++v)
-        if (const int j = static_cast<int>(v) - 2; term.exponents[v] != 0 && j != first && j != second) return true;
-      return false;
-    });
     const bool on_either = core::depends_on(function, 2 + first) || core::depends_on(function, 2 + second);
-    if (meeting.touching || others || !on_either) continue;
+    if (meeting.touching || !on_either) continue;
     for (const std::array<Rational, 2>& point : meeting.rational_points()) {
-      std::vector<Rational> at(static_cast<std::size_t>(tower.variables()), Rational(0));
-      at[0] = point[0];
-      at[1] = point[1];
-      if (core::evaluate(function, at) != 0) continue;
+      if (!vanishes_at(function, point, meeting)) continue;
       Star star;
       star.shape = Star::Shape::corner;
-      star.x = at[0];
-      star.y = at[1];
+      star.x = point[0];
+      star.y = point[1];
       star.roots = {first, second};
       // Where the function changes with one root only, that root is of the other one's second order.
-      const bool by_first = slope_in_root(function, first, at) != 0;
-      const bool by_second = slope_in_root(function, second, at) != 0;
+      const auto changes_by = [&](int root) {
+        return !vanishes_at(core::derivative(function, 2 + root), point, meeting);
+      };
+      const bool by_first = changes_by(first), by_second = changes_by(second);
       if (by_first != by_second) {
         const BoundaryCurve& touched = by_first ? meeting.first : meeting.second;
         star.shape = Star::Shape::bend;

@@ -81,6 +81,11 @@ struct Star {
   /// Weights are even: coordinates go with the squares of the roots.
   bool is_doubled() const { return shape == Shape::corner || shape == Shape::bend; }
   bool at_same_place(const Star& other) const { return x == other.x && y == other.y; }
+  /// There is no posture, for the direction from end to end of a leg is undefined: roots vanish, of a cone that a
+  /// boundary runs through with the second power at least. At nodes of a function alone none do.
+  bool is_undefined() const;
+  /// Whether all of a place is so near.
+  bool is_near(const Interval& at_x, const Interval& at_y, double reach) const;
   /// Powers of u of the first and the second coordinate.
   std::array<int, 2> weights() const;
   /// The power of u with which a root vanishes.
@@ -101,7 +106,8 @@ bool is_smooth_at(const Star& star, const core::Polynomial& function);
 /// The points at which the boundary curves (boundary_curves.hpp) of two roots touch.
 std::vector<Star> touches(const core::RootTower& tower);
 
-/// The rational points at which the boundary curves of two roots cross and the function vanishes with both roots.
+/// The rational points at which the boundary curves of two roots cross and the function vanishes with both roots,
+/// whatever the other roots are there.
 /// `nested`: what nested_meetings() finds in the tower, where the boundaries may touch too.
 std::vector<Star> corners_on(const core::RootTower& tower, const core::Polynomial& function,
                              const std::vector<NestedMeeting>& nested);

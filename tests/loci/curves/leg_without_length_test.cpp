@@ -60,6 +60,32 @@ TEST(LegWithoutLength, VanishesWithTheSquareOfTheDistanceWhereItsFootTouchesTheB
   EXPECT_EQ(stars[0].power_of_root(0), 2);
 }
 
+/// With the way (x, y) of the leg x^2 = s1 y^3 / 4: along the y axis two branches, nearer to each other than any
+/// direction tells, and on the other side none.
+TEST(LegWithoutLength, CountsAsThePlaceOfBranchesThatArriveInOneDirection) {
+  const Polynomial x = over_one.x(), y = over_one.y();
+  core::DyadBase way;
+  way.x = x;
+  way.y = y;
+  const core::RootTower tower = with_length_of(way);
+  SheetTraceOptions options;
+  options.special = enclosed_cones(tower, {1}, {-1, -1}, {1, 1});
+  ASSERT_EQ(options.special.size(), 1U);
+  const Polynomial sheet = over_one(4) * x * x - over_one.s(1) * y * y * y;
+  const SheetTrace trace = trace_sheet(tower, {1}, {-1, -1}, {1, 1}, {sheet}, {}, options);
+  EXPECT_TRUE(trace.certified);
+  EXPECT_TRUE(trace.isolated_points.empty());
+  EXPECT_EQ(trace.arcs.size(), 1U);  // through the place
+  double nearest = 1;
+  for (const TracedArc& arc : trace.arcs)
+    for (const core::Point2& p : arc.arc.points) {
+      nearest = std::min(nearest, std::hypot(p[0], p[1]));
+      EXPECT_GE(p[1], 0);
+      EXPECT_NEAR(4 * p[0] * p[0], std::hypot(p[0], p[1]) * p[1] * p[1] * p[1], 1e-9);
+    }
+  EXPECT_LT(nearest, 1e-12);
+}
+
 /// On 4 s1 + 5 p = 0, p the way along x, the leg has one direction on either side of the x axis: (-4/5, +-3/5).
 TEST(LegWithoutLength, IsReachedByBranchesThatAreCertified) {
   for (const core::DyadBase& way : {crossing_leg, touching_leg}) {
