@@ -54,10 +54,32 @@ void FactorEmission::add_flip(const TowerRoot& root, const Fold& fold, LocusFact
   }
 }
 
+std::optional<LocusFactor> FactorEmission::ends_meet(const TowerRoot& root, const Fold& fold) const {
+  if (!root.is_cut || root.point < 0) return std::nullopt;
+  const auto* dyad = std::get_if<mechanism::DyadPoint>(&d_.mechanism.points[static_cast<std::size_t>(root.point)].form);
+  if (dyad == nullptr) return std::nullopt;
+  const TowerPoint &a = d_.geometry.tower(dyad->from), &b = d_.geometry.tower(dyad->to);
+  Poly rest(d_.geometry.ring());
+  for (const auto& [from, to] : {std::pair(&a.x, &b.x), std::pair(&a.y, &b.y), std::pair(&a.z, &b.z)})
+    if (!(*to * a.w - *from * b.w).divides(fold.where, rest)) return std::nullopt;
+  LocusFactor factor;
+  // The same words on both sides and in every chart.
+  const auto &from = d_.geometry.natural(dyad->from), &to = d_.geometry.natural(dyad->to);
+  GiNaC::ex squared = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) squared += (to[i] - from[i]) * (to[i] - from[i]);
+  factor.expression = d_.words.of(d_.geometry.poly(squared.expand()).primitive());
+  factor.cause = d_.point_name(dyad->to) + " on " + d_.point_name(dyad->from) + ", where " + d_.point_name(root.point) +
+                 " has no place";
+  return factor;
+}
+
 void FactorEmission::add_fold(const Fold& fold) {
   const TowerRoot& root = d_.geometry.roots()[fold.root];
-  LocusFactor factor = root.role == core::RootRole::working_mode ? stretched(root) : LocusFactor{};
-  if (root.role != core::RootRole::working_mode) factor.expression = d_.words.of(fold.where);
+  std::optional<LocusFactor> meeting = ends_meet(root, fold);
+  LocusFactor factor = meeting                                     ? std::move(*meeting)
+                       : root.role == core::RootRole::working_mode ? stretched(root)
+                                                                   : LocusFactor{};
+  if (factor.expression.empty()) factor.expression = d_.words.of(fold.where);
   if (d_.elimination.sheet_factors(fold.where, true).empty())
     add_flip(root, fold, factor);
   else

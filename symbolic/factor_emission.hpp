@@ -92,6 +92,8 @@ class FactorEmission {
   /// The fold of a length that a point's place is divided by: where one of the two points of `on` passes through the
   /// other, the way between them turns round, and what stands beside it changes sides.
   void add_flip(const TowerRoot& root, const Fold& fold, core::LocusFactor factor);
+  /// "B2 on B1, where P has no place", of the ends of a dyad that meet all along a fold.
+  std::optional<core::LocusFactor> ends_meet(const TowerRoot& root, const Fold& fold) const;
   /// A side of a fold ends where its square root does: f >= 0 there.
   void add_fold(const Fold& fold);
   /// A sheet ends where a limit does, as at a fold: one more root, of what is left to the limit.

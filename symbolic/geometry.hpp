@@ -50,6 +50,9 @@ struct TowerRoot {
   /// Of a root that depends on earlier ones (dependent_roots.hpp): the root itself over the tower. Its `variable` then
   /// stands for the root of the number `square`, and occurs nowhere if that is 1.
   std::optional<Poly> value = {};
+  /// Whether it is what is left of a root of f^2 R, R in place of its square: `scale_divisor` holds f then, which is
+  /// positive on the side of the fold f = 0 (Fold).
+  bool is_cut = false;
   /// Of an angle, which is none of a polynomial: positive multiples of its cosine and sine (core::Root).
   std::vector<Poly> cosine_and_sine = {};
 
@@ -57,7 +60,8 @@ struct TowerRoot {
 };
 
 /// Where a root that depends on earlier ones is e = f times roots, and f takes both signs: |f| is f on one side of
-/// f = 0 and -f on the other. There the leg is stretched or folded, but the mechanism goes on.
+/// f = 0 and -f on the other. There the leg is stretched or folded, but the mechanism goes on. Or where a root is |f|
+/// times another one, as of equal links whose ends meet all along a curve: the two modes meet there.
 struct Fold {
   std::size_t root = 0;  ///< by its place in Geometry::roots
   Poly where;            ///< f over the tower, with the sign that it has on the side chosen: positive there
@@ -138,7 +142,8 @@ class Geometry {
   const std::vector<ConstructedPoint>& constructed() const { return constructed_; }
   const std::vector<TowerRoot>& roots() const { return roots_; }
   const std::vector<Fold>& folds() const { return folds_; }
-  bool has_dependent_roots() const { return !sign_choices_.empty(); }
+  /// Whether sheets are not alike: there are dependent roots or folds.
+  bool has_dependent_roots() const { return !sign_choices_.empty() || !folds_.empty(); }
   /// Whether the points are placed alike on the sheets of another working mode, but for the signs of the roots.
   bool same_for(const std::vector<int>& sides) const;
   /// The numerators of the squared distances divided by, reduced.
@@ -257,6 +262,9 @@ class Geometry {
   void give_unit(TowerRoot& root) const;
   /// The root over the tower, where it depends on earlier ones; `square` of the root becomes a number.
   std::optional<Poly> depend(TowerRoot& root);
+  /// Takes out of a root over the coordinates what its square holds twice and what takes both signs: where that is zero
+  /// the two modes meet, and the root is not smooth.
+  void cut_where_modes_meet(TowerRoot& root);
   /// Sign of an element on the sheet chosen, roots taken as positive; cuts the sheet where it takes both.
   /// `root`: the place of the one that is replaced. `odd_roots`: take the signs that the mode gives them.
   int sign_on_sheet(Poly element, std::size_t root, std::vector<std::size_t>& odd_roots);
@@ -290,6 +298,8 @@ class Geometry {
   /// A squared length that is divided by; its factors join what is known to be positive.
   void add_denominator(const Poly& squared_length);
   void add_positive(const Poly& divisor);
+  /// What is divided by where `below` is what is left of that: what vanishes on a fold may have cancelled.
+  Poly without_cuts(Poly squared_length, const Poly& below) const;
   /// The direction of an axis is undefined where its length is zero: |u|^2 joins the denominators.
   void divide_by_length(const mechanism::VectorExpression& axis);
 

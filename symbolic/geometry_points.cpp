@@ -69,6 +69,14 @@ void Geometry::add_denominator(const Poly& squared_length) {
     add_positive(factor.multiplicity % 2 == 0 ? factor.poly * factor.poly : factor.poly);
 }
 
+Poly Geometry::without_cuts(Poly squared_length, const Poly& below) const {
+  Poly rest(*ring_);
+  for (const Fold& fold : folds_)
+    while (!below.divides(fold.where, rest) && squared_length.divides(fold.where, rest))
+      std::swap(squared_length, rest);
+  return squared_length;
+}
+
 void Geometry::add_positive(const Poly& divisor) {
   if (divisor.is_constant()) return;
   // Which of the two signs is the positive one is told by any place where it is not zero.
@@ -252,8 +260,10 @@ void Geometry::place_dyad(PointIndex point, const DyadPoint& form) {
   const Vector left = cross(n, way);
   const auto component = [&](std::size_t i) { return reduce(kn * (n2 * way[i] - h * n[i]) + s * left[i]); };
   TowerPoint step{component(0), component(1), component(2), reduce(d * w).scaled(2)};
-  if (!form.axis && !rigid) dyad_ways_.push_back({point, x, y, w, w2, d, step.w, is_squared});
+  const bool is_cut = roots_.back().is_cut;
+  if (!form.axis && !rigid && !is_cut) dyad_ways_.push_back({point, x, y, w, w2, d, step.w, is_squared});
   lighten(step);
+  if (is_cut) denominators_.back() = without_cuts(denominators_.back(), step.w);
   tower_[index(point)] = sum(a, step);
   if (form.axis) keep_in_plane(point, form.from, n);
   if (roots_.back().value) keep_beside_another(point);

@@ -27,6 +27,7 @@ Poly Geometry::add_root(TowerRoot root) {
     over_tower = *dependent;
     root.value = std::move(dependent);
   } else {
+    if (!keep_parameters_ && !sheet_.all_sheets) cut_where_modes_meet(root);
     give_unit(root);
   }
   Poly times_divisor = reduce(over_tower * root.scale_divisor);
@@ -106,6 +107,33 @@ std::optional<Poly> Geometry::depend(TowerRoot& root) {
   sign_choices_.push_back(std::move(odd_roots));
   root.square = Poly(*ring_, number);
   return value.scaled(sign);
+}
+
+void Geometry::cut_where_modes_meet(TowerRoot& root) {
+  // Over one coordinate these are single points, which are told exactly as they are.
+  if (coordinates() < 2 || root.is_angle() || root.square.is_constant() || has_root(root.square)) return;
+  Rational constant;
+  for (const PolyFactor& factor : root.square.factors(constant)) {
+    const auto times = static_cast<unsigned>(factor.multiplicity / 2);
+    if (times == 0) continue;
+    const auto sign_by_folds = [&] {
+      for (const Fold& fold : folds_)
+        if (fold.where == factor.poly || fold.where == -factor.poly) return fold.where == factor.poly ? 1 : -1;
+      return 0;
+    };
+    int sign = sign_by_folds();
+    if (sign == 0) {
+      const std::size_t folds = folds_.size();
+      std::vector<std::size_t> odd_roots;
+      sign = sign_on_sheet(factor.poly, roots_.size(), odd_roots);
+      if (folds_.size() == folds) continue;
+    }
+    const Poly positive = factor.poly.scaled(sign);
+    add_positive(positive);
+    root.square = root.square.exact_quotient(positive.pow(2 * times));
+    root.scale_divisor *= positive.pow(times);
+    root.is_cut = true;
+  }
 }
 
 int Geometry::sign_on_sheet(Poly element, std::size_t root, std::vector<std::size_t>& odd_roots) {

@@ -237,7 +237,7 @@ std::optional<std::array<StraightLine, 2>> StraightLines::rims(mechanism::PointI
 /// |v|^2 in the unit of the root.
 StraightLine StraightLines::squared_length(const InverseLength& length) {
   const TowerRoot& root = geometry_->roots()[static_cast<std::size_t>(length.root)];
-  if (root.value) return {};
+  if (root.value || root.is_cut) return {};
   const Place v = vector(length.along);
   const int scale = builder_.multiply(value(root.scale.plain()), builder_.inverse(value(root.scale_divisor.plain())));
   return builder_.line(builder_.multiply(builder_.power(scale, 2), dot(v, v)));
@@ -344,7 +344,8 @@ std::optional<StraightLines::Dyad> StraightLines::dyad(mechanism::PointIndex poi
   const Poly to_length = geometry_->poly(geometry_->expression(dyad_point->to_length).expand());
   const auto root = std::find_if(geometry_->roots().begin(), geometry_->roots().end(),
                                  [&](const TowerRoot& r) { return r.point == point; });
-  if (root == geometry_->roots().end()) return std::nullopt;
+  // Of what was cut only the quotients are regular on the fold.
+  if (root == geometry_->roots().end() || root->is_cut) return std::nullopt;
   const Place way = way_between(dyad_point->from, dyad_point->to);
   const int from = value(from_length.plain()), to = value(to_length.plain());
   const int distance2 = dot(way, way);

@@ -383,13 +383,18 @@ LocusMap join_charts(const std::vector<const LocusProblem*>& charts, std::vector
       if (!(found->implicit == curve.implicit)) charts_with[index].insert(maps.size());  // of no single polynomial
       found->certified = found->certified && curve.certified;
       Polyline open;
+      const bool twice = may_be_on_fold(traced[m].curves[c], *charts[m]);
+      const auto before = static_cast<std::ptrdiff_t>(found->arcs.size());
       for (const Arc& arc : curve.arcs) {
         Arc unrolled = unrolled_chart.arc(static_cast<int>(c), arc, open);
         const bool known_already = std::all_of(unrolled.points.begin(), unrolled.points.end(),
                                                [&](const Point2& p) { return on_seam(seams, p); }) &&
                                    std::any_of(found->arcs.begin(), found->arcs.end(),
                                                [&](const Arc& other) { return is_within(unrolled, other); });
-        if (!known_already) found->arcs.push_back(std::move(unrolled));
+        const bool on_other_side =
+            twice && std::any_of(found->arcs.begin(), found->arcs.begin() + before,
+                                 [&](const Arc& other) { return is_on(unrolled, other, 4 * tolerance); });
+        if (!known_already && !on_other_side) found->arcs.push_back(std::move(unrolled));
       }
       if (!open.empty()) {
         found->certified = false;

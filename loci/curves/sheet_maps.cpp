@@ -32,27 +32,6 @@ bool is_fold(const LocusFactor& factor, const LocusProblem& problem) {
   });
 }
 
-/// Whether a fold has the polynomial of a curve: both sides may have found the curve, as they have the fold.
-bool may_be_on_fold(const LocusCurve& curve, const LocusProblem& problem) {
-  return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
-    return factor.role == FactorRole::workspace_boundary && is_fold(factor, problem) &&
-           std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
-  });
-}
-
-/// Whether the middle of an arc is on another one, as far as chords tell.
-bool is_on(const core::Arc& arc, const core::Arc& other, double near) {
-  const core::Point2& at = arc.points[arc.points.size() / 2];
-  for (std::size_t k = 1; k < other.points.size(); ++k) {
-    const core::Point2 &a = other.points[k - 1], &b = other.points[k];
-    const double ux = b[0] - a[0], uy = b[1] - a[1], wx = at[0] - a[0], wy = at[1] - a[1];
-    const double square = ux * ux + uy * uy, along = ux * wx + uy * wy;
-    if (square > 0 && along >= 0 && along <= square && std::abs(ux * wy - uy * wx) <= near * std::sqrt(square))
-      return true;
-  }
-  return false;
-}
-
 bool is_same(const LocusCurve& a, const LocusCurve& b) {
   return a.kind == b.kind && a.vanishing == b.vanishing && a.factor == b.factor && a.cause == b.cause &&
          a.mode == b.mode && a.implicit == b.implicit;
@@ -79,6 +58,25 @@ double box_size(const LocusMap& map) {
 }
 
 }  // namespace
+
+bool may_be_on_fold(const LocusCurve& curve, const LocusProblem& problem) {
+  return std::any_of(problem.factors.begin(), problem.factors.end(), [&](const LocusFactor& factor) {
+    return factor.role == FactorRole::workspace_boundary && is_fold(factor, problem) &&
+           std::find(factor.implicit.begin(), factor.implicit.end(), curve.implicit) != factor.implicit.end();
+  });
+}
+
+bool is_on(const core::Arc& arc, const core::Arc& other, double near) {
+  const core::Point2& at = arc.points[arc.points.size() / 2];
+  for (std::size_t k = 1; k < other.points.size(); ++k) {
+    const core::Point2 &a = other.points[k - 1], &b = other.points[k];
+    const double ux = b[0] - a[0], uy = b[1] - a[1], wx = at[0] - a[0], wy = at[1] - a[1];
+    const double square = ux * ux + uy * uy, along = ux * wx + uy * wy;
+    if (square > 0 && along >= 0 && along <= square && std::abs(ux * wy - uy * wx) <= near * std::sqrt(square))
+      return true;
+  }
+  return false;
+}
 
 void drop_own_roots(const core::TowerNames& tower, core::WorkingMode& mode) {
   core::WorkingMode kept;

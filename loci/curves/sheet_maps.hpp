@@ -15,6 +15,12 @@ namespace clearloci::loci {
 void drop_own_roots(core::LocusMap& map);
 void drop_own_roots(const core::TowerNames& tower, core::WorkingMode& mode);
 
+/// Whether a fold has the polynomial of a curve: both sides may have found the curve, as they have the fold.
+bool may_be_on_fold(const core::LocusCurve& curve, const core::LocusProblem& problem);
+
+/// Whether the middle of an arc is on another one, as far as chords tell.
+bool is_on(const core::Arc& arc, const core::Arc& other, double near);
+
 /// `maps`: of `problems`, which cut one box into sheets; two lengths. Curves that run on over a fold are one with arcs
 /// on both sides; the fold itself, which both sides have found, is there once. Modes and curves are in the order of
 /// `modes`, which are those of the first problem.

@@ -249,6 +249,31 @@ TEST(Engines, CertifyWhereTwoBoundariesAreOneLine) {
   expect_agreement(rails, all_modes(loci::Engine::adaptive_then_exact), test::EndsOnSides::by_place);
 }
 
+// The ends of equal links meet all along the line of equal strokes or angles, which P has no place on: both sides of it
+// have been left open, cell by cell.
+TEST(Engines, CertifyWhereTheEndsOfEqualLinksMeetAlongALine) {
+  for (const auto& [name, cause] : {std::pair("five_bar_on_one_axis", "B2 on B1, where P has no place"),
+                                    std::pair("two_slides_on_a_rail", "S2 on S1, where P has no place")}) {
+    SCOPED_TRACE(name);
+    const core::LocusMap map =
+        trace_loci(mechanism::read_mechanism(source_dir() + "/tests/corpus/modes/" + name + ".yaml"), {});
+    EXPECT_TRUE(map.complete);
+    expect_certified(map);
+    int meeting = 0;
+    for (const core::LocusCurve& curve : map.curves) {
+      if (curve.cause != cause) continue;
+      ++meeting;
+      EXPECT_EQ(curve.kind, core::LocusKind::workspace_boundary);
+      ASSERT_EQ(curve.arcs.size(), 1u);  // found on both sides, and in every chart
+      const core::Arc& arc = curve.arcs.front();
+      for (const core::Point2& at : arc.points) EXPECT_NEAR(at[0], at[1], 1e-9);
+      const double from = core::to_double(map.lower[0]), to = core::to_double(map.upper[0]);
+      EXPECT_NEAR(arc.length, std::numbers::sqrt2 * (to - from), 1e-6);
+    }
+    EXPECT_EQ(meeting, 1);
+  }
+}
+
 // Dyads on dyads: enclosures of the upper ones' roots are tight where they are computed by ways and distances. Four of
 // these curves, and the places of three joints, had been left open after ten times as long.
 TEST(Engines, CertifyTwoDyadsOnAFiveBar) {

@@ -251,6 +251,15 @@ class LocusLaws {
     return least;
   }
 
+  /// How far apart the points are in the postures at two places.
+  double jump(const Point2& from, const Point2& to, const std::vector<int>& sides) const {
+    const numeric::Posture here = s_.witness.posture(from, sides), there = s_.witness.posture(to, sides);
+    double most = 0;
+    for (std::size_t i = 0; i < here.points.size(); ++i)
+      most = std::max(most, (here.points[i] - there.points[i]).norm());
+    return most;
+  }
+
   /// Empty where everything is as the curve says.
   std::string fault_beside(const core::LocusCurve& curve, const std::vector<int>& sides, const Point2& at,
                            const Point2& before, const Point2& after) const {
@@ -298,9 +307,13 @@ class LocusLaws {
       }
       if (!fault.str().empty()) break;
     }
-    // Where roots depend on one another a leg may be stretched out and the mechanism goes on: a fold.
-    if (curve.kind == LocusKind::workspace_boundary && alive != 1 &&
-        !(alive == 2 && least_height(beside(near_), sides) <= 0.2 * least_height(beside(far), sides)))
+    // Where roots depend on one another a leg may be stretched out and the mechanism goes on: a fold. Where the ends of
+    // a dyad meet all along a curve, its point is elsewhere beyond.
+    const auto folds = [&] { return least_height(beside(near_), sides) <= 0.2 * least_height(beside(far), sides); };
+    const auto jumps = [&] {
+      return jump(beside(near_), beside(-near_), sides) >= 0.5 * jump(beside(far), beside(-far), sides);
+    };
+    if (curve.kind == LocusKind::workspace_boundary && alive != 1 && !(alive == 2 && (folds() || jumps())))
       fault << "a boundary with a posture on " << alive << " sides";
     if (alive == 0) fault << "no posture";
     if (curve.kind == LocusKind::direct_singularity && alive > 0 && curve.excited != grows)

@@ -143,6 +143,42 @@ TEST(Parallelogram, OnALegIsCutWhereThatLegLiesOnTheBase) {
   EXPECT_EQ(beside, 1);
 }
 
+// Equal links whose ends meet all along a curve: the root is f times another one, and f is taken out of it, of the
+// place and of what is divided by.
+TEST(EqualLinks, AreCutWhereTheirEndsMeet) {
+  for (const char* name : {"five_bar_on_one_axis", "two_slides_on_a_rail"}) {
+    SCOPED_TRACE(name);
+    const mechanism::Mechanism m = corpus(name);
+    EXPECT_TRUE(Geometry(m, false, {}, {.all_sheets = true}).folds().empty());
+    EXPECT_TRUE(Geometry(m, true).folds().empty());
+    for (const int half : {1, -1}) {
+      const Geometry side(m, false, {}, {{}, {half}});
+      ASSERT_EQ(side.folds().size(), 1u);
+      const Poly& where = side.folds().front().where;
+      const Poly difference = Poly::variable(side.ring(), 0) - Poly::variable(side.ring(), 1);
+      EXPECT_TRUE(where == difference.scaled(half) || where == difference.scaled(-half));
+      const TowerRoot& root = side.roots().front();
+      EXPECT_TRUE(root.is_cut);
+      Poly rest(side.ring());
+      EXPECT_FALSE(root.square.divides(where, rest));
+      EXPECT_TRUE(root.scale_divisor.divides(where, rest));
+      EXPECT_FALSE(side.tower(root.point).w.divides(where, rest));
+      for (const Poly& denominator : side.denominators()) EXPECT_FALSE(denominator.divides(where, rest));
+      // Still as far from either end as the dyad has it.
+      const auto& dyad = std::get<mechanism::DyadPoint>(m.points[static_cast<std::size_t>(root.point)].form);
+      const Elimination elimination(side);
+      for (const auto& [end, length] : {std::pair(dyad.from, dyad.from_length), std::pair(dyad.to, dyad.to_length)}) {
+        Poly squared(side.ring());
+        for (std::size_t i = 0; i < 2; ++i) {
+          const Poly way = side.poly((side.natural(root.point)[i] - side.natural(end)[i]).expand());
+          squared += way * way;
+        }
+        EXPECT_EQ(elimination.constant_over_tower(squared), side.squared_length(length).constant());
+      }
+    }
+  }
+}
+
 // Over the tower the place of a closing point, put in by the formula of a dyad, has thousands of terms. By the other
 // three of its loop it has few, whether that is a parallelogram or crossed, and it is put in before these.
 TEST(Parallelogram, IsClosedByThePlacesOfThreePoints) {
