@@ -35,18 +35,18 @@ class Signs {
  public:
   explicit Signs(const core::PoseStatics& statics) : statics_(statics) {}
 
-  /// Suspects at a pose, against the first pose that was seen.
+  /// Suspects at a pose, against the first poses that were seen.
   template <class Cell>
   std::vector<PoseSuspect> seen(Cell& cell, const Pose& pose) {
     const std::optional<CellAnswers::At> now = cell.at(pose);
     if (!now) return {{Doubt::workspace, -1, pose}};
     const std::lock_guard lock(mutex_);
     if (!first_) {
-      first_ = {pose, *now};
+      first_ = {pose, now->determinant};
+      for (const auto& component : now->components) bases_.push_back({pose, component});
     }
     std::vector<PoseSuspect> all;
-    const auto& [base, then] = *first_;
-    if (then.determinant != now->determinant) all.push_back({Doubt::singularity, -1, pose, base});
+    if (first_->second != now->determinant) all.push_back({Doubt::singularity, -1, pose, first_->first});
     for (std::size_t d = 0; d < statics_.demands.size(); ++d) {
       const double least = core::to_double(statics_.demands[d].demand.least);
       const auto& component = now->components[d];
@@ -61,23 +61,42 @@ class Signs {
       // Between two loads it may point the other way at one of them.
       const bool turned =
           component.size() > 1 && component.front().size() == 1 && component.front()[0] * component.back()[0] < 0;
+      Base& base_of_demand = bases_[d];
       bool opposite = turned;
-      for (std::size_t load = 0; load < component.size(); ++load) {
-        const double together = dot(component[load], then.components[d][load]);
-        const double sizes =
-            std::sqrt(dot(component[load], component[load]) * dot(then.components[d][load], then.components[d][load]));
-        opposite = opposite || together < -(1 - no_direction) * sizes;
+      if (is_rounding(base_of_demand.components, component)) {
+        base_of_demand = {pose, component};
+      } else {
+        for (std::size_t load = 0; load < component.size(); ++load) {
+          const std::vector<double>&here = component[load], &there = base_of_demand.components[load];
+          opposite =
+              opposite || dot(here, there) < -(1 - no_direction) * std::sqrt(dot(here, here) * dot(there, there));
+        }
       }
       if (opposite)
-        all.push_back({Doubt::demand, static_cast<int>(d), pose, turned ? std::nullopt : std::optional(base)});
+        all.push_back(
+            {Doubt::demand, static_cast<int>(d), pose, turned ? std::nullopt : std::optional(base_of_demand.at)});
     }
     return all;
   }
 
  private:
+  /// Of a demand: a pose at which it is more than what rounding leaves of it at a zero, and its components there, load
+  /// by load.
+  struct Base {
+    Pose at;
+    std::vector<std::vector<double>> components;
+  };
+
+  static bool is_rounding(const std::vector<std::vector<double>>& base, const std::vector<std::vector<double>>& now) {
+    constexpr double rounding = 1e-10;
+    const double size = CellAnswers::size_of(base);
+    return size < rounding * CellAnswers::size_of(now);
+  }
+
   const core::PoseStatics& statics_;
   std::mutex mutex_;
-  std::optional<std::pair<Pose, CellAnswers::At>> first_;
+  std::optional<std::pair<Pose, int>> first_;  ///< and the sign of |A| there
+  std::vector<Base> bases_;
 };
 
 template <class Cell>
