@@ -128,6 +128,23 @@ TEST(PoseTasks, AWitnessIsReal) {
   EXPECT_LT(leg_forces(answer.witness->at).cwiseAbs().minCoeff(), 1e-6);
 }
 
+/// The first sample of the box is in its middle, where the load is zero but for rounding.
+TEST(PoseTasks, ALoadThatTurnsRoundInTheMiddleFails) {
+  const Model crank = Model::parse(R"(format: 1
+workspace: {theta: {angle: [0, 360 deg], of: AB}}
+drawn: {A: [0, 0], B: [0.3, 0.4]}
+links: {AB: {points: [A, B]}}
+joints: {A: {revolute: [ground, AB], at: A, actuated: true, clearance: {angular: 1e-3}}}
+end_effector: {link: AB, at: B}
+loads: [{link: AB, at: B, force: ['10*cos(theta)', '10*cos(theta)']}]
+)",
+                                   "crank.yaml");
+  for (const char* box : {"[80 deg, 100 deg]", "[83 deg, 101 deg]"}) {
+    const Task task = parse_task("format: 1\nbox: {theta: " + std::string(box) + "}\n", crank);
+    EXPECT_EQ(verify(crank, task).verdict, Verdict::refuted) << box;
+  }
+}
+
 TEST(PoseTasks, RandomBoxesOfAHexapodAreJudgedRight) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> length(0.01, 0.12), angle(1, 12), height(0.4, 0.6);
