@@ -93,7 +93,7 @@ std::optional<core::Polynomial> without_root(const core::RootTower& tower, int r
   if (!core::depends_on(sheet, 2 + root)) return std::nullopt;
   core::Polynomial free{sheet.variables, {}}, by_root = free;
   for (core::Term term : sheet.terms) {
-    int& power = term.exponents[static_cast<std::size_t>(2 + root)];
+    int& power = term.exponents[2 + static_cast<std::size_t>(root)];
     core::Polynomial& part = power > 0 ? by_root : free;
     power = std::max(0, power - 1);
     part.terms.push_back(std::move(term));

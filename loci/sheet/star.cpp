@@ -223,8 +223,8 @@ bool vanishes_at(const Polynomial& function, const std::array<Rational, 2>& poin
   for (const core::Term& term : function.terms) {
     std::vector<int> others = term.exponents;
     others[0] = others[1] = 0;
-    if (others[static_cast<std::size_t>(2 + meeting.first.root)] != 0 ||
-        others[static_cast<std::size_t>(2 + meeting.second.root)] != 0)
+    if (others[2 + static_cast<std::size_t>(meeting.first.root)] != 0 ||
+        others[2 + static_cast<std::size_t>(meeting.second.root)] != 0)
       continue;
     by_others[std::move(others)] += core::evaluate(Polynomial{function.variables, {term}}, at);
   }
