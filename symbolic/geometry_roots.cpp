@@ -111,7 +111,8 @@ std::optional<Poly> Geometry::depend(TowerRoot& root) {
 
 void Geometry::cut_where_modes_meet(TowerRoot& root) {
   // Over one coordinate these are single points, which are told exactly as they are.
-  if (coordinates() < 2 || root.is_angle() || root.square.is_constant() || has_root(root.square)) return;
+  if (coordinates() < 2 || root.role != core::RootRole::working_mode) return;
+  if (root.square.is_constant() || has_root(root.square)) return;
   Rational constant;
   for (const PolyFactor& factor : root.square.factors(constant)) {
     const auto times = static_cast<unsigned>(factor.multiplicity / 2);
