@@ -419,6 +419,8 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
   if (ground.lower.size() == 1 && found.in_doubt > of_range * (ground.upper[0] - ground.lower[0]))
     map.loci.complete = false;
   const std::size_t before = map.zones.size();
+  std::vector<core::TaskDemand> demands;
+  for (const core::PoseDemand& demand : statics.demands) demands.push_back(demand.demand);
   PoseCell cell(statics);
   Ends ends(ground.mechanism, statics, model, sides, statics.demands.size() == wanted.size(),
             covered ? covered->ends : std::vector<loci::pose::SheetEnd>{});
@@ -430,8 +432,6 @@ void add_mode(const Ground& ground, const DyadSides& sides, Zones& map) {
             loci::pose::largest_ball(found.zones[z], z, found.raster, map.grid, ground.lower, ground.upper))
       zone.ball = *ball;
     add_signs(statics, model, sides, cell, zone);
-    std::vector<core::TaskDemand> demands;
-    for (const core::PoseDemand& demand : statics.demands) demands.push_back(demand.demand);
     zone.too_small = too_small_at(model, demands, zone.sample, sides);
     if (ground.lower.size() == 1) ends.add(found.zones[z], all, {ground.lower[0], ground.upper[0]}, zone);
     map.zones.push_back(std::move(zone));

@@ -28,6 +28,13 @@ class PoseRangeReader : ClaimReader {
     return mode;
   }
 
+  std::vector<Reaction> reactions(const Json& json) const {
+    std::vector<Reaction> reactions;
+    for (const Json& each : list(json, most_demands))
+      reactions.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))));
+    return reactions;
+  }
+
   int sign(const Json& json) const {
     if (json != 1 && json != -1 && json != 0) fail("a sign is 1, -1 or 0");
     return json.get<int>();
@@ -42,16 +49,14 @@ class PoseRangeReader : ClaimReader {
                               {}};
     for (const Json& each : list(at(json, "signs"), most_demands))
       free.signs.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))), sign(item(each, 2)));
-    for (const Json& each : list(at(json, "too_small"), most_demands))
-      free.too_small.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))));
+    free.too_small = reactions(at(json, "too_small"));
     if (free.from > free.to) fail("an interval ends before it begins");
     return free;
   }
 
   PoseRangeClaim::Point point(const Json& json) const {
-    PoseRangeClaim::Point point{kind(text(at(json, "kind"))), {}, rational(at(json, "at")), false};
-    for (const Json& each : list(at(json, "vanishing"), most_demands))
-      point.vanishing.emplace_back(text(item(each, 0)), quantity(text(item(each, 1))));
+    PoseRangeClaim::Point point{kind(text(at(json, "kind"))), reactions(at(json, "vanishing")),
+                                rational(at(json, "at")), false};
     const Json& certified = at(json, "certified");
     if (!certified.is_boolean()) fail("a point is certified or not");
     point.certified = certified.get<bool>();

@@ -45,8 +45,7 @@ std::optional<std::string> note_of_lengths(const Mechanism& mechanism) {
     std::snprintf(part, sizeof part, "%.1e", core::to_double(Rational(apart / longer)));
     return "lengths of links to " + first + " and " + second + " differ by " + part +
            " of their size: if they are meant to be equal, write one parameter for both, or places that make them "
-           "exactly "
-           "equal";
+           "exactly equal";
   }
   return std::nullopt;
 }

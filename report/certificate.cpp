@@ -398,15 +398,12 @@ std::string certificate_text(const CertificateSource& source, const core::RangeC
     for (const core::RangeCertificate::Free& entry : mode.free) {
       Json signs = Json::array();
       for (const auto& [what, sign] : entry.signs) signs.push_back({what.joint, core::to_string(what.quantity), sign});
-      Json too_small = Json::array();
-      for (const core::Vanishing& what : entry.too_small)
-        too_small.push_back({what.joint, core::to_string(what.quantity)});
       free.push_back({{"zone", entry.zone},
                       {"from", core::to_string(entry.from)},
                       {"to", core::to_string(entry.to)},
                       {"assembly_mode", entry.assembly_mode},
                       {"signs", std::move(signs)},
-                      {"too_small", std::move(too_small)}});
+                      {"too_small", vanishing_list(entry.too_small)}});
     }
     for (const core::IsolatedPoint& point : mode.points)
       points.push_back({{"at", core::to_string(core::Rational(point.at.front()))},
